@@ -1,0 +1,100 @@
+"""Cycles drawing the same constant colours: one emission material over a whole view layer.
+
+Materials are the user's own, so nothing of them is changed. The override material asks for the
+viewport colour of the face's slot by its data path, and lives as long as one picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+from ..scene import GREY, SceneError
+
+SLOTS = 16  # material slots that are told apart; a mesh with more shows the last of these
+
+
+@contextmanager
+def constant_colors(scene: Any, layer: str) -> Iterator[None]:
+    """Set a temporary scene up to be drawn by Cycles in constant colours.
+
+    Raises
+    ------
+    SceneError
+        If the colours are ones that a material cannot ask for.
+    """
+    if scene.display.shading.color_type == "RANDOM":
+        raise SceneError("Cycles cannot draw the viewport's random colours: set the colour of the "
+                         "scene's solid shading to material or object, or compare with Workbench.")
+    scene.cycles.samples = 1
+    scene.cycles.use_denoising = False
+    scene.cycles.use_adaptive_sampling = False
+    scene.cycles.pixel_filter_type = "BOX"
+    scene.cycles.filter_width = 0.01  # pixels: every sample lies in its pixel's centre
+    material = bpy.data.materials.new("Reference Tracer Constant")
+    try:
+        _emission(material, scene)
+        scene.view_layers[layer].material_override = material
+        yield
+    finally:
+        bpy.data.materials.remove(material)
+
+
+def _emission(material: Any, scene: Any) -> None:
+    material.use_nodes = True
+    tree, shading = material.node_tree, scene.display.shading
+    tree.nodes.clear()
+    emission = tree.nodes.new("ShaderNodeEmission")
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    color = emission.inputs["Color"]
+    if shading.color_type == "SINGLE":
+        color.default_value = (*shading.single_color, 1.0)
+    elif shading.color_type == "OBJECT":
+        tree.links.new(_attribute(tree, "OBJECT", "color").outputs["Color"], color)
+    elif shading.color_type == "VERTEX":
+        by_object = _attribute(tree, "OBJECT", "color").outputs["Color"]
+        tree.links.new(_where_found(tree, tree.nodes.new("ShaderNodeVertexColor"), by_object), color)
+    else:
+        tree.links.new(_material_color(tree, scene), color)
+
+
+def _material_color(tree: Any, scene: Any) -> Any:
+    """Return a socket: the viewport colour of the material in the face's slot, grey where empty."""
+    slot = _attribute(tree, "GEOMETRY", "material_index").outputs["Fac"]
+    count = max((len(o.material_slots) for o in scene.objects), default=0)
+    grey = tree.nodes.new("ShaderNodeRGB").outputs[0]
+    grey.default_value = GREY
+    color = grey
+    for index in reversed(range(min(max(count, 1), SLOTS))):
+        found = grey  # first what geometry nodes gave to the mesh, then what the object shows
+        for path in (f"data.materials[{index}].diffuse_color",
+                     f"material_slots[{index}].material.diffuse_color"):
+            found = _where_found(tree, _attribute(tree, "OBJECT", path), found)
+        after = tree.nodes.new("ShaderNodeMath")
+        after.operation, after.inputs[1].default_value = "GREATER_THAN", index + 0.5
+        tree.links.new(slot, after.inputs[0])
+        color = _mix(tree, after.outputs[0], found, color if color is not grey else found)
+    return color
+
+
+def _attribute(tree: Any, kind: str, name: str) -> Any:
+    node = tree.nodes.new("ShaderNodeAttribute")
+    node.attribute_type, node.attribute_name = kind, name
+    return node
+
+
+def _where_found(tree: Any, node: Any, otherwise: Any) -> Any:
+    """Return the colour of an attribute node, or the other where its alpha says there is none."""
+    return _mix(tree, node.outputs["Alpha"], otherwise, node.outputs["Color"])
+
+
+def _mix(tree: Any, factor: Any, first: Any, second: Any) -> Any:
+    node = tree.nodes.new("ShaderNodeMix")
+    node.data_type = "RGBA"
+    for socket, value in ((node.inputs[0], factor), (node.inputs[6], first), (node.inputs[7], second)):
+        tree.links.new(value, socket)
+    return node.outputs[2]

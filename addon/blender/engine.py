@@ -1,0 +1,141 @@
+"""The render engine REFERENCE_TRACER: F12, animations, `blender -b -E REFERENCE_TRACER -f 1`.
+
+Blender hands over an evaluated depsgraph; it is exported first, and what is traced then is the
+exported scene. Every failure ends in `report({'ERROR'})`: an exception or `error_set` alone would
+leave Blender writing an empty picture and exiting with 0.
+"""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..manifest import Manifest
+from ..scene import Scene, SceneError
+from ..tracer.frame import Frame
+from ..tracer.render import steps
+from .export import export
+
+ENGINE = "REFERENCE_TRACER"
+NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
+
+# Name, channels, their names, kind, and what of the frame it holds (one-based indices: 0 is none).
+PASSES: tuple[tuple[str, int, str, str, Callable[[Frame], NDArray]], ...] = (
+    ("Combined", 4, "RGBA", "COLOR", lambda f: f.color),
+    ("Depth", 1, "Z", "VALUE", lambda f: np.minimum(f.depth, NO_HIT_DEPTH)),
+    ("T", 1, "X", "VALUE", lambda f: np.minimum(f.t, NO_HIT_DEPTH)),
+    ("Position", 3, "XYZ", "VECTOR", lambda f: f.position),
+    ("Normal", 3, "XYZ", "VECTOR", lambda f: f.normal),
+    ("Barycentrics", 3, "XYZ", "VECTOR", lambda f: f.barycentrics),
+    ("Object Index", 1, "X", "VALUE", lambda f: f.object_index + 1),
+    ("Triangle Index", 1, "X", "VALUE", lambda f: f.triangle_index + 1),
+)
+
+_captured: list[tuple[Scene, Manifest]] | None = None
+
+
+class ReferenceTracerEngine(bpy.types.RenderEngine):
+    """A thin engine: exports, drives `tracer.render.steps`, hands the rows to Blender."""
+
+    bl_idname = ENGINE
+    bl_label = "Reference Tracer"
+    bl_use_preview = False
+    bl_use_postprocess = True
+
+    def update_render_passes(self, scene: Any, renderlayer: Any) -> None:
+        """Declare the passes to the compositor."""
+        for name, channels, letters, kind, _ in PASSES:
+            self.register_pass(scene, renderlayer, name, channels, letters, kind)
+
+    def render(self, depsgraph: Any) -> None:
+        """Render one view layer of one frame."""
+        try:
+            if _captured is not None:
+                _captured.append(export(depsgraph, diagnosis=True))
+                return
+            self._trace(depsgraph)
+        except (SceneError, ValueError) as error:
+            self.report({"ERROR"}, str(error))
+        except Exception as error:  # whatever it is, Blender must hear of it
+            traceback.print_exc()
+            self.report({"ERROR"}, f"Reference Tracer failed: {type(error).__name__}: {error}")
+
+    def _trace(self, depsgraph: Any) -> None:
+        began = shown = time.monotonic()
+        self.update_stats("", "Exporting")
+        scene, manifest = export(depsgraph)
+        for line in manifest.lines():
+            print(f"Reference Tracer: {line}")
+        settings = depsgraph.scene.reference_tracer.settings()
+        frame = Frame.empty(scene.camera)
+        layer = depsgraph.view_layer.name
+        for share in steps(scene, settings, frame):
+            if share < 1 and self.test_break():
+                frame.cancelled = True
+                break
+            now = time.monotonic()
+            self.update_progress(share)
+            if now - shown > 0.5:
+                shown = now
+                left = f", {(now - began) * (1 - share) / share:.0f} s left" if share else ""
+                self.update_stats("", f"Tracing {int(100 * share)} %{left}")
+                self._show(frame, layer)
+        self._show(frame, layer)
+        if frame.cancelled:
+            done, rows = int(frame.rows_done.sum()), len(frame.rows_done)
+            self.report({"WARNING"}, f"Cancelled: {done} of {rows} rows are traced, the others are empty")
+
+    def _show(self, frame: Frame, layer: str) -> None:
+        """Give Blender the rows that are done."""
+        height, width = frame.t.shape
+        result = self.begin_result(0, 0, width, height, layer=layer)
+        have = result.layers[0].passes
+        for name, channels, letters, _, of in PASSES:
+            if name not in have:
+                self.add_pass(name, channels, letters, layer=layer)
+            values = np.ascontiguousarray(of(frame), dtype=np.float32)
+            have[name].rect.foreach_set(values.ravel())
+        self.end_result(result)
+
+
+def export_for_render(scene: Any, layer: str) -> tuple[Scene, Manifest]:
+    """Return the *render* evaluation of a Blender scene, which exists only inside an engine.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        A temporary one: its engine is set to this one.
+    layer : str
+        Name of the view layer.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    global _captured
+    scene.render.engine = ENGINE
+    _captured = []
+    try:
+        bpy.ops.render.render(scene=scene.name, layer=layer)
+        return _captured[0]
+    except RuntimeError as error:  # Blender turns our report into one
+        raise SceneError(str(error).removeprefix("Error: ").strip()) from error
+    finally:
+        _captured = None
+
+
+def register() -> None:
+    """Register the engine."""
+    bpy.utils.register_class(ReferenceTracerEngine)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    bpy.utils.unregister_class(ReferenceTracerEngine)

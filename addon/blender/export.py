@@ -1,0 +1,194 @@
+"""An evaluated Blender scene -> `scene.Scene` and its `Manifest`.
+
+The depsgraph says what is visible and evaluated, for the viewport or for a render as its mode has
+it, and hands out every object that has triangles as a mesh: text, curves, surfaces, metaballs and
+what geometry nodes make, with all instances. Nothing of bpy is held in what is returned.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..manifest import Manifest, ObjectEntry, Unmodelled
+from ..scene import Instance, Mesh, Plane, Scene
+from ..scene_files import diagnose
+from .camera import export_camera
+from .colors import background, instance_colors, random_color
+from .meshes import export_mesh
+from .unmodelled import of_object, of_scene
+
+_NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
+
+
+@dataclass
+class _Seen:
+    """What an object has shown so far."""
+
+    type: str
+    index: int = -1  # in Scene.objects, once it shows something
+    mesh_keys: set = field(default_factory=set)
+    instances: int = 0
+    left_out: int = 0
+    planes: int = 0
+    empty_slots: int = 0
+    features: dict[str, Unmodelled] = field(default_factory=dict)
+
+
+def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
+    """Return what the tracer is to see of an evaluated depsgraph, and the account of it.
+
+    Parameters
+    ----------
+    depsgraph : bpy.types.Depsgraph
+        Its mode decides on visibility and modifier levels.
+    diagnosis : bool
+        Whether the manifest is to hold trimesh's diagnosis of every mesh.
+
+    Raises
+    ------
+    SceneError
+        If the scene has no camera that can be traced.
+    """
+    scene = depsgraph.scene_eval
+    camera = export_camera(scene)
+    viewport = depsgraph.mode == "VIEWPORT"
+    shading = scene.display.shading
+    meshes: dict[Any, tuple[int, Mesh, int]] = {}  # by address: its number, itself, left out
+    seen: dict[str, _Seen] = {}
+    instances: list[Instance] = []
+    planes: list[Plane] = []
+    for item in depsgraph.object_instances:
+        obj = item.object
+        name = obj.original.name
+        entry = seen.setdefault(name, _Seen(obj.original.type))
+        matrix = np.array(item.matrix_world, dtype=np.float64)
+        if not item.show_self:
+            continue
+        if obj.original.reference_tracer.infinite_plane:
+            if np.isfinite(matrix).all() and matrix[:3, 2].any() and not entry.planes:
+                _number(entry, seen)
+                planes.append(_plane(obj, matrix, entry.index, shading))
+                entry.planes += 1
+            continue
+        for u in of_object(obj, item.matrix_world, shading, viewport):
+            _widen(entry.features, u)
+        if obj.type != "MESH" or viewport and obj.display_type in ("WIRE", "BOUNDS"):
+            continue
+        key = obj.data.as_pointer()
+        if key not in meshes:
+            mesh, left_out = export_mesh(obj.data, name, shading.color_type == "VERTEX")
+            meshes[key] = len(meshes), mesh, left_out
+        number, mesh, left_out = meshes[key]
+        if not np.isfinite(matrix).all():
+            entry.left_out += len(mesh.triangles) + left_out
+            continue
+        entry.left_out += left_out
+        if not len(mesh.triangles):
+            continue
+        _number(entry, seen)
+        entry.mesh_keys.add(key)
+        entry.instances += 1
+        if shading.color_type == "MATERIAL":
+            entry.empty_slots = max(entry.empty_slots, sum(m is None for m in obj.data.materials))
+        colors = instance_colors(obj, shading.color_type, shading.single_color)
+        instances.append(Instance(number, entry.index, matrix, colors))
+    instances.sort(key=lambda i: i.object)
+    objects = sorted((e.index, n) for n, e in seen.items() if e.index >= 0)
+    out = Scene(
+        camera=camera,
+        meshes=tuple(m for _, m, _ in meshes.values()),
+        instances=tuple(instances), planes=tuple(planes),
+        background=background(scene), objects=tuple(n for _, n in objects),
+    )
+    return out, _manifest(depsgraph, camera.name, seen, meshes, diagnosis)
+
+
+def _number(entry: _Seen, seen: dict[str, _Seen]) -> None:
+    if entry.index < 0:
+        entry.index = 1 + max(e.index for e in seen.values())
+
+
+def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
+    """An infinite plane through the object's origin, its normal the object's own +Z axis.
+
+    The plane holds the object's X and Y axes, so under shear its normal is their cross product.
+    """
+    normal = np.cross(matrix[:3, 0], matrix[:3, 1])
+    if not normal.any():
+        normal = matrix[:3, 2]
+    if shading.color_type == "RANDOM":
+        color = random_color(obj.original)
+    elif shading.color_type == "SINGLE":
+        color = (*shading.single_color, 1.0)
+    elif shading.color_type in ("OBJECT", "VERTEX") or not obj.active_material:
+        color = obj.color if shading.color_type in ("OBJECT", "VERTEX") else (0.8, 0.8, 0.8, 1.0)
+    else:
+        color = obj.active_material.diffuse_color
+    return Plane(index, matrix[:3, 3], normal, np.array(color, np.float32))
+
+
+def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
+    """Keep one entry a feature, its bounds around all the object's instances."""
+    key = found.feature + found.detail
+    if key in features:
+        both = np.stack((features[key].bounds, found.bounds))
+        bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
+        found = Unmodelled(found.object, found.feature, found.detail, bounds)
+    features[key] = found
+
+
+def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest:
+    scene, layer = depsgraph.scene, depsgraph.view_layer
+    diagnoses: dict[Any, dict] = {}
+    entries = []
+    for name, e in seen.items():
+        own = [meshes[k] for k in e.mesh_keys]
+        if diagnosis:
+            for key, (_, mesh, _) in zip(e.mesh_keys, own, strict=True):
+                diagnoses.setdefault(key, diagnose(mesh))
+        first = next(iter(e.mesh_keys), None)
+        shown = e.index >= 0
+        entries.append(ObjectEntry(
+            name=name, type="INFINITE_PLANE" if e.planes else e.type, exported=shown,
+            reason="" if shown else _no_triangles(e),
+            triangles=sum(len(m.triangles) for _, m, _ in own),
+            vertices=sum(len(m.vertices) for _, m, _ in own),
+            instances=e.instances + e.planes, left_out=e.left_out, empty_slots=e.empty_slots,
+            diagnosis=diagnoses.get(first),
+        ))
+    for obj in scene.objects:
+        if obj.name not in seen:
+            entries.append(ObjectEntry(obj.name, obj.type, False,
+                                       _hidden(obj, layer, depsgraph.mode)))
+    features = [u for e in seen.values() for u in e.features.values()]
+    return Manifest(
+        file=bpy.path.basename(bpy.data.filepath), scene=scene.name, view_layer=layer.name,
+        frame=scene.frame_current, evaluation=depsgraph.mode, camera=camera,
+        objects=tuple(entries),
+        unmodelled=(*features, *of_scene(depsgraph.scene_eval)),
+    )
+
+
+def _no_triangles(entry: _Seen) -> str:
+    if entry.left_out:
+        return "all its triangles have a vertex or a matrix that is not finite"
+    if entry.type in _NO_SURFACE:
+        return "has no surface"
+    return "has no triangles as it is evaluated and drawn here"
+
+
+def _hidden(obj: Any, layer: Any, mode: str) -> str:
+    """Why the depsgraph does not hand an object out."""
+    flag = "hide_viewport" if mode == "VIEWPORT" else "hide_render"
+    where = "the viewport" if mode == "VIEWPORT" else "renders"
+    if getattr(obj, flag):
+        return f"hidden in {where}"
+    if obj.name not in layer.objects:
+        return f"not in view layer '{layer.name}' (its collection is excluded)"
+    if mode == "VIEWPORT" and obj.hide_get(view_layer=layer):
+        return "hidden in this view layer"
+    return f"in a collection hidden in {where}, or its own display is off"

@@ -1,0 +1,126 @@
+"""Infinite planes in Blender's picture: the polygon in which each cuts the camera's view volume.
+
+In come a temporary scene and the exported planes; while the context lasts, the temporary scene
+shows polygons in place of the objects that were marked. The user's collections are not touched:
+those that hold a marked object are replaced by copies, in the temporary scene alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera, Plane, Scene
+from ..tracer.camera import pixel_size
+
+BEYOND = 2  # pixels that a polygon reaches beyond the picture, so that its rim is never seen
+DEPTHS = 0.99, 1.01  # of the clip range, for the same reason: Blender's own clipping decides
+
+
+def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
+    """Return the corners, in order, of where a plane cuts the view volume: (k, 3) world space.
+
+    k is 0 where it does not, and at most 6.
+    """
+    corners = _view_volume(camera)
+    height = ((corners - plane.point) * plane.normal).sum(axis=1)
+    points = []
+    for a in range(8):
+        for bit in (1, 2, 4):  # corners whose numbers differ in one bit share an edge
+            b = a | bit
+            if a != b and (height[a] < 0) != (height[b] < 0):
+                share = height[a] / (height[a] - height[b])
+                points.append(corners[a] + share * (corners[b] - corners[a]))
+    if len(points) < 3:
+        return np.zeros((0, 3))
+    found = np.array(points)
+    across = found[0] - found.mean(axis=0)
+    along = np.cross(plane.normal, across)
+    centered = found - found.mean(axis=0)
+    return found[np.argsort(np.arctan2(centered @ along / np.linalg.norm(along),
+                                       centered @ across / np.linalg.norm(across)))]
+
+
+def _view_volume(camera: Camera) -> NDArray[np.float64]:
+    """Return the eight corners of the (slightly enlarged) view volume, bits: x, y, depth."""
+    w, (dx, dy) = camera.window, pixel_size(camera)
+    out = []
+    for depth in (camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]):
+        for y in (w.bottom - BEYOND * dy, w.top + BEYOND * dy):
+            for x in (w.left - BEYOND * dx, w.right + BEYOND * dx):
+                scale = 1 if camera.orthographic else depth
+                out.append(camera.origin + scale * (x * camera.right + y * camera.up)
+                           + depth * camera.forward)
+    return np.array(out)
+
+
+@contextmanager
+def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[None]:
+    """Show polygons in a temporary Blender scene in place of its infinite planes.
+
+    Parameters
+    ----------
+    tmp : bpy.types.Scene
+    layer : str
+        Name of the view layer that is drawn.
+    scene : Scene
+        What was exported from it.
+    """
+    marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
+    collections: list[Any] = []
+    objects: list[Any] = []
+    try:
+        if marked:
+            _without(tmp.collection, tmp.view_layers[layer].layer_collection, marked, collections)
+        for plane in scene.planes:
+            source = tmp.objects.get(scene.objects[plane.object])
+            corners = polygon(scene.camera, plane)
+            if len(corners):
+                objects.append(_stand_in(tmp, corners, source, plane.color))
+        yield
+    finally:
+        for obj in objects:
+            bpy.data.meshes.remove(obj.data)  # takes the object with it
+        for collection in collections:
+            bpy.data.collections.remove(collection)
+
+
+def _stand_in(tmp: Any, corners: NDArray[np.float64], source: Any, color: NDArray[np.float32]) -> Any:
+    # Vertices are float32: relative to the polygon's own middle they keep the most digits.
+    middle = corners.mean(axis=0)
+    mesh = bpy.data.meshes.new("Infinite Plane")
+    mesh.from_pydata((corners - middle).tolist(), [], [list(range(len(corners)))])
+    mesh.materials.append(source.active_material if source else None)
+    obj = bpy.data.objects.new("Infinite Plane", mesh)
+    obj.location, obj.color = middle, color
+    tmp.collection.objects.link(obj)
+    return obj
+
+
+def _without(collection: Any, layer: Any, objects: set[Any], copies: list[Any]) -> None:
+    """Take objects out of a temporary scene's collection, copying those below that hold them."""
+    for child in list(collection.children):
+        if objects.isdisjoint(child.all_objects):
+            continue
+        copy = child.copy()
+        copies.append(copy)
+        old = layer.children[child.name]
+        collection.children.link(copy)  # before the old one goes: hidden objects stay hidden
+        new = layer.children[copy.name]
+        _copy_flags(old, new)
+        collection.children.unlink(child)
+        _without(copy, new, objects, copies)
+    for obj in objects.intersection(collection.objects):
+        collection.objects.unlink(obj)
+
+
+def _copy_flags(source: Any, target: Any) -> None:
+    for name in ("exclude", "hide_viewport", "holdout", "indirect_only"):
+        setattr(target, name, getattr(source, name))
+    for a, b in zip(source.children, target.children, strict=True):
+        _copy_flags(a, b)

@@ -1,0 +1,102 @@
+"""What a Blender scene contains that the tracer does not model, by object and name.
+
+In come an evaluated scene and its objects; out go `manifest.Unmodelled` entries. Those with bounds
+can change the picture that Blender draws, and explain a pixel inside them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..manifest import Unmodelled
+from .colors import slot_materials
+
+# Object types that Blender draws, but not as triangles.
+_DRAWN_OTHERWISE = {
+    "CURVES": "hair curves",
+    "GPENCIL": "grease pencil",
+    "GREASEPENCIL": "grease pencil",
+    "POINTCLOUD": "point cloud",
+    "VOLUME": "volume",
+}
+
+
+def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
+    """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
+    corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
+    hair = max((p.settings.hair_length for p in getattr(obj, "particle_systems", ())
+                if p.settings.type == "HAIR"), default=0.0)
+    return np.stack((corners[:, :3].min(axis=0) - hair, corners[:, :3].max(axis=0) + hair))
+
+
+def of_object(obj: Any, matrix: Any, shading: Any, viewport: bool) -> Iterator[Unmodelled]:
+    """Yield what is not modelled of one evaluated object as it appears with `matrix`."""
+    bounds = None
+
+    def found(feature: str, detail: str = "") -> Unmodelled:
+        nonlocal bounds
+        bounds = world_bounds(obj, matrix) if bounds is None else bounds
+        return Unmodelled(obj.original.name, feature, detail, bounds)
+
+    if obj.type in _DRAWN_OTHERWISE:
+        yield found(_DRAWN_OTHERWISE[obj.type], "Blender draws it, but not as triangles")
+    if obj.type != "MESH":
+        return
+    color_type = shading.color_type
+    if color_type in ("OBJECT", "VERTEX") and obj.color[3] < 1:
+        yield found("transparency", f"the object's colour has alpha {obj.color[3]:.3g}")
+    if color_type in ("MATERIAL", "TEXTURE"):
+        for material in {m.name: m for m in slot_materials(obj) if m}.values():
+            if material.diffuse_color[3] < 1:
+                yield found("transparency", f"material '{material.name}' has a viewport alpha of "
+                            f"{material.diffuse_color[3]:.3g}")
+            if color_type == "TEXTURE" and material.node_tree and any(
+                    node.type == "TEX_IMAGE" for node in material.node_tree.nodes):
+                yield found("texture", f"material '{material.name}'")
+    if obj.show_in_front:
+        yield found("in-front drawing")
+    if obj.is_holdout:
+        yield found("holdout")
+    if viewport and obj.display_type in ("WIRE", "BOUNDS"):
+        yield found("display type", f"{obj.display_type.lower()}: the viewport draws no surface")
+    for system in obj.particle_systems:
+        if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+            yield found("hair", f"particle system '{system.name}'")
+
+
+def of_scene(scene: Any) -> Iterator[Unmodelled]:
+    """Yield what is not modelled of the scene and its camera as a whole; it has no bounds."""
+    camera, render, shading = scene.camera, scene.render, scene.display.shading
+
+    def found(feature: str, detail: str = "", name: str | None = None) -> Unmodelled:
+        return Unmodelled(name or f"scene '{scene.name}'", feature, detail)
+
+    if camera.data.dof.use_dof:
+        yield found("depth of field", name=camera.name)
+    if render.use_motion_blur:
+        yield found("motion blur")
+    if render.use_multiview:
+        yield found("multiview", "not part of what is traced")
+    strips = scene.sequence_editor and len(scene.sequence_editor.strips_all
+                                           if hasattr(scene.sequence_editor, "strips_all")
+                                           else scene.sequence_editor.sequences_all)
+    if render.use_sequencer and strips:
+        yield found("sequencer", "not part of what is traced")
+    composited = (scene.compositing_node_group is not None
+                  if hasattr(scene, "compositing_node_group") else scene.use_nodes)
+    if render.use_compositing and composited:
+        yield found("compositor", "not part of what is traced")
+    if render.use_freestyle:
+        yield found("freestyle lines")
+    if shading.color_type == "TEXTURE":
+        yield found("texture colours", "surfaces show their material's viewport colour")
+    if shading.show_xray:
+        yield found("x-ray shading")
+    if shading.show_backface_culling:
+        yield found("backface culling", "both sides of a surface are traced")
+    if scene.world and scene.world.mist_settings.use_mist:
+        yield found("mist")

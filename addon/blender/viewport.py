@@ -1,0 +1,172 @@
+"""Blender's own picture of a scene, as an array: the viewport's, Workbench's or Cycles'.
+
+Everything is set on a temporary copy of the user's scene and goes with it; the user's scene,
+Render Result and view stay as they are. What cannot live on a copy, the preference for the
+viewport's anti-aliasing and the mark that preferences were changed, is put back.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera
+from . import cycles
+
+SOURCES = ("viewport", "workbench", "cycles")
+
+
+def choose_source(judge: str) -> str:
+    """Return which of SOURCES the user's choice of judge means here."""
+    if judge == "AUTO":
+        return "workbench" if bpy.app.background else "viewport"
+    return judge.lower()
+
+
+@contextmanager
+def temporary_scene(scene: Any) -> Iterator[Any]:
+    """Give a copy of a scene (its objects are the user's own), and remove it in any case."""
+    copy = scene.copy()
+    try:
+        yield copy
+    finally:
+        bpy.data.scenes.remove(copy)
+
+
+def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
+    """Set a temporary scene up for a picture that can be compared; return what was set.
+
+    Like for like is flat light, no effect and no anti-aliasing, on a transparent film, raw; the
+    source of the colours stays the user's. In either way only the view layer's own picture is made:
+    no sequencer, compositor or multiview, one 32-bit EXR.
+    """
+    render, display, view = scene.render, scene.display, scene.view_settings
+    values = [
+        (render, {"use_sequencer": False, "use_compositing": False, "use_multiview": False,
+                  "use_freestyle": False, "use_motion_blur": False, "use_stamp": False,
+                  "use_crop_to_border": True, "use_file_extension": True,
+                  "use_overwrite": True, "use_placeholder": False}),
+    ]
+    if like_for_like:
+        values += [
+            (display.shading, {
+                "light": "FLAT", "show_xray": False, "show_shadows": False, "show_cavity": False,
+                "show_object_outline": False, "show_specular_highlight": False,
+                "show_backface_culling": False, "use_dof": False}),
+            (display, {"render_aa": "OFF", "viewport_aa": "OFF"}),
+            (render, {"film_transparent": True}),
+            (view, {"view_transform": "Raw", "look": "None", "exposure": 0.0, "gamma": 1.0,
+                    "use_curve_mapping": False}),
+        ]
+    for target, settings in values:
+        for name, value in settings.items():
+            setattr(target, name, value)
+    image = render.image_settings
+    if hasattr(image, "media_type"):  # from 5.0 on
+        image.media_type = "IMAGE"
+    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGBA", "32"
+    shading = display.shading
+    return {
+        "like_for_like": like_for_like, "light": shading.light, "color_type": shading.color_type,
+        "film_transparent": render.film_transparent, "view_transform": view.view_transform,
+        "anti_aliasing": display.render_aa,
+    }
+
+
+def use_view_shading(scene: Any, shading: Any) -> None:
+    """Copy a 3D view's own solid shading to a scene, for a picture *as it is*."""
+    own = scene.display.shading
+    for prop in own.bl_rna.properties:
+        if not prop.is_readonly and prop.identifier not in ("type", "rna_type"):
+            try:
+                setattr(own, prop.identifier, getattr(shading, prop.identifier))
+            except TypeError:  # an enum whose items depend on the others: theirs come first
+                continue
+
+
+def picture(scene: Any, layer: str, source: str, camera: Camera, like_for_like: bool) -> NDArray[np.float32]:
+    """Return Blender's picture of a prepared temporary scene.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    layer : str
+        Name of the view layer.
+    source : {'viewport', 'workbench', 'cycles'}
+        'viewport' needs a window.
+    camera : Camera
+        Says which pixels are the picture's: the viewport ignores the render border.
+    like_for_like : bool
+
+    Returns
+    -------
+    (h, w, 4) float32
+        Linear RGBA of the camera's region, row 0 at the bottom, alpha premultiplied.
+
+    Raises
+    ------
+    RuntimeError
+        If Blender made no picture, or one of another size.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "picture")
+        if source == "viewport":
+            _draw_viewport(scene, layer, like_for_like)
+        else:
+            scene.render.engine = "BLENDER_WORKBENCH" if source == "workbench" else "CYCLES"
+            colors = source == "cycles" and like_for_like
+            with cycles.constant_colors(scene, layer) if colors else nullcontext():
+                bpy.ops.render.render(scene=scene.name, layer=layer, write_still=True)
+        found = list(Path(folder).glob("picture*.exr"))
+        if len(found) != 1:
+            raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({source}).")
+        pixels = _read(found[0])
+    r = camera.region
+    if source == "viewport" and pixels.shape[:2] == (camera.height, camera.width):
+        pixels = pixels[r.y0 : r.y1, r.x0 : r.x1]
+    if pixels.shape[:2] != (r.height, r.width):
+        raise RuntimeError(
+            f"Blender's picture has {pixels.shape[1]} x {pixels.shape[0]} pixels, the camera's "
+            f"region {r.width} x {r.height}."
+        )
+    return np.ascontiguousarray(pixels)
+
+
+def _draw_viewport(scene: Any, layer: str, like_for_like: bool) -> None:
+    # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
+    override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer])
+    with _viewport_aa(None if not like_for_like else "OFF"), override:
+        bpy.ops.render.opengl(view_context=False, write_still=True)
+
+
+@contextmanager
+def _viewport_aa(value: str | None) -> Iterator[None]:
+    """Set the preference that alone decides on a window's anti-aliasing, and put it back."""
+    preferences = bpy.context.preferences
+    before, dirty = preferences.system.viewport_aa, preferences.is_dirty
+    if value is not None:
+        preferences.system.viewport_aa = value
+    try:
+        yield
+    finally:
+        if value is not None:
+            preferences.system.viewport_aa = before
+            preferences.is_dirty = dirty
+
+
+def _read(path: Path) -> NDArray[np.float32]:
+    image = bpy.data.images.load(str(path))
+    try:
+        width, height = image.size
+        pixels = np.empty(width * height * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        return pixels.reshape(height, width, 4)
+    finally:
+        bpy.data.images.remove(image)

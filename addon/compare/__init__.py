@@ -1,0 +1,1 @@
+"""Two pictures of one scene: how far they differ, and why."""

@@ -1,0 +1,139 @@
+"""Two pictures of one scene -> `Comparison`: the counts, the causes, the metrics, the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..manifest import Manifest
+from ..scene import Scene
+from ..tracer.frame import Frame
+from ..tracer.settings import Settings
+from . import metrics
+from .causes import Cause, Causes, find_causes
+
+SCHEMA = "reference_tracer.comparison/1"
+
+# What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
+EXIT_CODES = {"agree": 0, "warnings": 1, "differences": 2, "cancelled": 1}
+
+
+class SizeError(ValueError):
+    """The pictures differ in size."""
+
+
+@dataclass(eq=False)
+class Comparison:
+    """What was compared, and what came of it."""
+
+    scene: Scene
+    manifest: Manifest
+    settings: Settings
+    frame: Frame
+    picture: NDArray[np.float32]  # (h, w, 4) linear RGBA: Blender's
+    blender: dict[str, Any]  # version, source, settings used
+    causes: Causes
+
+    @property
+    def pixels(self) -> dict[str, Any]:
+        """Count pixels: total = agree + differ + not_decidable (+ not_traced)."""
+        count = {c: int((self.causes.cause == c).sum()) for c in Cause}
+        explained = count[Cause.EDGE] + count[Cause.DEPTH_TIE] + count[Cause.NOT_MODELLED]
+        return {
+            "total": self.causes.cause.size,
+            "agree": count[Cause.AGREE],
+            "differ": explained + count[Cause.UNEXPLAINED],
+            "explained": explained,
+            "unexplained": count[Cause.UNEXPLAINED],
+            "not_decidable": count[Cause.NOT_DECIDABLE],
+            "not_traced": count[Cause.NOT_TRACED],
+            "by_cause": {c.name.lower(): count[c] for c in Cause
+                         if c not in (Cause.AGREE, Cause.NOT_TRACED)},
+        }
+
+    @property
+    def metrics(self) -> dict[str, Any]:
+        """RMSE, PSNR (None for infinite), SSIM and the largest difference of linear RGBA."""
+        a, b = np.nan_to_num(self.frame.color), np.nan_to_num(self.picture)
+        psnr = metrics.psnr(a, b)
+        return {"rmse": metrics.rmse(a, b), "psnr": psnr if np.isfinite(psnr) else None,
+                "ssim": metrics.ssim(a, b), "largest_difference": metrics.largest_difference(a, b)}
+
+    @property
+    def verdict(self) -> str:
+        """One of EXIT_CODES: differences are those that no cause explains."""
+        if self.frame.cancelled:
+            return "cancelled"
+        pixels = self.pixels
+        if pixels["unexplained"]:
+            return "differences"
+        left_out = any(o.left_out for o in self.manifest.objects)
+        if pixels["not_decidable"] or self.manifest.unmodelled or left_out:
+            return "warnings"
+        return "agree"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the comparison as JSON can hold it."""
+        s = self.frame.statistics
+        return {
+            "schema": SCHEMA,
+            "scene": self.manifest.to_dict(),
+            "blender": self.blender,
+            "tracer": {
+                "method": self.settings.method.value, "precision": self.settings.precision.value,
+                "samples": self.settings.samples, "seconds": round(s.seconds, 6),
+                "triangles": s.triangles, "pairs_tested": s.pairs_tested,
+                "cancelled": self.frame.cancelled,
+            },
+            "pixels": self.pixels, "metrics": self.metrics, "verdict": self.verdict,
+        }
+
+    def lines(self) -> list[str]:
+        """Return what a person wants to know first, a fact a line."""
+        p, m = self.pixels, self.metrics
+        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
+        x, y = m["largest_difference"]["pixel"]
+        out = [
+            f"{p['agree']:,} of {p['total']:,} pixels agree with Blender's "
+            f"{self.blender['source']} picture, {p['differ']:,} differ",
+            *(f"  {name.replace('_', ' ')}: {n:,}" for name, n in p["by_cause"].items() if n),
+            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
+            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
+            f"traced {self.frame.statistics.triangles:,} triangles in "
+            f"{self.frame.statistics.seconds:.2f} s",
+            f"verdict: {self.verdict}",
+        ]
+        return out
+
+
+def compare(
+    scene: Scene, manifest: Manifest, settings: Settings, frame: Frame,
+    picture: NDArray[np.float32], blender: dict[str, Any],
+) -> Generator[float, None, Comparison]:
+    """Compare a traced frame with Blender's picture; yields the share of the work done.
+
+    Raises
+    ------
+    SizeError
+        If the picture is not of the frame's size.
+    """
+    if picture.shape != frame.color.shape:
+        raise SizeError(
+            f"Blender's picture has {picture.shape[1]} x {picture.shape[0]} pixels, the traced one "
+            f"{frame.color.shape[1]} x {frame.color.shape[0]}."
+        )
+    causes = yield from find_causes(scene, settings, frame, picture, manifest.unmodelled)
+    return Comparison(scene, manifest, settings, frame, picture, blender, causes)
+
+
+def finish(generator: Generator[float, None, Comparison]) -> Comparison:
+    """Run a comparison through."""
+    while True:
+        try:
+            next(generator)
+        except StopIteration as stop:
+            return stop.value

@@ -1,0 +1,76 @@
+"""How far two pictures differ: RMSE, PSNR, SSIM and the largest difference.
+
+Pictures are (h, w, c) of any real type; the data range is given, not guessed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def rmse(first: NDArray, second: NDArray) -> float:
+    """Return the root of the mean squared difference over all pixels and channels.
+
+    Raises
+    ------
+    ValueError
+        If the pictures differ in shape.
+    """
+    _same_shape(first, second)
+    return float(np.sqrt(np.mean((first.astype(np.float64) - second) ** 2)))
+
+
+def psnr(first: NDArray, second: NDArray, data_range: float = 1.0) -> float:
+    """Return the peak signal-to-noise ratio in decibels; infinite for equal pictures."""
+    error = rmse(first, second)
+    return float("inf") if error == 0 else float(20 * np.log10(data_range / error))
+
+
+def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7) -> float:
+    """Return the mean structural similarity of two pictures, 1 for equal ones.
+
+    Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to
+    structural similarity", 2004; with a uniform window of `size` x `size` pixels, sample
+    covariances, K1 = 0.01 and K2 = 0.03, averaged over the windows that lie inside the picture and
+    over the channels. Smaller pictures take the largest odd window that fits.
+    """
+    _same_shape(first, second)
+    shortest = min(first.shape[:2])
+    size = min(size, shortest - (1 - shortest % 2))
+    x, y = first.astype(np.float64), second.astype(np.float64)
+    samples = size * size
+    unbiased = samples / (samples - 1) if samples > 1 else 1.0
+    ux, uy = _window_mean(x, size), _window_mean(y, size)
+    vx = unbiased * (_window_mean(x * x, size) - ux * ux)
+    vy = unbiased * (_window_mean(y * y, size) - uy * uy)
+    vxy = unbiased * (_window_mean(x * y, size) - ux * uy)
+    c1, c2 = (0.01 * data_range) ** 2, (0.03 * data_range) ** 2
+    score = ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
+    return float(score.mean())
+
+
+def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:
+    """Return the largest absolute difference, with the pixel (x, y; row 0 first) and channel."""
+    _same_shape(first, second)
+    difference = np.abs(first.astype(np.float64) - second)
+    y, x, channel = np.unravel_index(int(difference.argmax()), difference.shape)
+    return {"value": float(difference[y, x, channel]), "pixel": [int(x), int(y)],
+            "channel": int(channel)}
+
+
+def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]:
+    """Return the mean over every size x size window, by running sums along each axis."""
+    for axis in (0, 1):
+        sums = np.cumsum(picture, axis=axis)
+        sums = np.concatenate((np.zeros_like(sums.take([0], axis)), sums), axis=axis)
+        count = picture.shape[axis]
+        picture = (sums.take(range(size, count + 1), axis) - sums.take(range(count + 1 - size), axis)) / size
+    return picture
+
+
+def _same_shape(first: NDArray, second: NDArray) -> None:
+    if first.shape != second.shape or first.ndim != 3:
+        raise ValueError(f"Pictures must be (h, w, c) of one size, not {first.shape} and {second.shape}.")

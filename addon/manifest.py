@@ -1,0 +1,91 @@
+"""What was exported, what was not, and what the tracer does not model: nothing is lost in silence.
+
+In come entries from an exporter; out go lines for people and a dict for JSON.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class ObjectEntry:
+    """One object of the scene: exported, or skipped with the reason."""
+
+    name: str
+    type: str
+    exported: bool
+    reason: str = ""
+    triangles: int = 0
+    vertices: int = 0
+    instances: int = 0
+    left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
+    empty_slots: int = 0
+    diagnosis: dict[str, Any] | None = None  # see scene_files.diagnose
+
+
+@dataclass(frozen=True, eq=False)
+class Unmodelled:
+    """A feature of the scene that the tracer does not model.
+
+    `bounds` is the world-space box, (2, 3) float64 metres, inside which the feature can change
+    Blender's picture; None where it changes nothing that is compared, or cannot be placed.
+    """
+
+    object: str
+    feature: str
+    detail: str = ""
+    bounds: NDArray[np.float64] | None = None
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """The whole of one export."""
+
+    file: str
+    scene: str
+    view_layer: str
+    frame: int
+    evaluation: str  # 'VIEWPORT', 'RENDER', or 'FILE' for a scene that never saw Blender
+    camera: str
+    objects: tuple[ObjectEntry, ...] = ()
+    unmodelled: tuple[Unmodelled, ...] = ()
+    notes: tuple[str, ...] = field(default=())
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the manifest as JSON can hold it."""
+        out = {k: v for k, v in vars(self).items() if k not in ("objects", "unmodelled")}
+        out["notes"] = list(self.notes)
+        out["objects"] = [asdict(entry) for entry in self.objects]
+        out["unmodelled"] = [
+            {
+                "object": u.object,
+                "feature": u.feature,
+                "detail": u.detail,
+                "bounds": None if u.bounds is None else np.asarray(u.bounds).tolist(),
+            }
+            for u in self.unmodelled
+        ]
+        return out
+
+    def lines(self) -> list[str]:
+        """Return the manifest as a person reads it, a fact a line."""
+        exported = [e for e in self.objects if e.exported]
+        total = sum(e.triangles * e.instances for e in exported)
+        out = [
+            f"{len(exported)} of {len(self.objects)} objects exported, {total:,} triangles, "
+            f"{self.evaluation.lower()} evaluation, camera '{self.camera}'"
+        ]
+        for e in exported:
+            if e.left_out:
+                out.append(f"  {e.name}: {e.left_out} triangles left out (not finite)")
+            if e.empty_slots:
+                out.append(f"  {e.name}: {e.empty_slots} empty material slots, shown in grey")
+        out += [f"  skipped {e.name} ({e.type}): {e.reason}" for e in self.objects if not e.exported]
+        for u in self.unmodelled:
+            out.append(f"  not modelled: {u.object}: {u.feature}" + (f" ({u.detail})" if u.detail else ""))
+        return out + [f"  note: {n}" for n in self.notes]

@@ -1,0 +1,324 @@
+"""The contract between Blender (or a file) and the tracer: plain arrays in frozen dataclasses.
+
+In come numbers from an exporter; out goes a `Scene` whose input has been checked, so that
+nothing after this file has to ask whether an index is in range or a vertex is finite.
+World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+GREY = (0.8, 0.8, 0.8, 1.0)  # what Blender draws where a face has no material
+
+
+class SceneError(ValueError):
+    """The scene cannot be traced; the message names the thing and what to do about it."""
+
+
+@dataclass(frozen=True)
+class ViewWindow:
+    """What the whole picture shows, on the plane at depth 1 (perspective) or in metres
+    (orthographic), along the camera's right and up axes.
+    """
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+
+@dataclass(frozen=True)
+class Region:
+    """The pixels to trace: x0 <= x < x1 and y0 <= y < y1 of the whole picture, row 0 at the bottom."""
+
+    x0: int
+    y0: int
+    x1: int
+    y1: int
+
+    @property
+    def width(self) -> int:
+        """Columns, in pixels."""
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> int:
+        """Rows, in pixels."""
+        return self.y1 - self.y0
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """A view window in front of a frame of axes.
+
+    Parameters
+    ----------
+    world_from_camera : (4, 4) float64
+        Columns are right, up, backward and the position. The axes carry no scale of the
+        camera object, but may be mirrored or sheared, as Blender's own may.
+    window : ViewWindow
+    width, height : int
+        Size of the whole picture in pixels.
+    orthographic : bool
+    clip_start, clip_end : float
+        Depths along the view axis, in metres; hits outside are not seen.
+    region : Region, optional
+        The border; the whole picture by default.
+    name : str
+
+    Raises
+    ------
+    SceneError
+        If there is nothing to see through it: an empty picture, clip range or window.
+    """
+
+    world_from_camera: NDArray[np.float64]
+    window: ViewWindow
+    width: int
+    height: int
+    orthographic: bool = False
+    clip_start: float = 0.1
+    clip_end: float = 1000.0
+    region: Region = None  # type: ignore[assignment]  # None only until __post_init__
+    name: str = "Camera"
+
+    def __post_init__(self) -> None:
+        _store(self, "world_from_camera", _matrix(self.world_from_camera, f"camera '{self.name}'"))
+        if not np.linalg.det(self.world_from_camera[:3, :3]):
+            raise SceneError(f"The axes of camera '{self.name}' lie in a plane: clear its scale.")
+        if self.region is None:
+            _store(self, "region", Region(0, 0, self.width, self.height))
+        if self.width < 1 or self.height < 1:
+            raise SceneError(
+                f"The picture has {self.width} x {self.height} pixels: raise the resolution or its "
+                "percentage, so that both are at least 1."
+            )
+        r = self.region
+        if not (0 <= r.x0 < r.x1 <= self.width and 0 <= r.y0 < r.y1 <= self.height):
+            raise SceneError(
+                f"The render border holds no pixel (x {r.x0} to {r.x1}, y {r.y0} to {r.y1} of "
+                f"{self.width} x {self.height}): enlarge it or switch it off."
+            )
+        if not self.clip_start < self.clip_end:
+            raise SceneError(
+                f"Camera '{self.name}' sees nothing: its clip start ({self.clip_start:g} m) is not "
+                f"below its clip end ({self.clip_end:g} m)."
+            )
+        w = self.window
+        if not (np.isfinite([w.left, w.right, w.bottom, w.top]).all()
+                and w.left < w.right and w.bottom < w.top):
+            raise SceneError(
+                f"Camera '{self.name}' has an empty or infinite view window ({w}): check its focal "
+                "length, sensor size, orthographic scale and shift."
+            )
+
+    @property
+    def origin(self) -> NDArray[np.float64]:
+        """Position in world space, (3,) float64, metres."""
+        return self.world_from_camera[:3, 3]
+
+    @property
+    def right(self) -> NDArray[np.float64]:
+        """World-space direction of +X in the picture, (3,) float64."""
+        return self.world_from_camera[:3, 0]
+
+    @property
+    def up(self) -> NDArray[np.float64]:
+        """World-space direction of +Y in the picture, (3,) float64."""
+        return self.world_from_camera[:3, 1]
+
+    @property
+    def forward(self) -> NDArray[np.float64]:
+        """World-space viewing direction, (3,) float64."""
+        return -self.world_from_camera[:3, 2]
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles in object space, kept in the precision in which they were stored.
+
+    Parameters
+    ----------
+    vertices : (v, 3) float32 or float64
+        Object space, metres, finite.
+    triangles : (n, 3) int32
+        Corner indices into `vertices`.
+    slots : (n,) int32, optional
+        Which of an instance's `colors` each triangle shows; all 0 by default.
+    corner_colors : (n, 3, 4) float32, optional
+        Linear RGBA at each corner; where given, it is what the mesh shows.
+    name : str
+
+    Raises
+    ------
+    SceneError
+        If shapes do not fit, an index is out of range, or a vertex is not finite.
+    """
+
+    vertices: NDArray[np.floating]
+    triangles: NDArray[np.int32]
+    slots: NDArray[np.int32] = None  # type: ignore[assignment]
+    corner_colors: NDArray[np.float32] | None = None
+    name: str = "Mesh"
+
+    def __post_init__(self) -> None:
+        vertices = np.asarray(self.vertices)
+        if vertices.dtype not in (np.float32, np.float64):
+            vertices = vertices.astype(np.float64)
+        triangles = np.asarray(self.triangles, dtype=np.int32)
+        slots = np.zeros(len(triangles), np.int32) if self.slots is None else self.slots
+        slots = np.asarray(slots, dtype=np.int32)
+        what = f"Mesh '{self.name}'"
+        if vertices.ndim != 2 or vertices.shape[1] != 3:
+            raise SceneError(f"{what}: vertices must be (v, 3), not {vertices.shape}.")
+        if triangles.ndim != 2 or triangles.shape[1] != 3:
+            raise SceneError(f"{what}: triangles must be (n, 3), not {triangles.shape}.")
+        if triangles.size and not (0 <= triangles.min() and triangles.max() < len(vertices)):
+            raise SceneError(f"{what}: a triangle names a vertex that is not there.")
+        if slots.shape != (len(triangles),) or (slots < 0).any():
+            raise SceneError(f"{what}: slots must be (n,) and not negative.")
+        if not np.isfinite(vertices).all():
+            raise SceneError(f"{what} has vertices that are not finite: leave out their triangles "
+                             "(scene.drop_non_finite does).")
+        if self.corner_colors is not None:
+            colors = np.asarray(self.corner_colors, dtype=np.float32)
+            if colors.shape != (len(triangles), 3, 4):
+                raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
+            _store(self, "corner_colors", _locked(colors))
+        _store(self, "vertices", _locked(vertices))
+        _store(self, "triangles", _locked(triangles))
+        _store(self, "slots", _locked(slots))
+
+
+@dataclass(frozen=True, eq=False)
+class Instance:
+    """One appearance of a mesh.
+
+    Parameters
+    ----------
+    mesh : int
+        Index into `Scene.meshes`.
+    object : int
+        Index into `Scene.objects`: which object of the scene this is.
+    world_from_object : (4, 4) float64
+    colors : (k, 4) float32
+        Linear RGBA by material slot; a slot past the end shows the last one.
+    """
+
+    mesh: int
+    object: int
+    world_from_object: NDArray[np.float64]
+    colors: NDArray[np.float32] = field(default_factory=lambda: np.array([GREY], np.float32))
+
+    def __post_init__(self) -> None:
+        what = f"instance of object {self.object}"
+        _store(self, "world_from_object", _matrix(self.world_from_object, what))
+        _store(self, "colors", _colors(self.colors, what))
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """An infinite plane through `point` with the (not necessarily unit) `normal`, world space."""
+
+    object: int
+    point: NDArray[np.float64]
+    normal: NDArray[np.float64]
+    color: NDArray[np.float32] = field(default_factory=lambda: np.array(GREY, np.float32))
+
+    def __post_init__(self) -> None:
+        for name in ("point", "normal"):
+            value = np.array(getattr(self, name), dtype=np.float64)
+            if value.shape != (3,) or not np.isfinite(value).all():
+                raise SceneError(f"The {name} of an infinite plane must be three finite numbers.")
+            _store(self, name, _locked(value))
+        if not self.normal.any():
+            raise SceneError("The normal of an infinite plane is zero: give its object a scale.")
+        _store(self, "color", _colors([self.color], "infinite plane")[0])
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Everything that the tracer is told.
+
+    Parameters
+    ----------
+    camera : Camera
+    meshes : tuple of Mesh
+    instances : tuple of Instance
+        Where two surfaces are exactly as near, the one with the lower index is seen.
+    planes : tuple of Plane
+    background : (4,) float32
+        Linear RGBA of a pixel that sees nothing; alpha 0 for a transparent film.
+    objects : tuple of str
+        Names, by the `object` index of instances and planes.
+    """
+
+    camera: Camera
+    meshes: tuple[Mesh, ...] = ()
+    instances: tuple[Instance, ...] = ()
+    planes: tuple[Plane, ...] = ()
+    background: NDArray[np.float32] = field(default_factory=lambda: np.zeros(4, np.float32))
+    objects: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("meshes", "instances", "planes", "objects"):
+            _store(self, name, tuple(getattr(self, name)))
+        _store(self, "background", _colors([self.background], "background")[0])
+        for i in self.instances:
+            if not 0 <= i.mesh < len(self.meshes):
+                raise SceneError(f"An instance names mesh {i.mesh} of {len(self.meshes)}.")
+        for i in (*self.instances, *self.planes):
+            if not 0 <= i.object < len(self.objects):
+                raise SceneError(f"An instance names object {i.object} of {len(self.objects)}.")
+
+    @property
+    def triangle_count(self) -> int:
+        """Triangles over all instances."""
+        return sum(len(self.meshes[i.mesh].triangles) for i in self.instances)
+
+
+def drop_non_finite(
+    vertices: NDArray[np.floating], triangles: NDArray[np.integer]
+) -> tuple[NDArray[np.floating], NDArray[np.bool_]]:
+    """Make vertices finite, and say which triangles may stay.
+
+    Returns
+    -------
+    vertices : (v, 3)
+        With zeros where a coordinate was not finite, so that indices stay as they were.
+    keep : (n,) bool
+        False for triangles that touched such a vertex.
+    """
+    finite = np.isfinite(vertices).all(axis=1)
+    if finite.all():
+        return vertices, np.ones(len(triangles), bool)
+    return np.where(finite[:, None], vertices, vertices.dtype.type(0)), finite[triangles].all(axis=1)
+
+
+def _store(instance: object, name: str, value: object) -> None:
+    object.__setattr__(instance, name, value)  # the one way into a frozen dataclass
+
+
+def _locked(array: NDArray) -> NDArray:
+    if array.flags.writeable:
+        array = array.view()
+        array.flags.writeable = False
+    return array
+
+
+def _matrix(value: object, what: str) -> NDArray[np.float64]:
+    matrix = np.array(value, dtype=np.float64)
+    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
+        raise SceneError(f"The matrix of {what} must be 4 x 4 finite numbers.")
+    return _locked(matrix)
+
+
+def _colors(value: object, what: str) -> NDArray[np.float32]:
+    colors = np.array(value, dtype=np.float32)
+    if colors.ndim != 2 or colors.shape[1] != 4 or len(colors) < 1:
+        raise SceneError(f"The colours of {what} must be (k, 4) linear RGBA, not {colors.shape}.")
+    return _locked(colors)

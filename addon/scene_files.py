@@ -1,0 +1,170 @@
+"""Scene <-> .npz, and meshes from OBJ, PLY, STL and GLB files, through trimesh.
+
+A .npz is read without pickle: it can hold numbers and nothing that runs.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .scene import Camera, Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow, drop_non_finite
+
+MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
+_SCHEMA = "reference_tracer.scene/1"
+
+
+def diagnose(mesh: Mesh) -> dict[str, Any]:
+    """Return trimesh's diagnosis of a mesh as JSON can hold it.
+
+    Corners at bit-identical positions count as one vertex: closed means that every edge has two
+    triangles.
+    """
+    import trimesh
+
+    positions, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    faces = index.reshape(-1)[mesh.triangles]
+    whole = trimesh.Trimesh(positions.astype(np.float64), faces, process=False)
+    sorted_faces = np.sort(faces, axis=1)
+    return {
+        "closed": bool(whole.is_watertight),
+        "consistent_winding": bool(whole.is_winding_consistent),
+        "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
+        "duplicate_faces": int(len(faces) - len(np.unique(sorted_faces, axis=0))),
+    }
+
+
+def save_scene(path: str | Path, scene: Scene) -> None:
+    """Write a scene to a compressed .npz."""
+    camera = asdict(scene.camera) | {"world_from_camera": scene.camera.world_from_camera.tolist()}
+    head = {
+        "schema": _SCHEMA, "camera": camera, "objects": scene.objects,
+        "background": scene.background.tolist(),
+        "meshes": [{"name": m.name, "corner_colors": m.corner_colors is not None} for m in scene.meshes],
+        "instances": [{"mesh": i.mesh, "object": i.object} for i in scene.instances],
+        "planes": [{"object": p.object} for p in scene.planes],
+    }
+    arrays: dict[str, np.ndarray] = {"scene": np.array(json.dumps(head))}
+    for k, mesh in enumerate(scene.meshes):
+        for name in ("vertices", "triangles", "slots", "corner_colors"):
+            if getattr(mesh, name) is not None:
+                arrays[f"mesh{k}_{name}"] = getattr(mesh, name)
+    for k, instance in enumerate(scene.instances):
+        arrays[f"instance{k}_world_from_object"] = instance.world_from_object
+        arrays[f"instance{k}_colors"] = instance.colors
+    for k, plane in enumerate(scene.planes):
+        for name in ("point", "normal", "color"):
+            arrays[f"plane{k}_{name}"] = getattr(plane, name)
+    np.savez_compressed(path, **arrays)
+
+
+def load_scene(path: str | Path) -> Scene:
+    """Read a scene from a .npz that :func:`save_scene` wrote.
+
+    Raises
+    ------
+    SceneError
+        If the file is none, or its content does not fit.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            data = dict(stored)
+        head = json.loads(str(data["scene"]))
+        if head.get("schema") != _SCHEMA:
+            raise SceneError(f"'{path}' has the schema {head.get('schema')!r}, not {_SCHEMA!r}.")
+        c = head["camera"]
+        camera = Camera(**c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])})
+        return Scene(
+            camera=camera,
+            meshes=tuple(Mesh(
+                data[f"mesh{k}_vertices"], data[f"mesh{k}_triangles"], data[f"mesh{k}_slots"],
+                data[f"mesh{k}_corner_colors"] if m["corner_colors"] else None, m["name"],
+            ) for k, m in enumerate(head["meshes"])),
+            instances=tuple(Instance(
+                i["mesh"], i["object"], data[f"instance{k}_world_from_object"],
+                data[f"instance{k}_colors"],
+            ) for k, i in enumerate(head["instances"])),
+            planes=tuple(Plane(
+                p["object"], data[f"plane{k}_point"], data[f"plane{k}_normal"], data[f"plane{k}_color"],
+            ) for k, p in enumerate(head["planes"])),
+            background=np.array(head["background"]), objects=tuple(head["objects"]),
+        )
+    except SceneError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
+
+
+def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
+    """Read the meshes of an OBJ, PLY, STL or GLB file.
+
+    Returns
+    -------
+    list of (Mesh, world_from_object)
+        As the file has them: no axis is turned. Triangles that are not finite are left out.
+
+    Raises
+    ------
+    SceneError
+        If the file cannot be read or holds no triangle.
+    """
+    import trimesh
+
+    path = Path(path)
+    try:
+        loaded = trimesh.load(path, file_type=path.suffix.lower().lstrip("."), force="scene",
+                              process=False, skip_materials=True)
+    except Exception as error:  # each of trimesh's readers raises its own kinds
+        raise SceneError(f"'{path}' cannot be read as a mesh: {error}") from error
+    out = []
+    for node in loaded.graph.nodes_geometry:
+        matrix, name = loaded.graph[node]
+        geometry = loaded.geometry[name]
+        if len(getattr(geometry, "faces", ())):
+            vertices, keep = drop_non_finite(np.asarray(geometry.vertices), np.asarray(geometry.faces))
+            out.append((Mesh(vertices, geometry.faces[keep], name=str(name)), np.array(matrix)))
+    if not any(len(mesh.triangles) for mesh, _ in out):
+        raise SceneError(f"'{path}' holds no triangles.")
+    return out
+
+
+def scene_of_meshes(
+    meshes: list[tuple[Mesh, np.ndarray]], camera: Camera | None, width: int, height: int
+) -> Scene:
+    """Return a scene of meshes, each in a grey of its own, seen by `camera` or by one framing them."""
+    greys = np.linspace(0.8, 0.3, len(meshes))
+    instances = tuple(
+        Instance(k, k, matrix, np.array([[g, g, g, 1]], np.float32))
+        for k, ((_, matrix), g) in enumerate(zip(meshes, greys, strict=True))
+    )
+    return Scene(camera or framing_camera(meshes, width, height), tuple(m for m, _ in meshes),
+                 instances, objects=tuple(m.name for m, _ in meshes))
+
+
+def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: int) -> Camera:
+    """Return a perspective camera, half its angle of view arctan(1/2), that sees all of the meshes.
+
+    It looks from the front, right and above, as a new Blender scene's camera does.
+    """
+    corners = np.concatenate([
+        m.vertices[np.unique(m.triangles)].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
+        for m, matrix in meshes
+    ])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    center, radius = (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-30)
+    backward = np.array([0.66, -0.62, 0.42])
+    backward /= np.linalg.norm(backward)
+    right = np.cross((0.0, 0.0, 1.0), backward)
+    right /= np.linalg.norm(right)
+    narrow = 0.5  # tan of half the angle on the picture's shorter side
+    distance = 1.05 * radius * np.sqrt(1 + 1 / narrow**2)  # the bounding sphere touches the cone
+    matrix = np.eye(4)
+    matrix[:3] = np.stack((right, np.cross(backward, right), backward, center + distance * backward), 1)
+    x, y = narrow * max(1, width / height), narrow * max(1, height / width)
+    return Camera(matrix, ViewWindow(-x, x, -y, y), width, height, name="framing",
+                  clip_start=max(distance - 2 * radius, distance * 1e-3),
+                  clip_end=distance + 2 * radius)

@@ -1,0 +1,99 @@
+"""Camera -> ray origins and directions, in world space.
+
+A ray is x = o + t d. Directions come from the camera's own axes, d = x right + y up + forward,
+and are not normalised, so that t is the depth along the view axis. They are never the difference
+of a world-space pixel and the camera's position, which would lose most digits far from the origin.
+
+The textbook (Exercise 1, perspective camera) has the length of a pixel as
+tan(opening angle) / (half the resolution), where the opening angle of the course's code is *half*
+the vertical angle of view, and samples at x - (width - 1) / 2: the pixel's centre. Both are the
+view window of `scene.Camera` with top = tan(opening angle). (Read as tan(angle / half the
+resolution), which the text also allows, the formula holds for small angles only.)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera
+from .vector import Vectors
+
+
+@dataclass(frozen=True, eq=False)
+class Rays:
+    """n rays: `origins` and `directions`, (3, n) each, or (3, 1) where all share it."""
+
+    origins: Vectors
+    directions: Vectors
+
+    def take(self, index: NDArray[np.integer]) -> Rays:
+        """Return the rays at `index`; what all share stays shared."""
+        return Rays(*(v if v.shape[1] == 1 else v.take(index, axis=1)
+                      for v in (self.origins, self.directions)))
+
+    def at(self, t: NDArray[np.floating]) -> Vectors:
+        """Return the points o + t d, (3, n)."""
+        return self.origins + t * self.directions
+
+
+def pixel_size(camera: Camera) -> tuple[float, float]:
+    """Return width and height of a pixel on the view window's plane."""
+    w = camera.window
+    return (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
+
+
+def camera_rays(
+    camera: Camera,
+    px: NDArray[np.floating],
+    py: NDArray[np.floating],
+    dtype: np.dtype | type = np.float64,
+) -> Rays:
+    """Return the rays through film positions.
+
+    Parameters
+    ----------
+    px, py : (n,) float
+        Pixels of the whole picture; pixel (i, j) has its centre at (i + 0.5, j + 0.5).
+    dtype
+        In which every step is computed.
+    """
+    def cast(value: object) -> NDArray:
+        return np.asarray(value, dtype=dtype)
+
+    width, height = pixel_size(camera)
+    x = cast(camera.window.left) + cast(px) * cast(width)
+    y = cast(camera.window.bottom) + cast(py) * cast(height)
+    right, up, forward, origin = (
+        cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
+    )
+    if camera.orthographic:
+        return Rays(origin + (x * right + y * up), forward)
+    return Rays(origin, x * right + y * up + forward)
+
+
+def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:
+    """Return camera-space coordinates of world points, and how far rounding may have moved them.
+
+    The axes need not be orthonormal, so they are inverted through their dual basis:
+    X = (v - o) . (up x forward) / det, and so on; Z is the depth, positive in front.
+
+    Returns
+    -------
+    xyz : (3, n) float64
+        Right, up, depth, in metres.
+    magnitude : (3, n) float64
+        Sum of the absolute values of the terms of each coordinate: times a few ulp it bounds the
+        error of `xyz`, and of rays that were computed from the same camera.
+    """
+    axes = np.stack((camera.right, camera.up, camera.forward))
+    dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
+    dual = dual / (axes[0] * dual[0]).sum()
+    origin = camera.origin[:, None]
+    q, size = points - origin, np.abs(points) + np.abs(origin)
+    weight = np.abs(dual)
+    xyz = [d[0] * q[0] + d[1] * q[1] + d[2] * q[2] for d in dual]
+    magnitude = [w[0] * size[0] + w[1] * size[1] + w[2] * size[2] for w in weight]
+    return np.stack(xyz), np.stack(magnitude)

@@ -1,0 +1,205 @@
+"""Which triangles can cover which pixels: culling only, never deciding.
+
+In come a scene and a camera; out go (pixel, triangle) pairs, which the ray/triangle test decides.
+A pair may be proposed in vain, but one that hits is never left out: the box of pixels around a
+projected triangle is widened by a bound on every rounding error that could move it (`_SAFETY`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera, Region, Scene
+from .camera import pixel_size, project
+from .vector import Vectors, transform_points
+
+BATCH = 1 << 14  # triangles looked at together: a few milliseconds of work, some MiB
+
+# Camera-space coordinates and rays are off by at most a few roundings of each of their terms:
+# one for v - o, five for each dot product, at most ten for the dual basis, three for a ray's
+# direction, two for its origin (and one for v and o each when they are cast to float32).
+# 64 roundings cover them while the axes' determinant is above MIN_DETERMINANT.
+_SAFETY = 64
+MIN_DETERMINANT = 1 / 8
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """Triangles first <= i < last of one mesh, in each of several of its instances."""
+
+    mesh: int
+    instances: NDArray[np.int32]
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, eq=False)
+class WorldTriangles:
+    """A batch in world space: `corners` (3 corners, 3, m), with where each comes from, (m,)."""
+
+    corners: NDArray[np.floating]
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+
+
+def batches(scene: Scene) -> Iterator[Batch]:
+    """Split the scene's instanced triangles into batches of at most about BATCH.
+
+    Instances are taken from the bottom of the picture to its top, so that a batch of small ones
+    covers few rows.
+    """
+    groups: dict[int, list[int]] = {}
+    for index, instance in enumerate(scene.instances):
+        groups.setdefault(instance.mesh, []).append(index)
+    for mesh, members in groups.items():
+        count = len(scene.meshes[mesh].triangles)
+        if not count:
+            continue
+        positions = np.stack([scene.instances[i].world_from_object[:3, 3] for i in members], axis=1)
+        (_, y, depth), _ = project(scene.camera, positions)
+        row = y if scene.camera.orthographic else y / np.maximum(depth, scene.camera.clip_start)
+        ordered = np.array(members, np.int32)[np.argsort(row, kind="stable")]
+        together = max(1, BATCH // count)
+        for start in range(0, len(ordered), together):
+            for first in range(0, count, BATCH):
+                some = ordered[start : start + together]
+                yield Batch(mesh, some, first, min(first + BATCH, count))
+
+
+def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> WorldTriangles:
+    """Return a batch's triangles in world space: world_from_object . v in float64, then `dtype`."""
+    mesh = scene.meshes[batch.mesh]
+    triangles = mesh.triangles[batch.first : batch.last]
+    each, copies = len(triangles), len(batch.instances)
+    matrices = np.stack([scene.instances[i].world_from_object for i in batch.instances], axis=-1)
+    corners = []
+    for corner in triangles.T:
+        local = mesh.vertices[corner].T.astype(np.float64)
+        world = transform_points(matrices[..., None], local[:, None, :])
+        corners.append(world.reshape(3, copies * each).astype(dtype))
+    triangle = np.tile(np.arange(batch.first, batch.last, dtype=np.int32), copies)
+    return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
+
+
+def pixel_bounds(
+    camera: Camera, corners: NDArray[np.floating], reach: float = 0.0
+) -> NDArray[np.int32]:
+    """Return a box of pixels outside which no ray of the camera can hit the triangle.
+
+    Parameters
+    ----------
+    corners : (3, 3, m)
+        Corner, component, triangle; world space.
+    reach : float
+        How far from its pixel's centre, in pixels along each axis, a ray may pass.
+
+    Returns
+    -------
+    bounds : (4, m) int32
+        x0, x1, y0, y1 with x0 <= x < x1 and y0 <= y < y1, within the camera's region; empty where
+        x0 >= x1 or y0 >= y1.
+    """
+    region, count = camera.region, corners.shape[2]
+    axes = np.stack((camera.right, camera.up, camera.forward))
+    if abs(np.linalg.det(axes)) < MIN_DETERMINANT:
+        return _everywhere(region, count)
+    flat = np.concatenate(list(corners), axis=1).astype(np.float64)
+    xyz, magnitude = project(camera, flat)
+    error = (_SAFETY * np.finfo(corners.dtype).eps * magnitude.sum(axis=0)).reshape(3, count)
+    x, y, depth = xyz.reshape(3, 3, count)
+    error = error.max(axis=0)
+    nearest, farthest = depth.min(axis=0) - error, depth.max(axis=0) + error
+    sizes, window = pixel_size(camera), camera.window
+    bounds = np.empty((4, count), np.int32)
+    # The part of the triangle that can be seen has a depth of at least this.
+    front = np.maximum(nearest, camera.clip_start)
+    for axis, (value, size, start, low, high) in enumerate((
+        (x, sizes[0], window.left, region.x0, region.x1),
+        (y, sizes[1], window.bottom, region.y0, region.y1),
+    )):
+        smallest, largest = value.min(axis=0) - error, value.max(axis=0) + error
+        if not camera.orthographic:
+            smallest, largest = _perspective(value, depth, error, smallest, largest,
+                                             nearest, front, farthest, camera.clip_start)
+        with np.errstate(invalid="ignore", over="ignore"):
+            # A film position near `start` comes from cancelling against it.
+            slack = reach + _SAFETY * np.finfo(corners.dtype).eps * (
+                abs(start / size) + camera.width + camera.height)
+            bounds[2 * axis] = _pixel(np.ceil((smallest - start) / size - 0.5 - slack), low, high, low)
+            bounds[2 * axis + 1] = _pixel(
+                np.floor((largest - start) / size - 0.5 + slack) + 1, low, high, high)
+    unseen = (farthest < camera.clip_start) | (nearest > camera.clip_end)
+    bounds[1, unseen] = bounds[0, unseen]
+    return bounds
+
+
+def _perspective(value, depth, error, smallest, largest, nearest, front, farthest, clip_start):
+    """Range of value / depth over the part of each triangle from `front` to `farthest`."""
+    low = np.where(smallest < 0, smallest / front, smallest / np.maximum(farthest, front))
+    high = np.where(largest > 0, largest / front, largest / np.maximum(farthest, front))
+    whole = nearest >= clip_start  # no corner near the eye plane: the corners' own quotients bound
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        quotient = value / depth
+        margin = error * (1 + np.abs(quotient)) / (depth - error)
+        low = np.where(whole, (quotient - margin).min(axis=0), low)
+        high = np.where(whole, (quotient + margin).max(axis=0), high)
+    return low, high
+
+
+def _pixel(value: NDArray, low: int, high: int, unknown: int) -> NDArray[np.int32]:
+    return np.where(np.isnan(value), unknown, np.clip(value, low, high)).astype(np.int32)
+
+
+def _everywhere(region: Region, count: int) -> NDArray[np.int32]:
+    box = np.array([region.x0, region.x1, region.y0, region.y1], np.int32)
+    return np.repeat(box[:, None], count, axis=1)
+
+
+def pairs(
+    bounds: NDArray[np.int32], tile: Region, limit: int
+) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+    """Spell out boxes as (pixel, triangle) pairs, at most about `limit` at a time.
+
+    Parameters
+    ----------
+    bounds : (4, m) int32
+        From :func:`pixel_bounds`.
+    tile : Region
+        Only pixels of it are proposed.
+
+    Yields
+    ------
+    pixel : (p,) int
+        Index into the tile, row by row from its lowest.
+    triangle : (p,) int
+        Column of `bounds`.
+    """
+    x0, x1 = np.maximum(bounds[0], tile.x0), np.minimum(bounds[1], tile.x1)
+    y0, y1 = np.maximum(bounds[2], tile.y0), np.minimum(bounds[3], tile.y1)
+    some = np.flatnonzero((x0 < x1) & (y0 < y1))
+    if not len(some):
+        return
+    # A run is one row of one box: first its triangle and row, then its pixels.
+    triangle, row = _spread(some, (y1 - y0)[some])
+    row += y0[triangle]
+    start = (row - tile.y0) * tile.width + (x0[triangle] - tile.x0)
+    length = (x1 - x0)[triangle]
+    ends = np.cumsum(length)
+    first = 0
+    while first < len(length):
+        done = ends[first - 1] if first else 0
+        last = max(first + 1, int(np.searchsorted(ends, done + limit, side="right")))
+        run, step = _spread(np.arange(first, last), length[first:last])
+        yield start[run] + step, triangle[run]
+        first = last
+
+
+def _spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Repeat each item `count` times; the second array numbers its copies from 0."""
+    repeated = np.repeat(items, counts)
+    ends = np.cumsum(counts)
+    return repeated, np.arange(len(repeated)) - np.repeat(ends - counts, counts)

@@ -1,0 +1,65 @@
+"""What the tracer gives back: one array for each output, row 0 at the bottom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera
+from .visibility import NOTHING
+
+
+@dataclass
+class Statistics:
+    """What the picture took."""
+
+    triangles: int = 0  # over all instances
+    pairs_tested: int = 0  # (ray, triangle)
+    seconds: float = 0.0
+
+
+@dataclass(eq=False)
+class Frame:
+    """A traced picture of h x w pixels: the camera's region.
+
+    `color` is the mean over the samples of a pixel; everything else is that of the ray through
+    the pixel's centre.
+    """
+
+    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
+    t: NDArray[np.float64]  # (h, w) ray parameter = depth along the view axis, metres; inf: no hit
+    position: NDArray[np.float64]  # (h, w, 3) world space, metres
+    normal: NDArray[np.float64]  # (h, w, 3) world space, unit length
+    barycentrics: NDArray[np.float64]  # (h, w, 3) weights of the triangle's corners
+    object_index: NDArray[np.int32]  # (h, w) index into Scene.objects; NOTHING: no hit
+    instance_index: NDArray[np.int32]  # (h, w) instances, then planes; NOTHING: no hit
+    triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
+    rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
+    cancelled: bool = False
+    statistics: Statistics = field(default_factory=Statistics)
+
+    @classmethod
+    def empty(cls, camera: Camera) -> Frame:
+        """Return a frame of the camera's region with no row done, its colour transparent."""
+        h, w = camera.region.height, camera.region.width
+        indices = [np.full((h, w), NOTHING, np.int32) for _ in range(3)]
+        return cls(
+            np.zeros((h, w, 4), np.float32), np.full((h, w), np.inf),
+            *(np.zeros((h, w, 3)) for _ in range(3)), *indices, np.zeros(h, bool),
+        )
+
+    @property
+    def depth(self) -> NDArray[np.float64]:
+        """Depth along the view axis, (h, w) metres, as Blender's Z pass has it; inf: no hit.
+
+        Directions are not normalised, so it is t itself, for both kinds of camera.
+        """
+        return self.t
+
+    def passes(self) -> dict[str, NDArray]:
+        """Return every output by name, in the order in which they are declared."""
+        names = ("color", "depth", "t", "position", "normal", "barycentrics", "object_index",
+                 "instance_index", "triangle_index", "rows_done")
+        return {name: getattr(self, name) for name in names}

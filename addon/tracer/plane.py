@@ -1,0 +1,34 @@
+"""Ray and infinite plane, by the textbook.
+
+The plane is (x - p) . n = 0. With x = o + t d: t = -((o - p) . n) / (d . n). If d . n = 0 the ray
+is parallel to the plane and does not hit it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .camera import Rays
+from .vector import Vectors, dot
+
+
+def intersect(rays: Rays, point: Vectors, normal: Vectors) -> NDArray[np.floating]:
+    """Return where the rays meet the plane.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays in world space.
+    point, normal : (3, 1)
+        World space; the normal need not be of unit length.
+
+    Returns
+    -------
+    t : (n,)
+        Ray parameter; NaN where the ray is parallel.
+    """
+    towards = dot(rays.directions, normal)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        t = -dot(rays.origins - point, normal) / towards
+    return np.where(towards == 0, np.nan, t)

@@ -1,0 +1,114 @@
+"""Scene + Settings -> Frame, tile by tile, with progress and cancelling.
+
+`steps` is the one loop: a render engine, a modal operator and a script drive it, each with its
+own way to show progress and to stop. A step takes some ten milliseconds.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from ..scene import Camera, Region, Scene
+from . import shading
+from .camera import camera_rays
+from .frame import Frame
+from .settings import Settings
+from .visibility import Hits, Plan, film_positions, plan, trace_tile
+
+ROWS = 32  # of a tile: enough to share work between rows, few enough that a cancelled picture has some
+
+
+def render(
+    scene: Scene,
+    settings: Settings | None = None,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Frame:
+    """Trace a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    settings : Settings, optional
+    progress : callable, optional
+        Called with the share of the work that is done, 0 to 1; 1 only at the end.
+    cancelled : callable, optional
+        Asked after every step; once it says True, the frame is returned with the rows that are
+        done, and marked `cancelled`.
+
+    Returns
+    -------
+    Frame
+    """
+    frame = Frame.empty(scene.camera)
+    for share in steps(scene, settings or Settings(), frame):
+        if progress:
+            progress(share)
+        if share < 1 and cancelled and cancelled():
+            frame.cancelled = True
+            break
+    return frame
+
+
+def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
+    """Trace a scene into an empty frame; yields the share of the work done after each step.
+
+    The caller stops by not asking for more, and then sets `frame.cancelled`.
+    """
+    began = time.perf_counter()
+    frame.statistics.triangles = scene.triangle_count
+    offsets = sample_offsets(settings.samples)
+    made = yield from plan(scene, settings, reach=max(abs(o) for pair in offsets for o in pair))
+    passes = [(0.0, 0.0)] + [o for o in offsets if settings.samples > 1]
+    all_tiles = tiles(scene.camera)
+    for number, tile in enumerate(all_tiles):
+        color = 0.0
+        for index, (dx, dy) in enumerate(passes):
+            for share, tested, hits in trace_tile(made, tile, dx, dy):
+                frame.statistics.pairs_tested += tested
+                frame.statistics.seconds = time.perf_counter() - began
+                done = (number + (index + share) / len(passes)) / len(all_tiles)
+                yield min(done, 0.999)  # 1 is for the picture that is whole
+            if index == 0:
+                _write(made, frame, tile, hits)
+            else:
+                color = color + shading.colors(scene, hits)
+        rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
+        if settings.samples > 1:
+            frame.color[rows] = (color / len(offsets)).reshape(frame.color[rows].shape)
+        frame.rows_done[rows] = True
+    frame.statistics.seconds = time.perf_counter() - began
+    yield 1.0
+
+
+def sample_offsets(samples: int) -> list[tuple[float, float]]:
+    """Return where `samples` x `samples` rays pass a pixel's centre, in pixels."""
+    at = [(i + 0.5) / samples - 0.5 for i in range(samples)]
+    return [(dx, dy) for dy in at for dx in at]
+
+
+def tiles(camera: Camera) -> list[Region]:
+    """Split the camera's region into bands of whole rows, from the lowest."""
+    r = camera.region
+    return [Region(r.x0, y, r.x1, min(y + ROWS, r.y1)) for y in range(r.y0, r.y1, ROWS)]
+
+
+def _write(plan: Plan, frame: Frame, tile: Region, hits: Hits) -> None:
+    """Enter what the rays through the pixels' centres met."""
+    scene = plan.scene
+    rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
+    rays = camera_rays(scene.camera, *film_positions(tile, 0.0, 0.0), plan.settings.precision.dtype)
+    for target, value in (
+        (frame.color, shading.colors(scene, hits)),
+        (frame.t, hits.t),
+        (frame.position, shading.positions(rays, hits)),
+        (frame.normal, shading.normals(scene, hits)),
+        (frame.barycentrics, hits.s.T),
+        (frame.object_index, shading.objects(scene, hits)),
+        (frame.instance_index, hits.instance),
+        (frame.triangle_index, hits.triangle),
+    ):
+        target[rows] = np.asarray(value).reshape(target[rows].shape)

@@ -1,0 +1,37 @@
+"""Vectors as component-first arrays, (3, n): the formulas read as in the textbook.
+
+Every operation is an explicit elementwise one. A matrix product or einsum may round the same
+vertex differently in arrays of different length, which would tear shared vertices apart.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
+
+
+def dot(a: Vectors, b: Vectors) -> NDArray[np.floating]:
+    """Return a . b, (n,), summed in the order x, y, z."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vectors, b: Vectors) -> Vectors:
+    """Return a x b, (3, n)."""
+    return np.stack(
+        (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    )
+
+
+def transform_points(target_from_source: NDArray[np.float64], points: Vectors) -> Vectors:
+    """Return the points in target space, (3, n) float64.
+
+    Parameters
+    ----------
+    target_from_source : (4, 4) or (4, 4, n) float64
+    points : (3, n)
+    """
+    m = target_from_source
+    x, y, z = np.asarray(points, dtype=np.float64)
+    return np.stack([m[i, 0] * x + m[i, 1] * y + m[i, 2] * z + m[i, 3] for i in range(3)])

@@ -1,0 +1,227 @@
+"""The nearest hit of every ray.
+
+In come rays and candidates; out go `Hits`: for each ray the nearest t within the clip range, and
+whose it is. Exactly equal t go to the lower (instance, triangle); planes come after instances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera, Region, Scene
+from . import plane
+from .camera import Rays, camera_rays
+from .candidates import Batch, batches, pairs, pixel_bounds, world_triangles
+from .settings import Settings
+from .triangle import METHODS
+from .vector import Vectors
+
+NOTHING = -1  # instance and triangle where a ray hits nothing
+
+PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
+_BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
+
+
+@dataclass(eq=False)
+class Hits:
+    """For n rays: `t` (n,) float64, inf where nothing is hit; `instance` and `triangle`, (n,) int32,
+    NOTHING where nothing is hit; `s`, the barycentrics (3, n) float64.
+
+    A hit on plane k has the instance `len(scene.instances) + k` and the triangle NOTHING.
+    """
+
+    t: NDArray[np.float64]
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+    s: NDArray[np.float64]
+
+    @classmethod
+    def none(cls, count: int) -> Hits:
+        """Return hits of `count` rays that have met nothing yet."""
+        return cls(
+            np.full(count, np.inf),
+            np.full(count, NOTHING, np.int32),
+            np.full(count, NOTHING, np.int32),
+            np.zeros((3, count)),
+        )
+
+    def take(self, index: NDArray) -> Hits:
+        """Return the hits of the rays at `index`."""
+        return Hits(self.t[index], self.instance[index], self.triangle[index], self.s[:, index])
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Batches of a scene with the rows that each may cover, for rays within `reach` pixels of
+    their pixel's centre.
+    """
+
+    scene: Scene
+    settings: Settings
+    reach: float
+    batches: list[Batch]
+    rows: list[tuple[int, int]]
+
+
+def plan(scene: Scene, settings: Settings, reach: float) -> Generator[float, None, Plan]:
+    """Look at every batch once; yields 0 while at work (nothing is traced yet), returns the plan."""
+    found, rows = [], []
+    for batch in batches(scene):
+        x0, x1, y0, y1 = _bounds(scene, settings, reach, batch)[1]
+        seen = (x0 < x1) & (y0 < y1)
+        if seen.any():
+            found.append(batch)
+            rows.append((int(y0[seen].min()), int(y1[seen].max())))
+        yield 0.0
+    return Plan(scene, settings, reach, found, rows)
+
+
+def _bounds(scene: Scene, settings: Settings, reach: float, batch: Batch):
+    triangles = world_triangles(scene, batch, settings.precision.dtype)
+    return triangles, pixel_bounds(scene.camera, triangles.corners, reach)
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """p pairs of a pixel and a triangle that may cover it.
+
+    `pixel` (p,) indexes the rays; `corners` is (3 corners, 3, p) in world space; `instance` and
+    `triangle`, (p,) int32, say whose they are.
+    """
+
+    pixel: NDArray[np.integer]
+    corners: NDArray[np.floating]
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+
+
+def candidates(
+    plan: Plan, tile: Region, wanted: NDArray[np.bool_] | None = None
+) -> Iterator[tuple[float, Pairs | None]]:
+    """Yield the share of the work that is done, and the next pairs of a tile (None: none yet).
+
+    Parameters
+    ----------
+    plan : Plan
+    tile : Region
+        Of n pixels, which the pairs index row by row from the lowest.
+    wanted : (n,) bool, optional
+        Only these pixels are proposed.
+    """
+    limit = max(1, min(PAIRS, plan.settings.memory // (4 * _BYTES_PER_PAIR)))
+    work = [b for b, (y0, y1) in zip(plan.batches, plan.rows, strict=True)
+            if y0 < tile.y1 and y1 > tile.y0]
+    for done, batch in enumerate(work):
+        triangles, bounds = _bounds(plan.scene, plan.settings, plan.reach, batch)
+        yield done / len(work), None
+        for pixel, row in pairs(bounds, tile, limit):
+            if wanted is not None:
+                keep = np.flatnonzero(wanted[pixel])
+                pixel, row = pixel[keep], row[keep]
+            corners = np.stack([corner.take(row, axis=1) for corner in triangles.corners])
+            yield done / len(work), Pairs(
+                pixel, corners, triangles.instance[row], triangles.triangle[row])
+
+
+def trace_tile(
+    plan: Plan, tile: Region, dx: float = 0.0, dy: float = 0.0
+) -> Iterator[tuple[float, int, Hits]]:
+    """Find the nearest hits of the rays of a tile, in small steps.
+
+    Parameters
+    ----------
+    plan : Plan
+    tile : Region
+        Of n pixels.
+    dx, dy : float
+        Where each ray passes its pixel's centre, in pixels; at most `plan.reach`.
+
+    Yields
+    ------
+    share : float
+        Of the work that is done, 0 to 1.
+    tested : int
+        (Ray, triangle) pairs tested since the last step.
+    hits : Hits
+        Of the n rays; complete at the last step.
+    """
+    rays = camera_rays(plan.scene.camera, *film_positions(tile, dx, dy), plan.settings.precision.dtype)
+    hits = Hits.none(tile.width * tile.height)
+    test_planes(plan.scene, rays, hits)
+    for share, some in candidates(plan, tile):
+        if some is not None:
+            test_pairs(plan.scene, plan.settings, rays, some, hits)
+        yield share, 0 if some is None else len(some.pixel), hits
+    yield 1.0, 0, hits
+
+
+def test_pairs(
+    scene: Scene, settings: Settings, rays: Rays, some: Pairs, hits: Hits, after: Hits | None = None
+) -> None:
+    """Enter into `hits` what the rays meet of these pairs, where it is the nearest so far.
+
+    With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
+    """
+    hit, t, s = METHODS[settings.method](rays.take(some.pixel), *some.corners)
+    found = np.flatnonzero(hit & within_clip(scene.camera, t))
+    _keep_nearest(hits, after, some.pixel[found], t[found], some.instance[found],
+                  some.triangle[found], s[:, found])
+
+
+def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None) -> None:
+    """Enter into `hits` where the rays meet the scene's infinite planes, as :func:`test_pairs`."""
+    dtype = rays.directions.dtype
+    for index, infinite in enumerate(scene.planes):
+        t = plane.intersect(rays, infinite.point[:, None].astype(dtype),
+                            infinite.normal[:, None].astype(dtype))
+        t = np.broadcast_to(t, hits.t.shape)
+        found = np.flatnonzero(within_clip(scene.camera, t))
+        _keep_nearest(hits, after, found, t[found],
+                      np.full(len(found), len(scene.instances) + index, np.int32),
+                      np.full(len(found), NOTHING, np.int32), np.zeros((3, len(found))))
+
+
+def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
+    """Return whether each t (n,), which is the depth, lies in the camera's clip range."""
+    with np.errstate(invalid="ignore"):
+        return (t >= camera.clip_start) & (t <= camera.clip_end)
+
+
+def film_positions(
+    tile: Region, dx: NDArray[np.floating] | float, dy: NDArray[np.floating] | float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
+
+    In pixels of the whole picture, row by row from the tile's lowest.
+    """
+    x, y = np.meshgrid(np.arange(tile.x0, tile.x1), np.arange(tile.y0, tile.y1))
+    return x.ravel() + 0.5 + dx, y.ravel() + 0.5 + dy
+
+
+def _keep_nearest(hits: Hits, after: Hits | None, pixel, t, instance, triangle, s: Vectors) -> None:
+    """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
+    if after is not None:
+        behind = np.flatnonzero(_precedes(after, pixel, t, instance, triangle))
+        pixel, t, instance, triangle, s = (
+            pixel[behind], t[behind], instance[behind], triangle[behind], s[:, behind])
+    if not len(pixel):
+        return
+    order = np.lexsort((triangle, instance, t, pixel))
+    sorted_pixel = pixel[order]
+    order = order[np.flatnonzero(np.r_[True, sorted_pixel[1:] != sorted_pixel[:-1]])]
+    pixel, t, instance, triangle = pixel[order], t[order], instance[order], triangle[order]
+    nearer = ~_precedes(hits, pixel, t, instance, triangle)
+    where = pixel[nearer]
+    hits.t[where], hits.instance[where] = t[nearer], instance[nearer]
+    hits.triangle[where], hits.s[:, where] = triangle[nearer], s[:, order[nearer]]
+
+
+def _precedes(first: Hits, pixel, t, instance, triangle) -> NDArray[np.bool_]:
+    """Whether `first` comes before each hit of its pixel, in the order of t, instance, triangle."""
+    t0, i0, k0 = first.t[pixel], first.instance[pixel], first.triangle[pixel]
+    same = t0 == t
+    return (t0 < t) | (same & ((i0 < instance) | ((i0 == instance) & (k0 < triangle))))
