@@ -13,6 +13,7 @@ from typing import Any
 import bpy
 
 from ..scene import GREY, SceneError
+from .colors import WITHOUT_ATTRIBUTE
 
 SLOTS = 16  # material slots that are told apart; a mesh with more shows the last of these
 
@@ -56,8 +57,9 @@ def _emission(material: Any, scene: Any) -> None:
     elif shading.color_type == "OBJECT":
         tree.links.new(_attribute(tree, "OBJECT", "color").outputs["Color"], color)
     elif shading.color_type == "VERTEX":
-        by_object = _attribute(tree, "OBJECT", "color").outputs["Color"]
-        tree.links.new(_where_found(tree, tree.nodes.new("ShaderNodeVertexColor"), by_object), color)
+        without = (_material_color(tree, scene) if WITHOUT_ATTRIBUTE == "MATERIAL"
+                   else _attribute(tree, "OBJECT", "color").outputs["Color"])
+        tree.links.new(_where_found(tree, tree.nodes.new("ShaderNodeVertexColor"), without), color)
     else:
         tree.links.new(_material_color(tree, scene), color)
 

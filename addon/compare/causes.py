@@ -25,6 +25,7 @@ from ..tracer.render import tiles
 from ..tracer.settings import Settings
 from ..tracer.visibility import NOTHING, Hits, plan
 from .bounds import SNAPPING, depth_resolution, pixel_error, view_error
+from .coverage import coverage
 
 # Blender hands its viewport's colours over as half floats: 11 bits, so 1 reads 0.9995 to 1.
 # Two such roundings of a value up to 1.
@@ -197,6 +198,15 @@ def _edges(scene, probe: Probe, wanted, picture, band, settle: _Settler) -> Iter
         yield
         if not settle.open.any():
             return
+    # What no sample finds: a triangle that comes that near, before any that is surely covered.
+    may = coverage(probe, width)
+    visible = may.hits.t <= may.sure[may.pixel]
+    same = visible & ~differing(shading.colors(scene, may.hits), shown[may.pixel])
+    nearest = np.full(len(width), np.inf)
+    np.minimum.at(nearest, may.pixel[same], may.distance[same])
+    nothing = np.isinf(may.sure) & ~differing(np.broadcast_to(scene.background, shown.shape), shown)
+    nearest[nothing] = np.minimum(nearest, width)[nothing]
+    settle(_set_out(nearest < np.inf, wanted), Cause.EDGE, _set_out(nearest, wanted), band)
 
 
 def _depth_ties(scene, probe: Probe, wanted, picture, frame: Frame, rows, settle) -> Iterator[None]:

@@ -74,6 +74,19 @@ def camera_rays(
     return Rays(origin, x * right + y * up + forward)
 
 
+def film_of(camera: Camera, points: Vectors) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray]:
+    """Return where world points (3, n) appear on the film, in pixels, and their depth, (n,) each.
+
+    What a perspective camera does not have in front of it appears nowhere: NaN.
+    """
+    (x, y, depth), _ = project(camera, points)
+    if not camera.orthographic:
+        ahead = np.where(depth > 0, depth, np.nan)
+        x, y = x / ahead, y / ahead
+    width, height = pixel_size(camera)
+    return (x - camera.window.left) / width, (y - camera.window.bottom) / height, depth
+
+
 def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:
     """Return camera-space coordinates of world points, and how far rounding may have moved them.
 

@@ -1,0 +1,115 @@
+"""Which triangles may cover a pixel's sample, and which surely do, if that sample may lie off.
+
+A rasteriser rounds each triangle's corners on its own. A sliver of a thousandth of a pixel lies
+between any samples that one could try, and is drawn all the same; and where a triangle has been
+clipped, a crack may open along an edge that it shared. So the triangles themselves are asked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..tracer.camera import camera_rays, film_of
+from ..tracer.probe import Probe
+from ..tracer.triangle import METHODS
+from ..tracer.visibility import Hits, Pairs, test_pairs, test_planes, within_clip
+
+INWARD = 2.0**-20  # of the way to the triangle's middle, so that an aimed ray does not pass its rim
+
+# A triangle is only taken to have been missed near its edge where it is larger than this, in
+# widths of the band. Else every triangle of a fine mesh would be near its edge, and a fault could
+# hide behind that.
+LARGE = 16
+
+
+@dataclass(eq=False)
+class Coverage:
+    """For n pixels: `hits` are those of k triangles that may cover a pixel, each where it comes
+    nearest to the centre, at `distance` (k,) pixels; `pixel` (k,) says which.
+
+    `sure` (n,) is the depth of the nearest surface that Blender's sample cannot miss; inf for none.
+    """
+
+    pixel: NDArray[np.integer]
+    distance: NDArray[np.float64]
+    hits: Hits
+    sure: NDArray[np.float64]
+
+
+def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
+    """Return what may cover the pixels of a probe, whose samples lie within `band` (n,) pixels."""
+    scene, settings = probe.plan.scene, probe.plan.settings
+    dtype = settings.precision.dtype
+    sure = Hits.none(len(band))
+    centres = camera_rays(scene.camera, probe.px, probe.py, dtype)
+    test_planes(scene, centres, sure)
+    found = []
+    for some in probe.chunks:
+        corners = _around_centre(probe, some)
+        nearest, rim = nearest_to_origin(*corners)
+        own = band[some.pixel]
+        longest = np.max([np.hypot(*(corners[i] - corners[i - 1])) for i in range(3)], axis=0)
+        with np.errstate(invalid="ignore"):
+            certain = np.flatnonzero((rim > own) | (longest < LARGE * own) | np.isnan(rim))
+            near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
+        test_pairs(scene, settings, centres, _take(some, certain), sure)
+        middle = sum(corners)[:, near] / 3
+        x, y = nearest[:, near] + INWARD * (middle - nearest[:, near])
+        pixel = some.pixel[near]
+        rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
+        hit, t, s = METHODS[settings.method](rays, *some.corners[..., near])
+        hit = np.flatnonzero(hit & within_clip(scene.camera, t))
+        found.append((pixel[hit], np.maximum(np.abs(x), np.abs(y))[hit], t[hit],
+                      some.instance[near][hit], some.triangle[near][hit], s[:, hit]))
+    if not found:
+        return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure.t)
+    pixel, distance, t, instance, triangle, s = (
+        np.concatenate(c, axis=-1) for c in zip(*found, strict=True))
+    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure.t)
+
+
+def _take(some: Pairs, index: NDArray[np.integer]) -> Pairs:
+    return Pairs(some.pixel[index], some.corners[..., index], some.instance[index], some.triangle[index])
+
+
+def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
+    """Corners on the film, each (2, p) pixels from the pixel's centre; NaN behind the eye."""
+    out = []
+    for corner in some.corners:
+        x, y, _ = film_of(probe.plan.scene.camera, corner.astype(np.float64))
+        out.append(np.stack((x - probe.px[some.pixel], y - probe.py[some.pixel])))
+    return out
+
+
+def nearest_to_origin(
+    a: NDArray, b: NDArray, c: NDArray
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the point of each triangle (a, b, c), (2, n) each, that lies nearest to the origin.
+
+    Returns
+    -------
+    point : (2, n) float64
+    rim : (n,) float64
+        Distance of the origin from the triangle's edges; negative where it lies outside. NaN where
+        a corner is.
+    """
+    best, best_square = np.zeros_like(a), np.full(a.shape[1], np.inf)
+    sides = []
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for p, q in ((a, b), (b, c), (c, a)):
+            edge = q - p
+            length = (edge * edge).sum(axis=0)
+            along = np.where(length > 0, -(p * edge).sum(axis=0) / length, 0.0)
+            point = p + np.clip(along, 0, 1) * edge
+            square = (point * point).sum(axis=0)
+            nearer = square < best_square
+            best = np.where(nearer, point, best)
+            best_square = np.where(nearer, square, best_square)
+            sides.append(p[0] * q[1] - p[1] * q[0])
+        inside = (np.min(sides, axis=0) > 0) | (np.max(sides, axis=0) < 0)
+    unknown = np.isnan(a + b + c).any(axis=0)
+    rim = np.sqrt(best_square) * np.where(inside, 1, -1)
+    return np.where(unknown, np.nan, np.where(inside, 0.0, best)), np.where(unknown, np.nan, rim)
