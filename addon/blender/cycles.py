@@ -16,6 +16,7 @@ from ..scene import GREY, SceneError
 from .colors import WITHOUT_ATTRIBUTE
 
 SLOTS = 16  # material slots that are told apart; a mesh with more shows the last of these
+FILTER_WIDTH = 0.01  # pixels, the least there is: every sample lies near its pixel's centre
 
 
 @contextmanager
@@ -34,7 +35,7 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.pixel_filter_type = "BOX"
-    scene.cycles.filter_width = 0.01  # pixels: every sample lies in its pixel's centre
+    scene.cycles.filter_width = FILTER_WIDTH
     material = bpy.data.materials.new("Reference Tracer Constant")
     try:
         _emission(material, scene)

@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 from ..scene import Camera
 from . import cycles
 
-SOURCES = ("viewport", "workbench", "cycles")
+# Where each samples a pixel: at most this far from its centre, in pixels.
+SAMPLE_RADIUS = {"viewport": 0.0, "workbench": 0.0, "cycles": cycles.FILTER_WIDTH / 2}
 
 
 def choose_source(judge: str) -> str:
-    """Return which of SOURCES the user's choice of judge means here."""
+    """Return which picture, a key of SAMPLE_RADIUS, the user's choice of judge means here."""
     if judge == "AUTO":
         return "workbench" if bpy.app.background else "viewport"
     return judge.lower()

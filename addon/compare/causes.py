@@ -86,6 +86,7 @@ def find_causes(
     frame: Frame,
     picture: NDArray[np.float32],
     unmodelled: Sequence[Unmodelled] = (),
+    sample_radius: float = 0.0,
 ) -> Generator[float, None, Causes]:
     """Give every pixel of a picture its cause.
 
@@ -97,6 +98,8 @@ def find_causes(
         Blender's.
     unmodelled : sequence of Unmodelled
         From the manifest.
+    sample_radius : float
+        How far from a pixel's centre Blender samples it on purpose, in pixels.
 
     Yields
     ------
@@ -105,7 +108,7 @@ def find_causes(
     """
     shape = frame.t.shape
     out = Causes(np.zeros(shape, np.uint8), np.full(shape, np.nan), np.full(shape, np.nan))
-    band = sample_band(scene, frame)
+    band = sample_band(scene, frame) + sample_radius
     open_ = differing(frame.color, picture)
     settle = _Settler(out, open_)
     settle(~np.broadcast_to(frame.rows_done[:, None], shape), Cause.NOT_TRACED)
@@ -181,7 +184,7 @@ def _look_again(
             continue
         part = settle.rows(rows)
         preparing = Probe.of(made, tile, wanted.ravel())
-        probe = yield from _scaled(preparing, number / len(all_tiles), 0.5 / len(all_tiles))
+        probe = yield from scaled(preparing, number / len(all_tiles), 0.5 / len(all_tiles))
         for _ in _edges(scene, probe, wanted, picture[rows], band[rows], part):
             yield (number + 0.5) / len(all_tiles)
         for _ in _depth_ties(scene, probe, wanted, picture[rows], frame, rows, part):
@@ -236,7 +239,7 @@ def _set_out(values: NDArray, where: NDArray[np.bool_]) -> NDArray:
     return out
 
 
-def _scaled(work: Generator[float, None, T], start: float, size: float) -> Generator[float, None, T]:
+def scaled(work: Generator[float, None, T], start: float, size: float) -> Generator[float, None, T]:
     """Run `work` as the part of a larger work that begins at `start` and has this size."""
     while True:
         try:

@@ -12,13 +12,16 @@ from numpy.typing import NDArray
 from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.frame import Frame
+from ..tracer.render import steps
 from ..tracer.settings import Settings
 from . import metrics
-from .causes import Cause, Causes, find_causes
+from .causes import Cause, Causes, find_causes, scaled
 
 SCHEMA = "reference_tracer.comparison/1"
 
 # What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
+_TRACING = 0.7  # of the work, roughly
+
 EXIT_CODES = {"agree": 0, "warnings": 1, "differences": 2, "cancelled": 1}
 
 
@@ -35,7 +38,7 @@ class Comparison:
     settings: Settings
     frame: Frame
     picture: NDArray[np.float32]  # (h, w, 4) linear RGBA: Blender's
-    blender: dict[str, Any]  # version, source, settings used
+    blender: dict[str, Any]  # version, source, sample radius, settings used
     causes: Causes
 
     @property
@@ -126,14 +129,22 @@ def compare(
             f"Blender's picture has {picture.shape[1]} x {picture.shape[0]} pixels, the traced one "
             f"{frame.color.shape[1]} x {frame.color.shape[0]}."
         )
-    causes = yield from find_causes(scene, settings, frame, picture, manifest.unmodelled)
+    causes = yield from find_causes(
+        scene, settings, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0))
     return Comparison(scene, manifest, settings, frame, picture, blender, causes)
 
 
-def finish(generator: Generator[float, None, Comparison]) -> Comparison:
-    """Run a comparison through."""
-    while True:
-        try:
-            next(generator)
-        except StopIteration as stop:
-            return stop.value
+def trace_and_compare(
+    scene: Scene, manifest: Manifest, settings: Settings, picture: NDArray[np.float32],
+    blender: dict[str, Any],
+) -> Generator[float, None, Comparison]:
+    """Trace a scene and compare it with Blender's picture, in small steps.
+
+    Yields the share of the work done; the caller stops by not asking for more.
+    """
+    frame = Frame.empty(scene.camera)
+    for share in steps(scene, settings, frame):
+        yield _TRACING * share
+    comparing = compare(scene, manifest, settings, frame, picture, blender)
+    return (yield from scaled(comparing, _TRACING, 1 - _TRACING))
+

@@ -7,7 +7,8 @@ own way to show progress and to stop. A step takes some ten milliseconds.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from typing import TypeVar
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from .camera import camera_rays
 from .frame import Frame
 from .settings import Settings
 from .visibility import Hits, Plan, film_positions, plan, trace_tile
+
+T = TypeVar("T")
 
 ROWS = 32  # of a tile: enough to share work between rows, few enough that a cancelled picture has some
 
@@ -82,6 +85,19 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
         frame.rows_done[rows] = True
     frame.statistics.seconds = time.perf_counter() - began
     yield 1.0
+
+
+def result_of(
+    work: Generator[float, None, T], progress: Callable[[float], None] | None = None
+) -> T:
+    """Run work that yields the share that is done, telling `progress`; returns its result."""
+    while True:
+        try:
+            share = next(work)
+        except StopIteration as stop:
+            return stop.value
+        if progress:
+            progress(share)
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:

@@ -1,0 +1,148 @@
+"""Trace and Compare, up to where Blender is no longer needed, and from where it is again.
+
+`gather` makes everything that only Blender can give, in one uninterrupted call. What it returns
+holds no reference to Blender's data, so that tracing may go on while the user works.
+"""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..compare.comparison import Comparison, trace_and_compare
+from ..manifest import Manifest
+from ..report import files
+from ..scene import Scene
+from ..tracer.render import result_of
+from ..tracer.settings import Settings
+from . import images
+from .engine import export_for_render
+from .export import export
+from .planes import stand_ins
+from .viewport import (
+    SAMPLE_RADIUS,
+    choose_source,
+    picture,
+    prepare,
+    temporary_scene,
+    use_view_shading,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Gathered:
+    """The exported scene, how to trace it, and Blender's own picture of it."""
+
+    scene: Scene
+    manifest: Manifest
+    settings: Settings
+    picture: NDArray[np.float32]
+    blender: dict[str, Any]
+
+    def steps(self):
+        """Return the work that is left: yields shares of it, returns the `Comparison`."""
+        return trace_and_compare(self.scene, self.manifest, self.settings, self.picture, self.blender)
+
+
+def gather(
+    context: Any, settings: Settings | None = None, judge: str | None = None, as_is: bool | None = None
+) -> Gathered:
+    """Export the context's scene and view layer, and have Blender draw them.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    settings, judge, as_is : optional
+        In place of what the scene stores.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    RuntimeError
+        If Blender makes no picture of it.
+    """
+    scene, layer = context.scene, context.view_layer.name
+    stored = scene.reference_tracer
+    settings = settings or stored.settings()
+    like_for_like = stored.shading == "LIKE_FOR_LIKE" if as_is is None else not as_is
+    source = choose_source(judge or stored.judge)
+    view_shading = None if like_for_like or source != "viewport" else _solid_shading(context)
+    with temporary_scene(scene) as tmp:
+        if view_shading:
+            use_view_shading(tmp, view_shading)
+        used = prepare(tmp, like_for_like)
+        if source == "viewport":
+            with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
+                exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
+        else:
+            exported, manifest = export_for_render(tmp, layer)
+        with stand_ins(tmp, layer, exported):
+            drawn = picture(tmp, layer, source, exported.camera, like_for_like)
+    manifest = _named_as(manifest, scene)
+    blender = {"version": bpy.app.version_string, "source": source,
+               "sample_radius": SAMPLE_RADIUS[source], "settings": used}
+    return Gathered(exported, manifest, settings, drawn, blender)
+
+
+def compare_to_folder(
+    context: Any, directory: str, progress: Callable[[float], None] | None = None, **choices: Any
+) -> Comparison:
+    """Gather, trace, compare, and write the files; on failure the JSON says why.
+
+    Raises what :func:`gather` and `compare.compare` raise, and OSError.
+    """
+    # A path as Blender writes it, // for beside the file, or as the shell does.
+    directory = bpy.path.abspath(directory)
+    try:
+        comparison = result_of(gather(context, **choices).steps(), progress)
+        files.write(directory, comparison, images.save_png)
+        if progress:
+            progress(1.0)
+        return comparison
+    except Exception as error:
+        try:
+            files.write_failure(Path(directory), error)
+        except OSError:
+            traceback.print_exc()  # the first error is the one to raise
+        raise
+
+
+def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
+    """Export the context's scene as a render has it, with the settings that it stores.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    scene = context.scene
+    with temporary_scene(scene) as tmp:
+        exported, manifest = export_for_render(tmp, context.view_layer.name)
+    return exported, _named_as(manifest, scene), scene.reference_tracer.settings()
+
+
+def _solid_shading(context: Any) -> Any:
+    """Return the shading of the window's first 3D view, if that is a solid one."""
+    if context.window:
+        for area in context.window.screen.areas:
+            if area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
+                return area.spaces.active.shading
+    return None
+
+
+def _named_as(manifest: Manifest, scene: Any) -> Manifest:
+    """Name the user's scene where the manifest has the temporary copy."""
+    values = vars(manifest) | {"scene": scene.name}
+    copy = f"scene '{manifest.scene}'"
+    values["unmodelled"] = tuple(
+        type(u)(f"scene '{scene.name}'" if u.object == copy else u.object, u.feature, u.detail, u.bounds)
+        for u in manifest.unmodelled)
+    return Manifest(**values)

@@ -1,0 +1,169 @@
+"""The interface: in the Render properties, in the 3D view's sidebar, and on objects."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from . import results
+from .engine import ENGINE
+from .operators import REFERENCE_TRACER_OT_compare
+
+# Blender's own panels that this engine has no use for.
+_NOT_OURS = {"RENDER_PT_simplify", "RENDER_PT_freestyle", "RENDER_PT_stamp", "VIEWLAYER_PT_filter",
+             "VIEWLAYER_PT_layer_passes"}
+# Those of Workbench that say which colours are shown.
+_WORKBENCHS = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film"}
+
+
+class _Main:
+    bl_label = "Reference Tracer"
+
+    def draw(self, context: Any) -> None:
+        """Draw the button and what it will do."""
+        layout, stored = self.layout, context.scene.reference_tracer
+        layout.operator(REFERENCE_TRACER_OT_compare.bl_idname, icon="RENDER_RESULT")
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        column = layout.column()
+        column.prop(stored, "method")
+        column.prop(stored, "precision")
+        column.prop(stored, "samples")
+        column = layout.column()
+        column.prop(stored, "judge")
+        column.prop(stored, "shading")
+
+
+class _Result:
+    bl_label = "Comparison"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show only where there is one."""
+        return results.latest(context.scene) is not None
+
+    def draw(self, context: Any) -> None:
+        """Draw the numbers."""
+        comparison = results.latest(context.scene).comparison
+        pixels, measured = comparison.pixels, comparison.metrics
+        icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
+        self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
+        rows = [("Agree", pixels["agree"]), ("Differ", pixels["differ"])]
+        rows += [(f"  {name.replace('_', ' ').capitalize()}", n)
+                 for name, n in pixels["by_cause"].items() if n]
+        rows = [(label, f"{n:,} px") for label, n in rows]
+        psnr = measured["psnr"]
+        x, y = measured["largest_difference"]["pixel"]
+        rows += [
+            ("RMSE", f"{measured['rmse']:.3g}"),
+            ("PSNR", "infinite" if psnr is None else f"{psnr:.1f} dB"),
+            ("SSIM", f"{measured['ssim']:.6f}"),
+            ("Largest Difference", f"{measured['largest_difference']['value']:.3g} at ({x}, {y})"),
+            ("Compared With", comparison.blender["source"].capitalize()),
+            ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
+        ]
+        _table(self.layout, rows)
+
+
+class _Export:
+    bl_label = "Export"
+    bl_options = {"DEFAULT_CLOSED"}
+    poll = _Result.poll
+
+    def draw(self, context: Any) -> None:
+        """Draw the manifest: what was exported, skipped, not modelled."""
+        manifest = results.latest(context.scene).comparison.manifest
+        column = self.layout.column(align=True)
+        column.scale_y = 0.8
+        for line in manifest.lines():
+            warning = any(word in line for word in ("not modelled", "left out"))
+            column.label(text=line.strip(), icon="ERROR" if warning else "NONE")
+
+
+def _table(layout: Any, rows: list[tuple[str, str]]) -> None:
+    split = layout.split(factor=0.45)
+    names, values = split.column(align=True), split.column(align=True)
+    for name, value in rows:
+        names.label(text=name)
+        values.label(text=value)
+
+
+class _Properties:
+    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "render"
+
+
+class _Sidebar:
+    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Reference Tracer"
+
+
+class RENDER_PT_reference_tracer(_Properties, _Main, bpy.types.Panel):
+    pass
+
+
+class RENDER_PT_reference_tracer_result(_Properties, _Result, bpy.types.Panel):
+    bl_parent_id = "RENDER_PT_reference_tracer"
+
+
+class RENDER_PT_reference_tracer_export(_Properties, _Export, bpy.types.Panel):
+    bl_parent_id = "RENDER_PT_reference_tracer"
+
+
+class VIEW3D_PT_reference_tracer(_Sidebar, _Main, bpy.types.Panel):
+    pass
+
+
+class VIEW3D_PT_reference_tracer_result(_Sidebar, _Result, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_reference_tracer"
+
+
+class VIEW3D_PT_reference_tracer_export(_Sidebar, _Export, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_reference_tracer"
+
+
+class OBJECT_PT_reference_tracer(bpy.types.Panel):
+    bl_label = "Reference Tracer"
+    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "object"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show on every object."""
+        return context.object is not None
+
+    def draw(self, context: Any) -> None:
+        """Draw what the object is to the tracer."""
+        self.layout.use_property_split = True
+        self.layout.prop(context.object.reference_tracer, "infinite_plane")
+
+
+CLASSES = (
+    RENDER_PT_reference_tracer, RENDER_PT_reference_tracer_result, RENDER_PT_reference_tracer_export,
+    VIEW3D_PT_reference_tracer, VIEW3D_PT_reference_tracer_result, VIEW3D_PT_reference_tracer_export,
+    OBJECT_PT_reference_tracer,
+)
+
+
+def _shared_panels() -> list[Any]:
+    """Return Blender's own panels that also speak of this engine: format, camera, colours."""
+    return [
+        panel for panel in bpy.types.Panel.__subclasses__()
+        if panel.__name__ in _WORKBENCHS
+        or ("BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in _NOT_OURS)
+    ]
+
+
+def register() -> None:
+    """Register the panels."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    for panel in _shared_panels():
+        panel.COMPAT_ENGINES.add(ENGINE)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    for panel in bpy.types.Panel.__subclasses__():
+        getattr(panel, "COMPAT_ENGINES", set()).discard(ENGINE)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,239 @@
+"""The command `reftrace`: the tracer and the comparison outside Blender's window.
+
+A .blend is opened with the `bpy` module, in the one function here that imports it; scenes and
+meshes from other files need no Blender.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import __version__, images
+from .arguments import (
+    EXIT_CODES,
+    INPUT_ERROR,
+    Parser,
+    add_judge,
+    add_settings,
+    settings_from,
+)
+from .scene import Camera, Scene, SceneError, ViewWindow
+from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, save_scene, scene_of_meshes
+from .tracer.render import render
+from .tracer.settings import Settings
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run `reftrace`; returns the exit code."""
+    options = _parser().parse_args(argv)
+    try:
+        return options.run(options)
+    except (SceneError, OSError, images.MissingLibraryError) as error:
+        print(f"reftrace: {error}", file=sys.stderr)
+        return INPUT_ERROR
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = Parser("reftrace", epilog=EXIT_CODES, description=(
+        "Trace a scene with the textbook's plane and triangle maths, and compare what Blender "
+        "shows with it, pixel by pixel."))
+    parser.add_argument("--version", action="version", version=f"reftrace {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
+
+    def command(name: str, run: Callable, text: str, example: str, source: str) -> Any:
+        sub = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".",
+                                  epilog=f"example:\n  {example}\n\n{EXIT_CODES}")
+        sub.set_defaults(run=run)
+        sub.add_argument("scene", type=Path, metavar="SCENE", help=source)
+        return sub
+
+    sources = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
+    sub = command("compare", _compare, "trace a .blend and compare it with Blender's own picture",
+                  "reftrace compare scene.blend --out out/", "scene.blend")
+    sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
+    add_settings(sub)
+    add_judge(sub)
+
+    sub = command("trace", _trace, "trace a scene or a mesh into a picture",
+                  "reftrace trace bunny.ply --out bunny.png --width 800", sources)
+    sub.add_argument("--out", required=True, type=Path, metavar="PICTURE",
+                     help="picture.png (what a screen shows) or picture.exr (every output)")
+    add_settings(sub)
+    _add_camera(sub)
+
+    sub = command("trade", _trade, "measure seconds and wrong pixels of every method and precision",
+                  "reftrace trade sample_scenes/suzanne.blend --width 160", sources)
+    _add_camera(sub, width=160, height=90)
+
+    sub = command("export", _export, "export a .blend to a scene that needs no Blender",
+                  "reftrace export scene.blend --out scene.npz", "scene.blend")
+    sub.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file to write")
+    return parser
+
+
+def _add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int = 540) -> None:
+    group = parser.add_argument_group(
+        "camera of a mesh (by default one that frames it; a scene has its own)")
+    group.add_argument("--width", type=int, metavar="PIXELS", help=f"default {width}")
+    group.add_argument("--height", type=int, metavar="PIXELS", help=f"default {height}")
+    group.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"), help="its position")
+    group.add_argument("--target", type=float, nargs=3, metavar=("X", "Y", "Z"), default=(0, 0, 0),
+                       help="where it looks (default the origin); Z is up")
+    group.add_argument("--angle", type=float, metavar="DEGREES", default=50.0,
+                       help="vertical angle of view (default 50)")
+    group.add_argument("--ortho-scale", type=float, metavar="METRES",
+                       help="height of the picture of an orthographic camera, in place of --angle")
+    parser.set_defaults(default_size=(width, height))
+
+
+def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | None:
+    if options.eye is None:
+        return None
+    if not 0 < options.angle < 180:
+        raise SceneError(f"--angle is {options.angle:g}; it must be between 0 and 180 degrees.")
+    eye, target = np.array(options.eye), np.array(options.target, float)
+    backward = eye - target
+    up = np.array((0.0, 1.0, 0.0) if not backward[:2].any() else (0.0, 0.0, 1.0))
+    right = np.cross(up, backward)
+    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
+    lengths = np.linalg.norm(axes, axis=0)
+    if not lengths.all():
+        raise SceneError("--eye and --target are the same point: move one of them.")
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
+    half = options.ortho_scale / 2 if options.ortho_scale else np.tan(np.radians(options.angle) / 2)
+    distance = float(np.linalg.norm(backward))
+    return Camera(matrix, ViewWindow(-half * width / height, half * width / height, -half, half),
+                  width, height, orthographic=options.ortho_scale is not None,
+                  clip_start=distance * 1e-3, clip_end=distance * 1e3, name="--eye")
+
+
+def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
+    """Return the scene of a file, with the settings that it stores."""
+    path = options.scene
+    if not path.is_file():
+        raise SceneError(f"there is no file '{path}'")
+    suffix = path.suffix.lower()
+    if suffix == ".npz":
+        return load_scene(path), Settings()
+    if suffix in MESH_SUFFIXES:
+        width, height = (getattr(options, name) or default for name, default
+                         in zip(("width", "height"), options.default_size, strict=True))
+        meshes = load_meshes(path)
+        return scene_of_meshes(meshes, _camera(options, width, height), width, height), Settings()
+    if suffix == ".blend":
+        with _open_blend(path) as blender:
+            from .blender.compare import export_open_file
+
+            scene, manifest, settings = export_open_file(blender.context)
+        print(*manifest.lines(), sep="\n")
+        return scene, settings
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+
+
+@contextmanager
+def _open_blend(path: Path) -> Iterator[Any]:
+    """Open a .blend in this process, with the add-on registered; gives bpy."""
+    if not path.is_file():
+        raise SceneError(f"there is no file '{path}'")
+    try:
+        import bpy
+    except ImportError as error:
+        raise SceneError(f"a .blend needs Blender as a module: pip install "
+                         f"'reference_tracer[blender]' ({error})") from error
+    from .blender import registration
+
+    registration.register()
+    try:
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+        except RuntimeError as error:
+            raise SceneError(f"'{path}' cannot be opened: {error}") from error
+        yield bpy
+    finally:
+        registration.unregister()
+
+
+def _compare(options: argparse.Namespace) -> int:
+    if options.scene.suffix.lower() != ".blend":
+        raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
+    with _open_blend(options.scene):
+        from .blender.commands import compare_open_file
+
+        with _progress() as progress:
+            return compare_open_file(options, progress)
+
+
+def _trace(options: argparse.Namespace) -> int:
+    suffix = options.out.suffix.lower()
+    if suffix not in (".png", ".exr"):
+        raise SceneError(f"'{options.out}' must end in .png or .exr")
+    scene, stored = _load(options)
+    settings = settings_from(options, stored)
+    with _progress() as progress:
+        frame = render(scene, settings, progress)
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    if suffix == ".png":
+        images.save_png(options.out, images.to_display(frame.color))
+    else:
+        images.save_exr(options.out, frame.passes())
+    s = frame.statistics
+    print(f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
+          f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({settings.method.value}, "
+          f"{settings.precision.value}): {options.out}")
+    return 0
+
+
+def _trade(options: argparse.Namespace) -> int:
+    from .study.judge import TooLargeError
+    from .study.tradeoff import measure, table
+
+    scene, _ = _load(options)
+    try:
+        with _progress() as progress:
+            rows = measure(scene, options.width or options.default_size[0], progress)
+    except TooLargeError as error:
+        raise SceneError(str(error)) from error
+    print(table(rows))
+    return 0
+
+
+def _export(options: argparse.Namespace) -> int:
+    if options.out.suffix.lower() != ".npz":
+        raise SceneError(f"'{options.out}' must end in .npz")
+    options.default_size = (0, 0)
+    scene, _ = _load(options)
+    options.out.parent.mkdir(parents=True, exist_ok=True)
+    save_scene(options.out, scene)
+    print(f"{scene.triangle_count:,} triangles: {options.out}")
+    return 0
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[float], None]]:
+    """Show a bar on standard error, if it is a terminal and tqdm is there."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        if sys.stderr.isatty():
+            print("reftrace: no progress bar without tqdm: pip install "
+                  "'reference_tracer[progress]'", file=sys.stderr)
+        yield lambda share: None
+        return
+    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
+    with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
+        def show(share: float) -> None:
+            bar.update(share - bar.n)
+
+        yield show
+
+
+if __name__ == "__main__":
+    sys.exit(main())

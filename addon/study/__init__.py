@@ -1,0 +1,1 @@
+"""Measurements of the tracer itself: what each choice costs, and what it gets wrong."""
