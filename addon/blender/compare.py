@@ -84,7 +84,7 @@ def gather(
                 exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
         else:
             exported, manifest = export_for_render(tmp, layer)
-        with stand_ins(tmp, layer, exported):
+        with stand_ins(tmp, layer, exported) as exported:
             drawn = picture(tmp, layer, source, exported.camera, like_for_like)
     manifest = _named_as(manifest, scene)
     blender = {"version": bpy.app.version_string, "source": source,

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Plane, Scene
 from ..tracer.camera import pixel_size
+from .colors import random_color
 
 BEYOND = 2  # pixels that a polygon reaches beyond the picture, so that its rim is never seen
 DEPTHS = 0.99, 1.01  # of the clip range, for the same reason: Blender's own clipping decides
@@ -60,8 +62,11 @@ def _view_volume(camera: Camera) -> NDArray[np.float64]:
 
 
 @contextmanager
-def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[None]:
+def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
     """Show polygons in a temporary Blender scene in place of its infinite planes.
+
+    Gives the exported scene as it is to be compared: random colours come from names, so there the
+    planes take the colours that their polygons have.
 
     Parameters
     ----------
@@ -74,6 +79,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[None]:
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     collections: list[Any] = []
     objects: list[Any] = []
+    planes: list[Plane] = []
     try:
         if marked:
             _without(tmp.collection, tmp.view_layers[layer].layer_collection, marked, collections)
@@ -82,7 +88,10 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[None]:
             corners = polygon(scene.camera, plane)
             if len(corners):
                 objects.append(_stand_in(tmp, corners, source, plane.color))
-        yield
+                if tmp.display.shading.color_type == "RANDOM":
+                    plane = replace(plane, color=np.array(random_color(objects[-1]), np.float32))
+            planes.append(plane)
+        yield replace(scene, planes=tuple(planes))
     finally:
         for obj in objects:
             bpy.data.meshes.remove(obj.data)  # takes the object with it

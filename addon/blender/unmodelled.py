@@ -57,6 +57,9 @@ def of_object(obj: Any, matrix: Any, shading: Any, viewport: bool) -> Iterator[U
             if color_type == "TEXTURE" and material.node_tree and any(
                     node.type == "TEX_IMAGE" for node in material.node_tree.nodes):
                 yield found("texture", f"material '{material.name}'")
+    attributes = obj.data.color_attributes
+    if color_type == "VERTEX" and len(attributes) and attributes.active_color is None:
+        yield found("colour attribute", "it has some, but none is the active one")
     if obj.show_in_front:
         yield found("in-front drawing")
     if obj.is_holdout:

@@ -33,12 +33,19 @@ def choose_source(judge: str) -> str:
 
 @contextmanager
 def temporary_scene(scene: Any) -> Iterator[Any]:
-    """Give a copy of a scene (its objects are the user's own), and remove it in any case."""
+    """Give a copy of a scene (its objects are the user's own), and remove it in any case.
+
+    So goes the 'Render Result' that a render of the copy makes, if there was none before.
+    """
+    images = set(bpy.data.images)
     copy = scene.copy()
     try:
         yield copy
     finally:
         bpy.data.scenes.remove(copy)
+        for image in set(bpy.data.images) - images:
+            if image.type == "RENDER_RESULT":
+                bpy.data.images.remove(image)
 
 
 def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
