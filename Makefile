@@ -1,0 +1,41 @@
+# Reference Tracer's chores. `make help` lists them.
+#
+# Everything runs in the virtual environment .venv, which the first command makes: with Python 3.13
+# and bpy 5.2.3, else with Python 3.11 and bpy 5.0.1. To choose: make PYTHON=python3.11 demo
+
+PYTHON_IN_VENV := .venv/bin/python
+
+.PHONY: help demo test test-gui lint extension clean
+
+help: ## list the commands
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
+
+demo: .venv/.stamp ## trace a sample scene, have Blender render it, compare: out/demo
+	.venv/bin/reftrace compare sample_scenes/suzanne.blend --out out/demo
+
+# The tests in a window come last, as a make of their own: they need root, and where there is none
+# the run says so and is still a success.
+test: lint ## run all tests, those in a window too where that is possible
+	$(PYTHON_IN_VENV) -m pytest
+	@if reason=$$(tools/whole_blender.sh check); then \
+		$(MAKE) --no-print-directory test-gui; \
+	else \
+		echo; echo "NOT RUN: the tests in a whole Blender with a window ($$reason)"; \
+	fi
+
+test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
+	tools/whole_blender.sh setup
+	$(PYTHON_IN_VENV) -m pytest -m gui
+
+lint: .venv/.stamp ## check the style of all code
+	$(PYTHON_IN_VENV) -m ruff check .
+
+extension: .venv/.stamp ## build and validate dist/reference_tracer-<version>.zip
+	$(PYTHON_IN_VENV) tools/build_extension.py
+
+clean: ## remove what was built; keeps .venv and the whole Blender
+	rm -rf build dist out wheels *.egg-info .pytest_cache .ruff_cache
+	find addon tests tools sample_scenes -name __pycache__ -prune -exec rm -rf {} +
+
+.venv/.stamp: pyproject.toml setup.py constraints.txt
+	tools/venv.sh

@@ -1,0 +1,162 @@
+"""The exported camera against Blender's own projection, over the whole matrix of settings.
+
+The judge is `Object.calc_matrix_camera`: random points of the view volume are put on the film by the
+tracer's camera and by Blender's matrices.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+
+import bpy
+import numpy as np
+import pytest
+from mathutils import Matrix
+from reference_tracer.blender.camera import export_camera
+from reference_tracer.tracer.camera import camera_rays, film_of
+
+SIZES = {"landscape": (192, 108), "portrait": (90, 160), "square": (128, 128)}
+BORDERS = (None, False, True)  # no border, border, border and crop
+ASPECTS = ((1, 1), (2, 1), (1, 2))
+SHIFTS = ((0, 0), (0.3, 0), (0, -0.2), (0.15, 0.4))
+# What Blender's matrix may be off on the film, in shares of its longer side: its entries and those
+# of the camera's own matrix are float32 (2^-24 each), read in a handful of products and one
+# division, on points that project up to three half-widths from the middle (see `points`).
+ROUNDING = 8 * 2.0**-24
+
+
+def plain(camera: bpy.types.Object) -> None:
+    camera.matrix_world = Matrix.LocRotScale((1.3, -2.1, 0.7), Matrix.Rotation(0.8, 3, "X"), None)
+
+
+def parented(camera: bpy.types.Object) -> None:
+    parent = bpy.data.objects.new("Parent", None)
+    bpy.context.scene.collection.objects.link(parent)
+    parent.location, parent.rotation_euler = (2, 1, -1), (0.3, 0.7, -1.2)
+    camera.parent = parent
+    camera.location, camera.rotation_euler = (0.5, 0.2, 3), (0.2, 0.1, 0.4)
+
+
+def scaled(camera: bpy.types.Object) -> None:
+    parented(camera)
+    camera.scale = (2.5, 0.4, 7)
+
+
+def mirrored(camera: bpy.types.Object) -> None:
+    parented(camera)
+    camera.scale = (-1, 1, 1)
+
+
+def sheared(camera: bpy.types.Object) -> None:
+    parented(camera)
+    camera.parent.scale = (1, 2, 0.6)
+
+
+@pytest.fixture
+def settings_matrix(build):
+    """Set one combination after another; yields the camera object."""
+    scene, camera = build.scene(), build.camera()
+
+    def run(kind: str, fit: str, place):
+        place(camera)
+        bpy.context.view_layer.update()
+        data, render = camera.data, scene.render
+        data.type, data.sensor_fit, data.lens, data.ortho_scale = kind, fit, 41.0, 5.3
+        data.sensor_width, data.sensor_height = 36, 22
+        for size, percent, shift, aspect, border in product(
+                SIZES.values(), (100, 37), SHIFTS, ASPECTS, BORDERS):
+            render.resolution_x, render.resolution_y = size
+            render.resolution_percentage = percent
+            data.shift_x, data.shift_y = shift
+            render.pixel_aspect_x, render.pixel_aspect_y = aspect
+            render.use_border = border is not None
+            render.use_crop_to_border = bool(border)
+            render.border_min_x, render.border_max_x = 0.3, 0.81
+            render.border_min_y, render.border_max_y = 0.1, 0.7
+            yield camera
+
+    return run
+
+
+def points(camera, rng) -> np.ndarray:
+    """Return world points up to three half-widths beside the axis, (3, n)."""
+    window = camera.window
+    x = 3 * rng.uniform(-1, 1, 64) * (window.right - window.left) / 2
+    y = 3 * rng.uniform(-1, 1, 64) * (window.top - window.bottom) / 2
+    depth = rng.uniform(camera.clip_start, 20, 64)
+    if not camera.orthographic:
+        x, y = x * depth, y * depth
+    return (camera.origin[:, None] + camera.right[:, None] * x + camera.up[:, None] * y
+            + camera.forward[:, None] * depth)
+
+
+def film_of_blender(obj, width: int, height: int, world: np.ndarray) -> np.ndarray:
+    """Return where Blender's own matrices put world points on the film, (2, n) pixels."""
+    render = bpy.context.scene.render
+    clip_from_camera = np.array(obj.calc_matrix_camera(
+        bpy.context.evaluated_depsgraph_get(), x=width, y=height,
+        scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y))
+    camera_from_world = np.linalg.inv(np.array(obj.matrix_world.normalized(), float))
+    clip = clip_from_camera @ camera_from_world @ np.vstack((world, np.ones(world.shape[1])))
+    return (clip[:2] / clip[3] + 1) / 2 * np.array([[width], [height]])
+
+
+@pytest.mark.parametrize("place", [plain, parented, scaled, mirrored, sheared])
+@pytest.mark.parametrize("fit", ["AUTO", "HORIZONTAL", "VERTICAL"])
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_projects_as_blender_does(kind, fit, place, settings_matrix):
+    rng = np.random.default_rng(2)
+    tried = 0
+    for obj in settings_matrix(kind, fit, place):
+        exported = export_camera(bpy.context.scene)
+        world = points(exported, rng)
+        expected = film_of_blender(obj, exported.width, exported.height, world)
+        found = np.array(film_of(exported, world)[:2])
+        allowed = ROUNDING * max(exported.width, exported.height) * (
+            1 + np.linalg.norm(exported.origin))
+        np.testing.assert_allclose(found, expected, rtol=0, atol=allowed)
+        tried += 1
+    assert tried == len(SIZES) * 2 * len(SHIFTS) * len(ASPECTS) * len(BORDERS)
+
+
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_rays_go_through_the_points_that_project_there(kind, settings_matrix):
+    rng = np.random.default_rng(3)
+    for _ in settings_matrix(kind, "AUTO", sheared):
+        camera = export_camera(bpy.context.scene)
+        world = points(camera, rng)
+        x, y, depth = film_of(camera, world)
+        rays = camera_rays(camera, x, y)
+        np.testing.assert_allclose(rays.at(depth), world, rtol=0, atol=1e-11)
+
+
+def test_the_view_direction_passes_through_the_middle(build):
+    build.scene(97, 55)
+    build.camera((3, 4, 5), (0.7, 0.2, 1.1))
+    bpy.context.view_layer.update()
+    camera = export_camera(bpy.context.scene)
+    ray = camera_rays(camera, np.array([48.5]), np.array([27.5]))
+    axis = bpy.context.scene.camera.matrix_world.to_3x3() @ Matrix.Identity(3).col[2]
+    np.testing.assert_allclose(ray.directions[:, 0], -np.array(axis), atol=1e-7)
+
+
+@pytest.mark.parametrize(("size", "percent"), [((1920, 1080), 33), ((3, 200), 50), ((7, 9), 99)])
+def test_the_percentage_cuts_off_as_blender_does(size, percent, build, workbench):
+    scene = build.scene(*size)
+    build.camera()
+    scene.render.resolution_percentage = percent
+    camera = export_camera(scene)
+    assert (camera.height, camera.width) == workbench().shape[:2]
+
+
+def test_a_lens_at_its_ends_still_projects_as_blender_does(build):
+    scene = build.scene()
+    camera = build.camera((0, 0, 0))
+    for lens, sensor in ((1, 1000), (5000, 1), (1, 1), (50, 36)):
+        camera.data.lens, camera.data.sensor_width = lens, sensor
+        bpy.context.view_layer.update()
+        exported = export_camera(scene)
+        world = points(exported, np.random.default_rng(4))
+        expected = film_of_blender(camera, 96, 54, world)
+        np.testing.assert_allclose(np.array(film_of(exported, world)[:2]), expected,
+                                   rtol=0, atol=96 * ROUNDING)

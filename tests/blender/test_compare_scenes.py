@@ -1,0 +1,176 @@
+"""Blender as the judge: sample scenes and camera settings against Workbench, 0 unexplained pixels."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.compare.causes import TOLERANCE
+from reference_tracer.images import to_display
+
+NAMES = sorted(path.stem for path in (Path(__file__).resolve().parents[2] / "sample_scenes").glob("*.blend"))
+FILES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "traced.png"]
+WIDTH = 240  # pixels: every scene is made smaller, to keep the tests quick
+# Share of pixels that may differ at all: edges of one or two pixels, by the scenes' own look.
+MAY_DIFFER = 0.01
+NOT_DECIDABLE = {"far_away"}
+
+
+def read_png(path: Path) -> np.ndarray:
+    from PIL import Image
+
+    return np.asarray(Image.open(path))[::-1]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
+    opened(name, WIDTH)
+    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path)) == {"FINISHED"}
+    assert sorted(path.name for path in tmp_path.iterdir()) == FILES
+    found = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
+    pixels = found["pixels"]
+    assert pixels["unexplained"] == 0
+    assert pixels["by_cause"]["unexplained"] == 0
+    assert pixels["explained"] == sum(
+        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "not_modelled"))
+    assert pixels["differ"] == pixels["explained"] + pixels["unexplained"]
+    assert pixels["not_traced"] == 0
+    assert pixels["total"] == pixels["agree"] + pixels["differ"] + pixels["not_decidable"]
+    assert pixels["differ"] <= MAY_DIFFER * pixels["total"]
+    assert found["scene"]["unmodelled"] == []
+    assert found["scene"]["file"] == f"{name}.blend"
+    assert found["scene"]["scene"] == bpy.context.scene.name
+    assert found["blender"]["source"] == "workbench"
+    assert found["blender"]["version"] == bpy.app.version_string
+    if name in NOT_DECIDABLE:
+        assert pixels["not_decidable"] > 0
+        assert found["verdict"] == "warnings"
+    else:
+        assert pixels["not_decidable"] == 0
+        assert found["verdict"] == "agree"
+
+
+@pytest.mark.parametrize("name", ["exercise_plane", "text_and_curves"])
+def test_files_hold_what_was_compared(name, opened, compare, tmp_path, workbench):
+    opened(name, 96)
+    comparison = compare()
+    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path)) == {"FINISHED"}
+    stored = np.load(tmp_path / "frame.npz")
+    for key, values in comparison.frame.passes().items():
+        np.testing.assert_array_equal(stored[key], values)
+    np.testing.assert_array_equal(stored["blender"], comparison.picture)
+    np.testing.assert_array_equal(stored["cause"], comparison.causes.cause)
+    np.testing.assert_array_equal(read_png(tmp_path / "traced.png"), to_display(stored["color"]))
+    np.testing.assert_array_equal(read_png(tmp_path / "blender.png"), to_display(stored["blender"]))
+
+
+def test_blenders_picture_is_its_own(opened, compare, workbench):
+    """What was compared is what Workbench itself draws of the user's scene with flat light."""
+    opened("suzanne", 96)
+    picture = compare().picture
+    scene = bpy.context.scene
+    scene.render.film_transparent = True
+    drawn = workbench(light="FLAT", show_shadows=False, show_cavity=False, show_object_outline=False,
+                      show_specular_highlight=False, render_aa="OFF")
+    np.testing.assert_allclose(picture, drawn, rtol=0, atol=TOLERANCE)
+
+
+def shifted(build):
+    build.corner_camera(shift_x=0.2, shift_y=-0.15, lens=40)
+
+
+def portrait(build):
+    build.scene(90, 160)
+    build.corner_camera(lens=35)
+
+
+def vertical_fit(build):
+    build.corner_camera(sensor_fit="VERTICAL", sensor_height=19)
+
+
+def pixel_aspect(build):
+    bpy.context.scene.render.pixel_aspect_x = 1.7
+    build.corner_camera(lens=40)
+
+
+def tall_pixels(build):
+    bpy.context.scene.render.pixel_aspect_y = 2
+    build.corner_camera(lens=40, sensor_fit="HORIZONTAL")
+
+
+def orthographic(build):
+    build.corner_camera(type="ORTHO", ortho_scale=6.5, shift_x=0.1)
+
+
+def border_with_crop(build):
+    build.corner_camera(lens=40)
+    render = bpy.context.scene.render
+    render.use_border = render.use_crop_to_border = True
+    render.border_min_x, render.border_max_x = 0.23, 0.77
+    render.border_min_y, render.border_max_y = 0.31, 0.93
+
+
+def border_without_crop(build):
+    border_with_crop(build)
+    bpy.context.scene.render.use_crop_to_border = False
+
+
+def mirrored(build):
+    build.corner_camera(lens=40).scale = (-1, 1, 1)
+
+
+def scaled(build):
+    build.corner_camera(lens=40).scale = (3, 0.5, 11)
+
+
+def parented(build):
+    parent = build.empty("Parent", location=(0.2, 0.1, -0.3), rotation=(0.1, 0.2, 0.3))
+    build.corner_camera(lens=40).parent = parent
+
+
+def sheared(build):
+    parented(build)
+    bpy.data.objects["Parent"].scale = (1, 1.3, 0.8)
+
+
+def clipped(build):
+    build.corner_camera(lens=40, clip_start=4.6, clip_end=6.7)
+
+
+def through_the_eye(build):
+    """The floor's triangles cross the plane of the eye."""
+    build.camera((-2.4, -1.6, -0.4), (1.5, 0, -1.05), lens=18, clip_start=0.01)
+
+
+def percentage(build):
+    build.scene(400, 233).render.resolution_percentage = 37
+    build.corner_camera(lens=40)
+
+
+@pytest.mark.parametrize("setting", [
+    shifted, portrait, vertical_fit, pixel_aspect, tall_pixels, orthographic, border_with_crop,
+    border_without_crop, mirrored, scaled, parented, sheared, clipped, through_the_eye, percentage,
+], ids=lambda setting: setting.__name__)
+def test_camera_setting_has_no_unexplained_pixel(setting, build, compare):
+    build.scene(160, 90)
+    build.solids()
+    setting(build)
+    comparison = compare()
+    pixels = comparison.pixels
+    assert pixels["unexplained"] == pixels["not_decidable"] == 0
+    assert pixels["differ"] <= 0.01 * pixels["total"]
+    assert comparison.verdict == "agree"
+    seen = {comparison.scene.objects[i] for i in np.unique(comparison.frame.object_index) if i >= 0}
+    assert len(seen) >= 2  # or nothing would have been compared
+
+
+def test_an_empty_scene_is_a_valid_picture(build, compare):
+    build.scene()
+    build.camera()
+    comparison = compare()
+    assert comparison.verdict == "agree"
+    assert comparison.pixels["agree"] == comparison.pixels["total"] == 96 * 54
+    assert not comparison.frame.color.any()

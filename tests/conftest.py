@@ -1,0 +1,69 @@
+"""What tests share: cameras, meshes and scenes in a line each."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+
+from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
+
+COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
+
+
+class Make:
+    """Builders of scenes; cameras look along -Z from the origin, Y up, unless told otherwise."""
+
+    @staticmethod
+    def camera(width=24, height=18, half=0.5, eye=(0, 0, 0), target=None, axes=None, **options):
+        """Return a camera whose picture is 2 `half` high at depth 1 (or in metres)."""
+        matrix = np.eye(4)
+        if axes is not None:
+            matrix[:3, :3] = axes
+        elif target is not None:
+            backward = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
+            right = np.cross((0.1, 0.2, 0.97), backward)
+            right /= np.linalg.norm(right)
+            matrix[:3, :3] = np.stack((right, np.cross(backward, right), backward), axis=1)
+        matrix[:3, 3] = eye
+        wide = half * width / height
+        window = options.pop("window", None) or ViewWindow(-wide, wide, -half, half)
+        return Camera(matrix, window, width, height, **options)
+
+    @staticmethod
+    def quad(x0, x1, y0, y1, z, name="Quad"):
+        """Return a rectangle across the Z axis, two triangles."""
+        corners = [(x0, y0, z), (x1, y0, z), (x1, y1, z), (x0, y1, z)]
+        return Mesh(np.array(corners, float), [[0, 1, 2], [0, 2, 3]], name=name)
+
+    @staticmethod
+    def mesh(shape: trimesh.Trimesh, matrix=None, name="Shape"):
+        """Return a trimesh as a mesh."""
+        vertices = np.array(shape.vertices)
+        if matrix is not None:
+            vertices = vertices @ matrix[:3, :3].T + matrix[:3, 3]
+        return Mesh(vertices, np.array(shape.faces), name=name)
+
+    @staticmethod
+    def scene(camera, *meshes, planes=(), background=(0, 0, 0, 0)):
+        """Return a scene with an instance, a colour and an object for each mesh and plane."""
+        rgba = [[*COLORS[k % len(COLORS)], 1] for k in range(len(meshes) + len(planes))]
+        count = len(meshes)
+        return Scene(
+            camera, meshes,
+            tuple(Instance(k, k, np.eye(4), [rgba[k]]) for k in range(count)),
+            tuple(Plane(count + k, *p, rgba[count + k]) for k, p in enumerate(planes)),
+            np.array(background), (*(m.name for m in meshes), *(f"Plane {k}" for k in range(len(planes)))),
+        )
+
+
+@pytest.fixture(scope="session")
+def make() -> type[Make]:
+    """Builders of scenes."""
+    return Make
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    """Random numbers, the same in every run."""
+    return np.random.default_rng(20240611)

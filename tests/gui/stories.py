@@ -1,0 +1,241 @@
+"""What a user does in Blender's window, played inside it: `--python stories.py -- NAME`.
+
+A story is a generator: it yields how many seconds to wait, and Blender draws and handles events
+meanwhile. What it notes is written to out/gui/NAME.json when it ends, and Blender quits.
+"""
+
+import hashlib
+import json
+import subprocess
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+OUT = Path("/project/out/gui")
+noted = {}
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def press(key):
+    """Press a key as a keyboard does, with the pointer over the 3D view."""
+    subprocess.run(["xdotool", "mousemove", "500", "350", "key", key], check=True)
+
+
+def screenshot(name):
+    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def data_blocks():
+    return {name: sorted(x.name_full for x in getattr(bpy.data, name)) for name in (
+        "scenes", "objects", "meshes", "materials", "images", "collections", "worlds", "node_groups")}
+
+
+def settings():
+    """Everything of the user's that a comparison could have touched."""
+    scene, preferences = window().scene, bpy.context.preferences
+    out = {"scene": scene.name, "view_layer": window().view_layer.name,
+           "viewport_aa": preferences.system.viewport_aa, "dirty": preferences.is_dirty}
+    shading = [a.spaces.active.shading for a in window().screen.areas if a.type == "VIEW_3D"]
+    for name, owner in (("render", scene.render), ("display", scene.display),
+                        ("shading", scene.display.shading), ("view", scene.view_settings),
+                        ("image", scene.render.image_settings),
+                        *((f"3d{k}", s) for k, s in enumerate(shading))):
+        for prop in owner.bl_rna.properties:
+            if prop.type in ("BOOLEAN", "INT", "FLOAT", "ENUM", "STRING"):
+                value = getattr(owner, prop.identifier)
+                out[f"{name}.{prop.identifier}"] = repr(
+                    list(value) if getattr(prop, "is_array", False) else value)
+    return out
+
+
+def render_result():
+    """A digest of the user's last render, read through a file as a user would save it."""
+    image = bpy.data.images.get("Render Result")
+    if image is None:
+        return None
+    path = OUT / "render_result.png"
+    path.unlink(missing_ok=True)
+    image.save_render(str(path), scene=window().scene)
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def until(condition, seconds=60):
+    """Wait for something; an error if it does not come."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError(condition.__name__)
+        yield 0.05
+
+
+def module():
+    return sys.modules["bl_ext.user_default.reference_tracer.addon.blender.results"]
+
+
+def compared():
+    return module().latest(window().scene) is not None
+
+
+def press_compare():
+    with bpy.context.temp_override(window=window()):
+        return bpy.ops.reference_tracer.compare("INVOKE_DEFAULT")
+
+
+def show_panel():
+    for area in window().screen.areas:
+        if area.type == "VIEW_3D":
+            area.spaces.active.show_region_ui = True
+        if area.type == "PROPERTIES":
+            area.spaces.active.context = "RENDER"
+
+
+def f12():
+    """F12 with the engine: the picture is there, and it is the tracer's."""
+    window().scene.render.engine = "REFERENCE_TRACER"
+    done = []
+    bpy.app.handlers.render_complete.append(lambda *a: done.append(True))
+    yield 1
+    press("F12")
+
+    def rendered():
+        return done
+    yield from until(rendered)
+    yield 1
+    screenshot("f12")
+    noted["result"] = render_result()
+    noted["areas"] = [a.type for w in bpy.context.window_manager.windows for a in w.screen.areas]
+
+
+def f12_escape():
+    """Esc while a long render runs: it stops, and keeps the rows that are done."""
+    scene = window().scene
+    scene.render.engine = "REFERENCE_TRACER"
+    scene.reference_tracer.samples = 16
+    scene.render.use_lock_interface = False
+    cancelled = []
+    bpy.app.handlers.render_cancel.append(lambda *a: cancelled.append(time.monotonic()))
+    yield 1
+    press("F12")
+    yield 6
+    screenshot("f12_running")
+    pressed = time.monotonic()
+    press("Escape")
+
+    def stopped():
+        return cancelled
+    yield from until(stopped)
+    noted["seconds_to_stop"] = cancelled[0] - pressed
+    yield 1
+    screenshot("f12_cancelled")
+    noted["result"] = render_result()
+
+
+def compare():
+    """The button: three images, the numbers in the panel, nothing else changed."""
+    show_panel()
+    yield 1
+    bpy.ops.render.render()  # the user's own last render must survive
+    before = settings(), data_blocks(), render_result()
+    noted["pressed"] = list(press_compare())
+    yield from until(compared)
+    yield 1
+    after = settings(), data_blocks(), render_result()
+    comparison = module().latest(window().scene).comparison
+    noted["comparison"] = comparison.to_dict()
+    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
+    noted["new"] = {k: sorted(set(v) - set(before[1][k])) for k, v in after[1].items()
+                    if v != before[1][k]}
+    noted["render_result_kept"] = before[2] == after[2] and before[2] is not None
+    noted["images"] = {i.name: [list(i.size), float(np.ptp(np.array(i.pixels[:])))]
+                       for i in bpy.data.images if i.name.startswith("Reference Tracer")}
+    show_panel()
+    yield 1
+    screenshot("compare")
+    for area in window().screen.areas:
+        if area.type == "VIEW_3D":
+            area.type = "IMAGE_EDITOR"
+            area.spaces.active.image = bpy.data.images["Reference Tracer Difference"]
+            break
+    yield 1
+    screenshot("compare_difference")
+    with bpy.context.temp_override(window=window()):
+        noted["undo"] = list(bpy.ops.ed.undo())
+    yield 1
+    noted["after_undo"] = [i.name for i in bpy.data.images if i.name.startswith("Reference Tracer")]
+
+
+def compare_escape():
+    """Esc midway: stopped at once, and everything as before."""
+    scene = window().scene
+    scene.reference_tracer.samples = 16
+    yield 1
+    before = settings(), data_blocks()
+    press_compare()
+    yield 1
+    noted["running"] = [o.bl_idname for o in window().modal_operators]
+    screenshot("compare_running")
+    pressed = time.monotonic()
+    press("Escape")
+
+    def stopped():
+        return not any("compare" in o.bl_idname.lower() for o in window().modal_operators)
+    yield from until(stopped)
+    noted["seconds_to_stop"] = time.monotonic() - pressed
+    after = settings(), data_blocks()
+    noted["same"] = before == after
+    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
+    noted["compared"] = compared()
+
+
+def compare_error():
+    """A scene that cannot be traced: an error, and everything as before."""
+    window().scene.camera.data.type = "PANO"
+    yield 1
+    before = settings(), data_blocks()
+    try:
+        noted["pressed"] = list(press_compare())
+    except RuntimeError as error:
+        noted["message"] = str(error)
+    yield 0.5
+    noted["same"] = before == (settings(), data_blocks())
+
+
+def scenes():
+    """Every sample scene against the real viewport."""
+    for path in sorted(Path("/project/sample_scenes").glob("*.blend")):
+        bpy.ops.wm.open_mainfile(filepath=str(path))
+        yield 0.5
+        press_compare()
+        yield from until(compared, 120)
+        noted[path.stem] = module().latest(window().scene).comparison.to_dict()
+
+
+STORIES = {s.__name__: s for s in (
+    f12, f12_escape, compare, compare_escape, compare_error, scenes)}
+
+
+def play(name):
+    story = STORIES[name]()
+
+    def go():
+        try:
+            return next(story)
+        except StopIteration:
+            pass
+        except BaseException:
+            noted["error"] = traceback.format_exc()
+        (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
+        bpy.ops.wm.quit_blender()
+        return None
+
+    bpy.app.timers.register(go, first_interval=2, persistent=True)
+
+
+play(sys.argv[sys.argv.index("--") + 1])

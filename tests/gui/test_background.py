@@ -1,0 +1,11 @@
+"""`blender -b` and `blender --command` of a whole Blender: files, exit codes, faults."""
+
+import json
+
+import pytest
+
+from .conftest import OUT
+
+pytestmark = pytest.mark.gui
+
+SCENE = "/project/sample_scenes/exercise_perspective.blend"

@@ -1,0 +1,52 @@
+"""The real window of a whole Blender: F12, the button, Esc. Screenshots are left in out/gui."""
+
+import pytest
+
+pytestmark = pytest.mark.gui
+
+
+def test_button_leaves_three_images_and_nothing_else(blender):
+    noted = blender.story("compare")
+    comparison = noted["comparison"]
+    assert comparison["blender"]["source"] == "viewport"
+    assert comparison["pixels"]["unexplained"] == 0
+    assert comparison["verdict"] == "agree"
+    assert set(noted["images"]) == {
+        "Reference Tracer Traced", "Reference Tracer Blender", "Reference Tracer Difference"}
+    assert all(size == [960, 540] and spread > 0 for size, spread in noted["images"].values())
+    assert noted["changed"] == {}
+    assert noted["new"] == {"images": sorted(noted["images"])}
+    assert noted["render_result_kept"]
+    assert noted["after_undo"] == []  # one step
+
+
+def test_escape_stops_a_comparison_and_changes_nothing(blender):
+    noted = blender.story("compare_escape")
+    assert any("compare" in name.lower() for name in noted["running"])
+    assert noted["same"], noted["changed"]
+    assert not noted["compared"]
+
+
+def test_error_is_reported_and_changes_nothing(blender):
+    noted = blender.story("compare_error")
+    assert "panoramic" in noted["message"] or "pano" in noted["message"]
+    assert noted["same"]
+
+
+def test_f12_shows_the_traced_picture(blender):
+    noted = blender.story("f12")
+    assert noted["result"]
+    assert "IMAGE_EDITOR" in noted["areas"]
+
+
+def test_escape_stops_f12(blender):
+    noted = blender.story("f12_escape")
+    assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
+
+
+def test_every_sample_scene_agrees_with_the_viewport(blender):
+    noted = blender.story("scenes")
+    assert len(noted) == 11
+    assert {name: c["pixels"]["unexplained"] for name, c in noted.items()} == dict.fromkeys(noted, 0)
+    assert {c["blender"]["source"] for c in noted.values()} == {"viewport"}
+    assert noted["far_away"]["pixels"]["not_decidable"] > 0

@@ -1,0 +1,93 @@
+"""The extension as users get it: built by Blender's own tool, then installed from its zip."""
+
+import importlib.util
+import os
+import runpy
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).parent.parent
+BUILD_SCRIPT = PROJECT / "tools" / "build_extension.py"
+
+# Asked without importing it: both the tool and the installation run in processes of their own.
+needs_bpy = pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="needs bpy")
+
+# Runs in a Blender of its own: installs the zip, uses it, and takes it out again.
+INSTALL = """
+import sys
+import bpy
+
+bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+bpy.ops.extensions.package_install_files(
+    filepath=sys.argv[1], repo="user_default", enable_on_install=True
+)
+module = "bl_ext.user_default.reference_tracer"
+assert module in bpy.context.preferences.addons.keys(), "not enabled"
+assert module + ".addon" in sys.modules, "the shim did not load the code"
+bpy.context.scene.render.engine = "REFERENCE_TRACER"
+
+bpy.ops.preferences.addon_disable(module=module)
+try:
+    bpy.context.scene.render.engine = "REFERENCE_TRACER"
+except TypeError:
+    print("installed, enabled and disabled", flush=True)
+"""
+
+
+@pytest.fixture(scope="module")
+def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("dist")
+    # The script validates, too, and ends with an error if Blender's tool objects.
+    built = subprocess.run(
+        [sys.executable, BUILD_SCRIPT, "--out", out], capture_output=True, text=True
+    )
+    assert built.returncode == 0, built.stdout + built.stderr
+    [package] = out.iterdir()
+    return package
+
+
+@needs_bpy
+def test_zip_holds_the_extension_and_nothing_else(package: Path):
+    names = set(zipfile.ZipFile(package).namelist())
+    code = {
+        file.relative_to(PROJECT).as_posix()
+        for file in (PROJECT / "addon").rglob("*")
+        if file.is_file() and "__pycache__" not in file.parts
+    }
+    top = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md", "CHANGELOG.md"}
+    assert code and code <= names
+    [wheel] = names - code - top
+    assert wheel.startswith("wheels/trimesh-") and wheel.endswith(".whl")
+    assert {"__init__.py", "blender_manifest.toml", "LICENSE"} <= names
+
+
+@needs_bpy
+def test_installs_and_registers_in_blender(package: Path, tmp_path: Path):
+    installed = subprocess.run(
+        [sys.executable, "-c", INSTALL, package],
+        env=os.environ | {"BLENDER_USER_RESOURCES": str(tmp_path)},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
+    said = installed.stdout + installed.stderr
+    assert installed.returncode == 0, said
+    assert "installed, enabled and disabled" in installed.stdout, said
+    assert "Traceback" not in said, said
+
+
+@pytest.mark.parametrize(
+    ("manifest", "complaint"),
+    [
+        ({"version": "9.9.9", "wheels": []}, "version 9.9.9"),
+        ({"version": "1.2.3", "wheels": ["./wheels/trimesh-1.0-py3-none-any.whl"]}, "pins trimesh"),
+    ],
+)
+def test_build_refuses_versions_that_differ(manifest: dict, complaint: str):
+    script = runpy.run_path(str(BUILD_SCRIPT))
+    with pytest.raises(script["BuildError"], match=complaint):
+        script["checked_wheel"](manifest, '__version__ = "1.2.3"', "trimesh==2.0")

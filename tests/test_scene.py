@@ -1,0 +1,144 @@
+"""The contract: every fault is named, and what is in a scene stays as it is."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reference_tracer.scene import (
+    Camera,
+    Instance,
+    Mesh,
+    Plane,
+    Region,
+    Scene,
+    SceneError,
+    ViewWindow,
+    drop_non_finite,
+)
+
+WINDOW = ViewWindow(-1, 1, -1, 1)
+POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+FACES = np.array([[0, 1, 2]])
+NAN = np.where(np.eye(4) > 0, np.nan, 0)
+
+
+def camera(**changes):
+    return Camera(**{"world_from_camera": np.eye(4), "window": WINDOW, "width": 8, "height": 6} | changes)
+
+
+def mesh(**changes):
+    return Mesh(**{"vertices": POINTS, "triangles": FACES, "name": "Cube"} | changes)
+
+
+def scene(**changes):
+    whole = {"camera": camera(), "meshes": (mesh(),), "instances": (Instance(0, 0, np.eye(4)),),
+             "objects": ("Cube",)}
+    return Scene(**whole | changes)
+
+
+FAULTS = {
+    "no columns": (camera, {"width": 0}, ["0 x 6", "resolution"]),
+    "no rows": (camera, {"height": -3}, ["8 x -3", "resolution"]),
+    "empty border": (camera, {"region": Region(3, 1, 3, 5)}, ["border", "3 to 3"]),
+    "border outside": (camera, {"region": Region(0, 0, 9, 6)}, ["border", "0 to 9"]),
+    "border below": (camera, {"region": Region(0, -1, 8, 6)}, ["border", "-1 to 6"]),
+    "clip range": (camera, {"clip_start": 5, "clip_end": 5, "name": "Cam.001"}, ["Cam.001", "clip", "5 m"]),
+    "clip not a number": (camera, {"clip_start": np.nan, "name": "Cam.001"}, ["Cam.001", "clip"]),
+    "flat window": (camera, {"window": ViewWindow(1, 1, -1, 1), "name": "C"}, ["'C'", "view window"]),
+    "turned window": (camera, {"window": ViewWindow(-1, 1, 1, -1)}, ["view window"]),
+    "infinite window": (camera, {"window": ViewWindow(-np.inf, 1, -1, 1)}, ["view window"]),
+    "camera matrix": (camera, {"world_from_camera": NAN, "name": "Cam.001"}, ["Cam.001", "finite"]),
+    "camera matrix shape": (camera, {"world_from_camera": np.eye(3)}, ["camera 'Camera'", "4 x 4"]),
+    "flat camera": (camera, {"world_from_camera": np.diag([1, 0, 1, 1])}, ["camera 'Camera'", "scale"]),
+    "eye as clip start": (camera, {"clip_start": 0.0, "name": "Cam.001"}, ["Cam.001", "clip"]),
+    "clip behind the eye": (camera, {"clip_start": -1.0, "name": "Cam.001"}, ["Cam.001", "clip"]),
+    "vertices": (mesh, {"vertices": POINTS[:, :2]}, ["Mesh 'Cube'", "vertices", "(3, 2)"]),
+    "triangles": (mesh, {"triangles": FACES[0]}, ["Mesh 'Cube'", "triangles", "(3,)"]),
+    "index past the end": (mesh, {"triangles": [[0, 1, 3]]}, ["Mesh 'Cube'", "vertex"]),
+    "negative index": (mesh, {"triangles": [[0, 1, -1]]}, ["Mesh 'Cube'", "vertex"]),
+    "index beyond 32 bits": (mesh, {"triangles": np.array([[0, 1, 2**32 + 2]])}, ["Mesh 'Cube'"]),
+    "no vertex": (mesh, {"vertices": POINTS[:0]}, ["Mesh 'Cube'", "vertex"]),
+    "slots": (mesh, {"slots": [0, 0]}, ["Mesh 'Cube'", "slots"]),
+    "negative slot": (mesh, {"slots": [-1]}, ["Mesh 'Cube'", "slots"]),
+    "not finite": (mesh, {"vertices": POINTS * np.float32(np.nan)}, ["Mesh 'Cube'", "not finite"]),
+    "corner colours": (mesh, {"corner_colors": np.ones((1, 3, 3))}, ["Mesh 'Cube'", "(1, 3, 3)"]),
+    "instance matrix": (Instance, {"mesh": 0, "object": 7, "world_from_object": NAN}, ["object 7"]),
+    "instance colours": (Instance, {"mesh": 0, "object": 7, "world_from_object": np.eye(4),
+                                    "colors": np.zeros((0, 4))}, ["object 7", "(0, 4)"]),
+    "plane point": (Plane, {"object": 0, "point": (0, 0, np.inf), "normal": (0, 0, 1)}, ["point"]),
+    "plane normal": (Plane, {"object": 0, "point": (0, 0, 0), "normal": (0, 0, 0)}, ["normal", "zero"]),
+    "plane colour": (Plane, {"object": 0, "point": (0, 0, 0), "normal": (0, 0, 1), "color": (1, 1, 1)},
+                     ["infinite plane"]),
+    "mesh of instance": (scene, {"meshes": ()}, ["mesh 0 of 0"]),
+    "object of instance": (scene, {"objects": ()}, ["object 0 of 0"]),
+    "object of plane": (scene, {"planes": [Plane(4, (0, 0, 0), (0, 0, 1))]}, ["object 4 of 1"]),
+    "background": (scene, {"background": np.zeros(3)}, ["background"]),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_fault_is_named(fault):
+    kind, changes, words = FAULTS[fault]
+    with pytest.raises(SceneError) as caught:
+        kind(**changes)
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_what_is_right_passes():
+    whole = scene(planes=[Plane(0, (0, 0, 0), (0, 0, 1e-20))])
+    assert whole.triangle_count == 1
+    assert whole.camera.region == Region(0, 0, 8, 6)
+    assert camera(orthographic=True, clip_start=-5.0).clip_start == -5
+    assert mesh().slots.tolist() == [0]
+    assert mesh(triangles=np.zeros((0, 3), int), vertices=POINTS[:0]).triangles.shape == (0, 3)
+
+
+def test_triangles_count_over_instances():
+    two = mesh(triangles=[[0, 1, 2], [0, 2, 1]])
+    instances = [Instance(0, 0, np.eye(4)), Instance(1, 0, np.eye(4)), Instance(1, 0, np.eye(4))]
+    assert scene(meshes=[mesh(), two], instances=instances).triangle_count == 5
+
+
+def test_axes_of_the_camera_are_columns():
+    matrix = np.arange(16.0).reshape(4, 4)
+    matrix[0, 0], matrix[3] = 50, (0, 0, 0, 1)
+    c = camera(world_from_camera=matrix)
+    for axis, column in ((c.right, 0), (c.up, 1), (c.origin, 3)):
+        assert np.array_equal(axis, matrix[:3, column])
+    assert np.array_equal(c.forward, -matrix[:3, 2])
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_vertices_keep_their_precision(dtype):
+    assert mesh(vertices=POINTS.astype(dtype)).vertices.dtype == dtype
+
+
+def test_arrays_are_read_only():
+    whole = scene(planes=[Plane(0, (0, 0, 0), (0, 0, 1))],
+                  meshes=[mesh(corner_colors=np.ones((1, 3, 4)))])
+    m, i, p = whole.meshes[0], whole.instances[0], whole.planes[0]
+    for array in (whole.camera.world_from_camera, whole.background, m.vertices, m.triangles, m.slots,
+                  m.corner_colors, i.world_from_object, i.colors, p.point, p.normal, p.color):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+    with pytest.raises(AttributeError):
+        whole.camera.width = 3
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_drop_non_finite(dtype):
+    vertices = np.arange(15, dtype=dtype).reshape(5, 3)
+    vertices[1, 2], vertices[3, 0] = np.nan, -np.inf
+    faces = np.array([[0, 2, 4], [0, 1, 2], [3, 3, 3], [4, 2, 0]])
+    finite, keep = drop_non_finite(vertices, faces)
+    assert keep.tolist() == [True, False, False, True]
+    assert finite.dtype == dtype and np.isfinite(finite).all()
+    assert np.array_equal(finite[[0, 2, 4]], vertices[[0, 2, 4]])
+    assert len(mesh(vertices=finite, triangles=faces[keep]).triangles) == 2
+
+
+def test_drop_non_finite_leaves_finite_meshes_alone():
+    finite, keep = drop_non_finite(POINTS, FACES)
+    assert finite is POINTS and keep.all() and len(keep) == 1

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Makes the virtual environment .venv with the project, a real bpy and all pinned packages.
+#
+#   tools/venv.sh            picks a Python: 3.13 (bpy 5.2.3), else 3.11 (bpy 5.0.1)
+#   PYTHON=... tools/venv.sh takes that one
+#
+# Safe to run again: an environment that works is kept and brought up to date.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+say() { echo "venv: $*" >&2; }
+
+# A Python counts when it starts, has the wanted version and can make environments. It is asked
+# rather than judged by its name: pyenv's `python3.13` is there also where no 3.13 is switched on.
+is_python() { # COMMAND VERSION
+    "$1" -c '
+import sys, sysconfig, ensurepip, venv
+ok = "%d.%d" % sys.version_info[:2] == sys.argv[1]
+sys.exit(not ok or bool(sysconfig.get_config_var("Py_GIL_DISABLED")))  # bpy has no such build
+' "$2" 2>/dev/null
+}
+
+find_python() {
+    local version candidate pyenv_versions=""
+    if command -v pyenv >/dev/null; then pyenv_versions="$(pyenv root)/versions"; fi
+    for version in 3.13 3.11; do
+        for candidate in ${PYTHON:-"python$version" "$pyenv_versions/$version"*/bin/python python3}; do
+            if is_python "$candidate" "$version"; then
+                echo "$candidate"
+                return
+            fi
+        done
+    done
+    say "no usable ${PYTHON:-Python 3.13 or 3.11} found."
+    say "Blender as a Python module (bpy) exists for 3.13 (bpy 5.2.3) and 3.11 (bpy 5.0.1) only."
+    say "Install one of them with its venv module (on Debian: python3.13-venv or python3.11-venv),"
+    say "or name one: make PYTHON=/path/to/python3.13 ..."
+    return 1
+}
+
+# bpy needs some of the system's libraries, and without them dies with a bare linker error.
+check_libraries() {
+    local packages
+    if .venv/bin/python tools/check_libraries.py; then return; fi
+    packages="$(.venv/bin/python tools/check_libraries.py --packages || true)"
+    if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+        say "installing: $packages"
+        apt-get update -qq
+        # shellcheck disable=SC2086  # a list of names
+        DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages
+        .venv/bin/python tools/check_libraries.py
+    else
+        say "on Debian and Ubuntu, install them with: sudo apt-get install $packages"
+        return 1
+    fi
+}
+
+if ! is_python .venv/bin/python 3.13 && ! is_python .venv/bin/python 3.11; then
+    python="$(find_python)"
+    say "making .venv with $("$python" --version)"
+    "$python" -m venv --clear .venv
+fi
+
+# setuptools comes first and pinned, so that nothing unpinned is fetched to build the project.
+.venv/bin/python -m pip install --quiet --constraint constraints.txt setuptools
+.venv/bin/python -m pip install --quiet --constraint constraints.txt --no-build-isolation \
+    --editable '.[blender,images,progress,test]'
+check_libraries
+touch .venv/.stamp
+say "ready: $(.venv/bin/python --version), $(.venv/bin/python -m pip list 2>/dev/null | awk '$1 == "bpy" { print $1, $2 }')"
