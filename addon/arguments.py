@@ -34,21 +34,32 @@ class Parser(argparse.ArgumentParser):
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """Add what the user can trade; without an option, what the scene stores holds."""
     group = parser.add_argument_group("how to trace (by default what the scene says)")
-    group.add_argument("--method", choices=[m.value for m in Method],
-                       help="how a ray meets a triangle")
-    group.add_argument("--precision", choices=[p.value for p in Precision],
-                       help="floating-point type of rays and vertices")
-    group.add_argument("--samples", type=int, metavar="N",
-                       help="colour is the mean of N x N rays a pixel")
+    group.add_argument(
+        "--method", choices=[m.value for m in Method], help="how a ray meets a triangle"
+    )
+    group.add_argument(
+        "--precision",
+        choices=[p.value for p in Precision],
+        help="floating-point type of rays and vertices",
+    )
+    group.add_argument(
+        "--samples", type=int, metavar="N", help="colour is the mean of N x N rays a pixel"
+    )
 
 
 def add_judge(parser: argparse.ArgumentParser) -> None:
     """Add which of Blender's pictures to compare with, and how it is shaded."""
     group = parser.add_argument_group("Blender's picture (by default as the scene says)")
-    group.add_argument("--judge", choices=["auto", "workbench", "cycles"],
-                       help="which of Blender's pictures to compare with")
-    group.add_argument("--as-is", action="store_true",
-                       help="leave Blender's shading as the scene has it, not like for like")
+    group.add_argument(
+        "--judge",
+        choices=["auto", "workbench", "cycles"],
+        help="which of Blender's pictures to compare with",
+    )
+    group.add_argument(
+        "--as-is",
+        action="store_true",
+        help="leave Blender's shading as the scene has it, not like for like",
+    )
 
 
 def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
@@ -59,8 +70,11 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
     SceneError
         If a value is out of range.
     """
-    chosen = {name: value for name in ("method", "precision", "samples")
-              if (value := getattr(options, name)) is not None}
+    chosen = {
+        name: value
+        for name in ("method", "precision", "samples")
+        if (value := getattr(options, name)) is not None
+    }
     try:
         return Settings(**vars(stored) | chosen)
     except ValueError as error:

@@ -41,55 +41,107 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = Parser("reftrace", epilog=EXIT_CODES, description=(
-        "Trace a scene with the textbook's plane and triangle maths, and compare what Blender "
-        "shows with it, pixel by pixel."))
+    parser = Parser(
+        "reftrace",
+        epilog=EXIT_CODES,
+        description=(
+            "Trace a scene with the textbook's plane and triangle maths, and compare what Blender "
+            "shows with it, pixel by pixel."
+        ),
+    )
     parser.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
 
     def command(name: str, run: Callable, text: str, example: str, source: str) -> Any:
-        sub = commands.add_parser(name, help=text, description=text[0].upper() + text[1:] + ".",
-                                  epilog=f"example:\n  {example}\n\n{EXIT_CODES}")
+        sub = commands.add_parser(
+            name,
+            help=text,
+            description=text[0].upper() + text[1:] + ".",
+            epilog=f"example:\n  {example}\n\n{EXIT_CODES}",
+        )
         sub.set_defaults(run=run)
         sub.add_argument("scene", type=Path, metavar="SCENE", help=source)
         return sub
 
     sources = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
-    sub = command("compare", _compare, "trace a .blend and compare it with Blender's own picture",
-                  "reftrace compare scene.blend --out out/", "scene.blend")
+    sub = command(
+        "compare",
+        _compare,
+        "trace a .blend and compare it with Blender's own picture",
+        "reftrace compare scene.blend --out out/",
+        "scene.blend",
+    )
     sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(sub)
     add_judge(sub)
 
-    sub = command("trace", _trace, "trace a scene or a mesh into a picture",
-                  "reftrace trace bunny.ply --out bunny.png --width 800", sources)
-    sub.add_argument("--out", required=True, type=Path, metavar="PICTURE",
-                     help="picture.png (what a screen shows) or picture.exr (every output)")
+    sub = command(
+        "trace",
+        _trace,
+        "trace a scene or a mesh into a picture",
+        "reftrace trace bunny.ply --out bunny.png --width 800",
+        sources,
+    )
+    sub.add_argument(
+        "--out",
+        required=True,
+        type=Path,
+        metavar="PICTURE",
+        help="picture.png (what a screen shows) or picture.exr (every output)",
+    )
     add_settings(sub)
     _add_camera(sub)
 
-    sub = command("trade", _trade, "measure seconds and wrong pixels of every method and precision",
-                  "reftrace trade sample_scenes/suzanne.blend --width 160", sources)
+    sub = command(
+        "trade",
+        _trade,
+        "measure seconds and wrong pixels of every method and precision",
+        "reftrace trade sample_scenes/suzanne.blend --width 160",
+        sources,
+    )
     _add_camera(sub, width=160, height=90)
 
-    sub = command("export", _export, "export a .blend to a scene that needs no Blender",
-                  "reftrace export scene.blend --out scene.npz", "scene.blend")
-    sub.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file to write")
+    sub = command(
+        "export",
+        _export,
+        "export a .blend to a scene that needs no Blender",
+        "reftrace export scene.blend --out scene.npz",
+        "scene.blend",
+    )
+    sub.add_argument(
+        "--out", required=True, type=Path, metavar="SCENE.npz", help="the file to write"
+    )
     return parser
 
 
 def _add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int = 540) -> None:
     group = parser.add_argument_group(
-        "camera of a mesh (by default one that frames it; a scene has its own)")
+        "camera of a mesh (by default one that frames it; a scene has its own)"
+    )
     group.add_argument("--width", type=int, metavar="PIXELS", help=f"default {width}")
     group.add_argument("--height", type=int, metavar="PIXELS", help=f"default {height}")
     group.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"), help="its position")
-    group.add_argument("--target", type=float, nargs=3, metavar=("X", "Y", "Z"), default=(0, 0, 0),
-                       help="where it looks (default the origin); Z is up")
-    group.add_argument("--angle", type=float, metavar="DEGREES", default=50.0,
-                       help="vertical angle of view (default 50)")
-    group.add_argument("--ortho-scale", type=float, metavar="METRES",
-                       help="height of the picture of an orthographic camera, in place of --angle")
+    group.add_argument(
+        "--target",
+        type=float,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        default=(0, 0, 0),
+        help="where it looks (default the origin); Z is up",
+    )
+    group.add_argument(
+        "--angle",
+        type=float,
+        metavar="DEGREES",
+        default=50.0,
+        help="vertical angle of view (default 50)",
+    )
+    group.add_argument(
+        "--ortho-scale",
+        type=float,
+        metavar="METRES",
+        help="height of the picture of an orthographic camera, in place of --angle",
+    )
     parser.set_defaults(default_size=(width, height))
 
 
@@ -110,9 +162,16 @@ def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | No
     matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
     half = options.ortho_scale / 2 if options.ortho_scale else np.tan(np.radians(options.angle) / 2)
     distance = float(np.linalg.norm(backward))
-    return Camera(matrix, ViewWindow(-half * width / height, half * width / height, -half, half),
-                  width, height, orthographic=options.ortho_scale is not None,
-                  clip_start=distance * 1e-3, clip_end=distance * 1e3, name="--eye")
+    return Camera(
+        matrix,
+        ViewWindow(-half * width / height, half * width / height, -half, half),
+        width,
+        height,
+        orthographic=options.ortho_scale is not None,
+        clip_start=distance * 1e-3,
+        clip_end=distance * 1e3,
+        name="--eye",
+    )
 
 
 def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
@@ -124,8 +183,10 @@ def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
-        width, height = (getattr(options, name) or default for name, default
-                         in zip(("width", "height"), options.default_size, strict=True))
+        width, height = (
+            getattr(options, name) or default
+            for name, default in zip(("width", "height"), options.default_size, strict=True)
+        )
         meshes = load_meshes(path)
         return scene_of_meshes(meshes, _camera(options, width, height), width, height), Settings()
     if suffix == ".blend":
@@ -146,8 +207,9 @@ def _open_blend(path: Path) -> Iterator[Any]:
     try:
         import bpy
     except ImportError as error:
-        raise SceneError(f"a .blend needs Blender as a module: pip install "
-                         f"'reference_tracer[blender]' ({error})") from error
+        raise SceneError(
+            f"a .blend needs Blender as a module: pip install 'reference_tracer[blender]' ({error})"
+        ) from error
     from .blender import registration
 
     registration.register()
@@ -185,9 +247,11 @@ def _trace(options: argparse.Namespace) -> int:
     else:
         images.save_exr(options.out, frame.passes())
     s = frame.statistics
-    print(f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
-          f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({settings.method.value}, "
-          f"{settings.precision.value}): {options.out}")
+    print(
+        f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
+        f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({settings.method.value}, "
+        f"{settings.precision.value}): {options.out}"
+    )
     return 0
 
 
@@ -223,12 +287,15 @@ def _progress() -> Iterator[Callable[[float], None]]:
         from tqdm import tqdm
     except ImportError:
         if sys.stderr.isatty():
-            print("reftrace: no progress bar without tqdm: pip install "
-                  "'reference_tracer[progress]'", file=sys.stderr)
+            print(
+                "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
+                file=sys.stderr,
+            )
         yield lambda share: None
         return
     layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
     with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
+
         def show(share: float) -> None:
             bar.update(share - bar.n)
 

@@ -25,8 +25,9 @@ def to_display(color: NDArray[np.floating]) -> NDArray[np.uint8]:
     color = np.nan_to_num(np.asarray(color, dtype=np.float64), posinf=1.0, neginf=0.0)
     alpha = np.clip(color[..., 3:], 0, 1)
     straight = np.clip(color[..., :3] / np.where(alpha > 0, alpha, 1), 0, 1)
-    encoded = np.where(straight <= 0.0031308, 12.92 * straight,
-                       1.055 * straight ** (1 / 2.4) - 0.055)
+    encoded = np.where(
+        straight <= 0.0031308, 12.92 * straight, 1.055 * straight ** (1 / 2.4) - 0.055
+    )
     return np.rint(255 * np.concatenate((encoded, alpha), axis=-1)).astype(np.uint8)
 
 
@@ -76,4 +77,5 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
 
 def _missing(what: str, library: str) -> MissingLibraryError:
     return MissingLibraryError(
-        f"{what} need the library {library}: pip install 'reference_tracer[images]'")
+        f"{what} need the library {library}: pip install 'reference_tracer[images]'"
+    )

@@ -85,7 +85,11 @@ class Manifest:
                 out.append(f"  {e.name}: {e.left_out} triangles left out (not finite)")
             if e.empty_slots:
                 out.append(f"  {e.name}: {e.empty_slots} empty material slots, shown in grey")
-        out += [f"  skipped {e.name} ({e.type}): {e.reason}" for e in self.objects if not e.exported]
+        out += [
+            f"  skipped {e.name} ({e.type}): {e.reason}" for e in self.objects if not e.exported
+        ]
         for u in self.unmodelled:
-            out.append(f"  not modelled: {u.object}: {u.feature}" + (f" ({u.detail})" if u.detail else ""))
+            out.append(
+                f"  not modelled: {u.object}: {u.feature}" + (f" ({u.detail})" if u.detail else "")
+            )
         return out + [f"  note: {n}" for n in self.notes]

@@ -21,8 +21,9 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True)
 class ViewWindow:
-    """What the whole picture shows, on the plane at depth 1 (perspective) or in metres
-    (orthographic), along the camera's right and up axes.
+    """What the whole picture shows, along the camera's right and up axes.
+
+    On the plane at depth 1 (perspective), or in metres (orthographic).
     """
 
     left: float
@@ -33,7 +34,7 @@ class ViewWindow:
 
 @dataclass(frozen=True)
 class Region:
-    """The pixels to trace: x0 <= x < x1 and y0 <= y < y1 of the whole picture, row 0 at the bottom."""
+    """The pixels to trace, x0 <= x < x1 and y0 <= y < y1, row 0 of the picture at the bottom."""
 
     x0: int
     y0: int
@@ -109,8 +110,11 @@ class Camera:
                 f"below its clip end ({self.clip_end:g} m)."
             )
         w = self.window
-        if not (np.isfinite([w.left, w.right, w.bottom, w.top]).all()
-                and w.left < w.right and w.bottom < w.top):
+        if not (
+            np.isfinite([w.left, w.right, w.bottom, w.top]).all()
+            and w.left < w.right
+            and w.bottom < w.top
+        ):
             raise SceneError(
                 f"Camera '{self.name}' has an empty or infinite view window ({w}): check its focal "
                 "length, sensor size, orthographic scale and shift."
@@ -182,8 +186,10 @@ class Mesh:
         if slots.shape != (len(triangles),) or (slots < 0).any():
             raise SceneError(f"{what}: slots must be (n,) and not negative.")
         if not np.isfinite(vertices).all():
-            raise SceneError(f"{what} has vertices that are not finite: leave out their triangles "
-                             "(scene.drop_non_finite does).")
+            raise SceneError(
+                f"{what} has vertices that are not finite: leave out their triangles "
+                "(scene.drop_non_finite does)."
+            )
         if self.corner_colors is not None:
             colors = np.asarray(self.corner_colors, dtype=np.float32)
             if colors.shape != (len(triangles), 3, 4):
@@ -296,7 +302,9 @@ def drop_non_finite(
     finite = np.isfinite(vertices).all(axis=1)
     if finite.all():
         return vertices, np.ones(len(triangles), bool)
-    return np.where(finite[:, None], vertices, vertices.dtype.type(0)), finite[triangles].all(axis=1)
+    return np.where(finite[:, None], vertices, vertices.dtype.type(0)), finite[triangles].all(
+        axis=1
+    )
 
 
 def _store(instance: object, name: str, value: object) -> None:

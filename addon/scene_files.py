@@ -12,7 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from .scene import Camera, Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow, drop_non_finite
+from .scene import (
+    Camera,
+    Instance,
+    Mesh,
+    Plane,
+    Region,
+    Scene,
+    SceneError,
+    ViewWindow,
+    drop_non_finite,
+)
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
@@ -42,9 +52,13 @@ def save_scene(path: str | Path, scene: Scene) -> None:
     """Write a scene to a compressed .npz."""
     camera = asdict(scene.camera) | {"world_from_camera": scene.camera.world_from_camera.tolist()}
     head = {
-        "schema": _SCHEMA, "camera": camera, "objects": scene.objects,
+        "schema": _SCHEMA,
+        "camera": camera,
+        "objects": scene.objects,
         "background": scene.background.tolist(),
-        "meshes": [{"name": m.name, "corner_colors": m.corner_colors is not None} for m in scene.meshes],
+        "meshes": [
+            {"name": m.name, "corner_colors": m.corner_colors is not None} for m in scene.meshes
+        ],
         "instances": [{"mesh": i.mesh, "object": i.object} for i in scene.instances],
         "planes": [{"object": p.object} for p in scene.planes],
     }
@@ -77,21 +91,41 @@ def load_scene(path: str | Path) -> Scene:
         if head.get("schema") != _SCHEMA:
             raise SceneError(f"'{path}' has the schema {head.get('schema')!r}, not {_SCHEMA!r}.")
         c = head["camera"]
-        camera = Camera(**c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])})
+        camera = Camera(
+            **c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])}
+        )
         return Scene(
             camera=camera,
-            meshes=tuple(Mesh(
-                data[f"mesh{k}_vertices"], data[f"mesh{k}_triangles"], data[f"mesh{k}_slots"],
-                data[f"mesh{k}_corner_colors"] if m["corner_colors"] else None, m["name"],
-            ) for k, m in enumerate(head["meshes"])),
-            instances=tuple(Instance(
-                i["mesh"], i["object"], data[f"instance{k}_world_from_object"],
-                data[f"instance{k}_colors"],
-            ) for k, i in enumerate(head["instances"])),
-            planes=tuple(Plane(
-                p["object"], data[f"plane{k}_point"], data[f"plane{k}_normal"], data[f"plane{k}_color"],
-            ) for k, p in enumerate(head["planes"])),
-            background=np.array(head["background"]), objects=tuple(head["objects"]),
+            meshes=tuple(
+                Mesh(
+                    data[f"mesh{k}_vertices"],
+                    data[f"mesh{k}_triangles"],
+                    data[f"mesh{k}_slots"],
+                    data[f"mesh{k}_corner_colors"] if m["corner_colors"] else None,
+                    m["name"],
+                )
+                for k, m in enumerate(head["meshes"])
+            ),
+            instances=tuple(
+                Instance(
+                    i["mesh"],
+                    i["object"],
+                    data[f"instance{k}_world_from_object"],
+                    data[f"instance{k}_colors"],
+                )
+                for k, i in enumerate(head["instances"])
+            ),
+            planes=tuple(
+                Plane(
+                    p["object"],
+                    data[f"plane{k}_point"],
+                    data[f"plane{k}_normal"],
+                    data[f"plane{k}_color"],
+                )
+                for k, p in enumerate(head["planes"])
+            ),
+            background=np.array(head["background"]),
+            objects=tuple(head["objects"]),
         )
     except SceneError:
         raise
@@ -116,8 +150,13 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
 
     path = Path(path)
     try:
-        loaded = trimesh.load(path, file_type=path.suffix.lower().lstrip("."), force="scene",
-                              process=False, skip_materials=True)
+        loaded = trimesh.load(
+            path,
+            file_type=path.suffix.lower().lstrip("."),
+            force="scene",
+            process=False,
+            skip_materials=True,
+        )
     except Exception as error:  # each of trimesh's readers raises its own kinds
         raise SceneError(f"'{path}' cannot be read as a mesh: {error}") from error
     out = []
@@ -125,7 +164,9 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
         matrix, name = loaded.graph[node]
         geometry = loaded.geometry[name]
         if len(getattr(geometry, "faces", ())):
-            vertices, keep = drop_non_finite(np.asarray(geometry.vertices), np.asarray(geometry.faces))
+            vertices, keep = drop_non_finite(
+                np.asarray(geometry.vertices), np.asarray(geometry.faces)
+            )
             out.append((Mesh(vertices, geometry.faces[keep], name=str(name)), np.array(matrix)))
     if not any(len(mesh.triangles) for mesh, _ in out):
         raise SceneError(f"'{path}' holds no triangles.")
@@ -135,14 +176,18 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
 def scene_of_meshes(
     meshes: list[tuple[Mesh, np.ndarray]], camera: Camera | None, width: int, height: int
 ) -> Scene:
-    """Return a scene of meshes, each in a grey of its own, seen by `camera` or by one framing them."""
+    """Return a scene of meshes, each in its own grey, seen by `camera` or by one framing them."""
     greys = np.linspace(0.8, 0.3, len(meshes))
     instances = tuple(
         Instance(k, k, matrix, np.array([[g, g, g, 1]], np.float32))
         for k, ((_, matrix), g) in enumerate(zip(meshes, greys, strict=True))
     )
-    return Scene(camera or framing_camera(meshes, width, height), tuple(m for m, _ in meshes),
-                 instances, objects=tuple(m.name for m, _ in meshes))
+    return Scene(
+        camera or framing_camera(meshes, width, height),
+        tuple(m for m, _ in meshes),
+        instances,
+        objects=tuple(m.name for m, _ in meshes),
+    )
 
 
 def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: int) -> Camera:
@@ -150,10 +195,12 @@ def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: in
 
     It looks from the front, right and above, as a new Blender scene's camera does.
     """
-    corners = np.concatenate([
-        m.vertices[np.unique(m.triangles)].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
-        for m, matrix in meshes
-    ])
+    corners = np.concatenate(
+        [
+            m.vertices[np.unique(m.triangles)].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
+            for m, matrix in meshes
+        ]
+    )
     low, high = corners.min(axis=0), corners.max(axis=0)
     center, radius = (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-30)
     backward = np.array([0.66, -0.62, 0.42])
@@ -163,8 +210,16 @@ def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: in
     narrow = 0.5  # tan of half the angle on the picture's shorter side
     distance = 1.05 * radius * np.sqrt(1 + 1 / narrow**2)  # the bounding sphere touches the cone
     matrix = np.eye(4)
-    matrix[:3] = np.stack((right, np.cross(backward, right), backward, center + distance * backward), 1)
+    matrix[:3] = np.stack(
+        (right, np.cross(backward, right), backward, center + distance * backward), 1
+    )
     x, y = narrow * max(1, width / height), narrow * max(1, height / width)
-    return Camera(matrix, ViewWindow(-x, x, -y, y), width, height, name="framing",
-                  clip_start=max(distance - 2 * radius, distance * 1e-3),
-                  clip_end=distance + 2 * radius)
+    return Camera(
+        matrix,
+        ViewWindow(-x, x, -y, y),
+        width,
+        height,
+        name="framing",
+        clip_start=max(distance - 2 * radius, distance * 1e-3),
+        clip_end=distance + 2 * radius,
+    )

@@ -71,6 +71,7 @@ def border_region(
     Blender multiplies in float32 and cuts off: 0.3 of 250 pixels is 75, 0.7 of 10 is 6 or 7 as
     the float32 product has it.
     """
+
     def cut(share: float, size: int) -> int:
         return int(np.float32(share) * np.float32(size))
 
@@ -128,17 +129,34 @@ def export_camera(scene: Any) -> Camera:
         )
     region = None
     if render.use_border:
-        region = border_region(width, height, render.border_min_x, render.border_max_x,
-                               render.border_min_y, render.border_max_y)
+        region = border_region(
+            width,
+            height,
+            render.border_min_x,
+            render.border_max_x,
+            render.border_min_y,
+            render.border_max_y,
+        )
     return Camera(
         world_from_camera=camera_axes(obj.matrix_world, obj.name),
         window=view_window(
-            width=width, height=height, sensor_fit=data.sensor_fit, lens=data.lens,
-            sensor_width=data.sensor_width, sensor_height=data.sensor_height,
+            width=width,
+            height=height,
+            sensor_fit=data.sensor_fit,
+            lens=data.lens,
+            sensor_width=data.sensor_width,
+            sensor_height=data.sensor_height,
             ortho_scale=data.ortho_scale if data.type == "ORTHO" else None,
-            shift_x=data.shift_x, shift_y=data.shift_y,
-            aspect_x=render.pixel_aspect_x, aspect_y=render.pixel_aspect_y,
+            shift_x=data.shift_x,
+            shift_y=data.shift_y,
+            aspect_x=render.pixel_aspect_x,
+            aspect_y=render.pixel_aspect_y,
         ),
-        width=width, height=height, orthographic=data.type == "ORTHO",
-        clip_start=data.clip_start, clip_end=data.clip_end, region=region, name=obj.name,
+        width=width,
+        height=height,
+        orthographic=data.type == "ORTHO",
+        clip_start=data.clip_start,
+        clip_end=data.clip_end,
+        region=region,
+        name=obj.name,
     )

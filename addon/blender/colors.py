@@ -104,7 +104,13 @@ def _jenkins(key: int) -> int:
     start = 0xDEADBEEF + (2 << 2) + 13 & mask
     words = [start + key & mask, start, start]  # a, b, c
     for target, source, bits in (
-        (2, 1, 14), (0, 2, 11), (1, 0, 25), (2, 1, 16), (0, 2, 4), (1, 0, 14), (2, 1, 24)
+        (2, 1, 14),
+        (0, 2, 11),
+        (1, 0, 25),
+        (2, 1, 16),
+        (0, 2, 4),
+        (1, 0, 14),
+        (2, 1, 24),
     ):
         value = words[source]
         rotated = (value << bits | value >> 32 - bits) & mask

@@ -33,8 +33,10 @@ def run(argv: list[str]) -> int:
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES)
     commands = parser.add_subparsers(dest="command", required=True)
     compare = commands.add_parser(
-        "compare", help="trace the open scene, compare it with Blender's picture, write files",
-        epilog=EXIT_CODES)
+        "compare",
+        help="trace the open scene, compare it with Blender's picture, write files",
+        epilog=EXIT_CODES,
+    )
     compare.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(compare)
     add_judge(compare)
@@ -43,8 +45,11 @@ def run(argv: list[str]) -> int:
     except SystemExit as stop:
         return int(stop.code or 0)
     if not bpy.data.filepath:
-        print("reference_tracer: no file is open (is its name right?): name a .blend before "
-              "--command", file=sys.stderr)
+        print(
+            "reference_tracer: no file is open (is its name right?): name a .blend before "
+            "--command",
+            file=sys.stderr,
+        )
         return INPUT_ERROR
     return compare_open_file(options)
 
@@ -60,8 +65,13 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     try:
         settings = settings_from(options, bpy.context.scene.reference_tracer.settings())
         comparison = compare_to_folder(
-            bpy.context, options.out, progress, settings=settings,
-            judge=options.judge.upper() if options.judge else None, as_is=options.as_is or None)
+            bpy.context,
+            options.out,
+            progress,
+            settings=settings,
+            judge=options.judge.upper() if options.judge else None,
+            as_is=options.as_is or None,
+        )
     except SizeError as error:
         print(f"reference_tracer: {error}", file=sys.stderr)
         return SIZES_DIFFER

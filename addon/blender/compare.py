@@ -20,7 +20,7 @@ from ..compare.comparison import Comparison, trace_and_compare
 from ..manifest import Manifest
 from ..report import files
 from ..scene import Scene
-from ..tracer.render import result_of
+from ..tracer.progress import Work, result_of
 from ..tracer.settings import Settings
 from . import images
 from .engine import export_for_render
@@ -46,13 +46,18 @@ class Gathered:
     picture: NDArray[np.float32]
     blender: dict[str, Any]
 
-    def steps(self):
-        """Return the work that is left: yields shares of it, returns the `Comparison`."""
-        return trace_and_compare(self.scene, self.manifest, self.settings, self.picture, self.blender)
+    def steps(self) -> Work[Comparison]:
+        """Return the work that is left."""
+        return trace_and_compare(
+            self.scene, self.manifest, self.settings, self.picture, self.blender
+        )
 
 
 def gather(
-    context: Any, settings: Settings | None = None, judge: str | None = None, as_is: bool | None = None
+    context: Any,
+    settings: Settings | None = None,
+    judge: str | None = None,
+    as_is: bool | None = None,
 ) -> Gathered:
     """Export the context's scene and view layer, and have Blender draw them.
 
@@ -87,8 +92,12 @@ def gather(
         with stand_ins(tmp, layer, exported) as exported:
             drawn = picture(tmp, layer, source, exported.camera, like_for_like)
     manifest = _named_as(manifest, scene)
-    blender = {"version": bpy.app.version_string, "source": source,
-               "sample_radius": SAMPLE_RADIUS[source], "settings": used}
+    blender = {
+        "version": bpy.app.version_string,
+        "source": source,
+        "sample_radius": SAMPLE_RADIUS[source],
+        "settings": used,
+    }
     return Gathered(exported, manifest, settings, drawn, blender)
 
 
@@ -143,6 +152,9 @@ def _named_as(manifest: Manifest, scene: Any) -> Manifest:
     values = vars(manifest) | {"scene": scene.name}
     copy = f"scene '{manifest.scene}'"
     values["unmodelled"] = tuple(
-        type(u)(f"scene '{scene.name}'" if u.object == copy else u.object, u.feature, u.detail, u.bounds)
-        for u in manifest.unmodelled)
+        type(u)(
+            f"scene '{scene.name}'" if u.object == copy else u.object, u.feature, u.detail, u.bounds
+        )
+        for u in manifest.unmodelled
+    )
     return Manifest(**values)

@@ -29,8 +29,10 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
         If the colours are ones that a material cannot ask for.
     """
     if scene.display.shading.color_type == "RANDOM":
-        raise SceneError("Cycles cannot draw the viewport's random colours: set the colour of the "
-                         "scene's solid shading to material or object, or compare with Workbench.")
+        raise SceneError(
+            "Cycles cannot draw the viewport's random colours: set the colour of the "
+            "scene's solid shading to material or object, or compare with Workbench."
+        )
     scene.cycles.samples = 1
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
@@ -58,8 +60,11 @@ def _emission(material: Any, scene: Any) -> None:
     elif shading.color_type == "OBJECT":
         tree.links.new(_attribute(tree, "OBJECT", "color").outputs["Color"], color)
     elif shading.color_type == "VERTEX":
-        without = (_material_color(tree, scene) if WITHOUT_ATTRIBUTE == "MATERIAL"
-                   else _attribute(tree, "OBJECT", "color").outputs["Color"])
+        without = (
+            _material_color(tree, scene)
+            if WITHOUT_ATTRIBUTE == "MATERIAL"
+            else _attribute(tree, "OBJECT", "color").outputs["Color"]
+        )
         tree.links.new(_where_found(tree, tree.nodes.new("ShaderNodeVertexColor"), without), color)
     else:
         tree.links.new(_material_color(tree, scene), color)
@@ -74,8 +79,10 @@ def _material_color(tree: Any, scene: Any) -> Any:
     color = grey
     for index in reversed(range(min(max(count, 1), SLOTS))):
         found = grey  # first what geometry nodes gave to the mesh, then what the object shows
-        for path in (f"data.materials[{index}].diffuse_color",
-                     f"material_slots[{index}].material.diffuse_color"):
+        for path in (
+            f"data.materials[{index}].diffuse_color",
+            f"material_slots[{index}].material.diffuse_color",
+        ):
             found = _where_found(tree, _attribute(tree, "OBJECT", path), found)
         after = tree.nodes.new("ShaderNodeMath")
         after.operation, after.inputs[1].default_value = "GREATER_THAN", index + 0.5
@@ -98,6 +105,10 @@ def _where_found(tree: Any, node: Any, otherwise: Any) -> Any:
 def _mix(tree: Any, factor: Any, first: Any, second: Any) -> Any:
     node = tree.nodes.new("ShaderNodeMix")
     node.data_type = "RGBA"
-    for socket, value in ((node.inputs[0], factor), (node.inputs[6], first), (node.inputs[7], second)):
+    for socket, value in (
+        (node.inputs[0], factor),
+        (node.inputs[6], first),
+        (node.inputs[7], second),
+    ):
         tree.links.new(value, socket)
     return node.outputs[2]

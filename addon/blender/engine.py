@@ -89,7 +89,9 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self._show(frame, layer)
         if frame.cancelled:
             done, rows = int(frame.rows_done.sum()), len(frame.rows_done)
-            self.report({"WARNING"}, f"Cancelled: {done} of {rows} rows are traced, the others are empty")
+            self.report(
+                {"WARNING"}, f"Cancelled: {done} of {rows} rows are traced, the others are empty"
+            )
 
     def _show(self, frame: Frame, layer: str) -> None:
         """Give Blender the rows that are done."""

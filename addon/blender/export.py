@@ -76,7 +76,7 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
             continue
         for u in of_object(obj, item.matrix_world, shading, viewport):
             _widen(entry.features, u)
-        if obj.type != "MESH" or viewport and obj.display_type in ("WIRE", "BOUNDS"):
+        if obj.type != "MESH" or (viewport and obj.display_type in ("WIRE", "BOUNDS")):
             continue
         key = obj.data.as_pointer()
         if key not in meshes:
@@ -101,8 +101,10 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
     out = Scene(
         camera=camera,
         meshes=tuple(m for _, m, _ in meshes.values()),
-        instances=tuple(instances), planes=tuple(planes),
-        background=background(scene), objects=tuple(n for _, n in objects),
+        instances=tuple(instances),
+        planes=tuple(planes),
+        background=background(scene),
+        objects=tuple(n for _, n in objects),
     )
     return out, _manifest(depsgraph, camera.name, seen, meshes, diagnosis)
 
@@ -113,7 +115,7 @@ def _number(entry: _Seen, seen: dict[str, _Seen]) -> None:
 
 
 def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
-    """An infinite plane through the object's origin, its normal the object's own +Z axis.
+    """Return a plane through the object's origin, its normal the object's own +Z axis.
 
     The plane holds the object's X and Y axes, so under shear its normal is their cross product.
     """
@@ -152,22 +154,33 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
                 diagnoses.setdefault(key, diagnose(mesh))
         first = next(iter(e.mesh_keys), None)
         shown = e.index >= 0
-        entries.append(ObjectEntry(
-            name=name, type="INFINITE_PLANE" if e.planes else e.type, exported=shown,
-            reason="" if shown else _no_triangles(e),
-            triangles=sum(len(m.triangles) for _, m, _ in own),
-            vertices=sum(len(m.vertices) for _, m, _ in own),
-            instances=e.instances + e.planes, left_out=e.left_out, empty_slots=e.empty_slots,
-            diagnosis=diagnoses.get(first),
-        ))
+        entries.append(
+            ObjectEntry(
+                name=name,
+                type="INFINITE_PLANE" if e.planes else e.type,
+                exported=shown,
+                reason="" if shown else _no_triangles(e),
+                triangles=sum(len(m.triangles) for _, m, _ in own),
+                vertices=sum(len(m.vertices) for _, m, _ in own),
+                instances=e.instances + e.planes,
+                left_out=e.left_out,
+                empty_slots=e.empty_slots,
+                diagnosis=diagnoses.get(first),
+            )
+        )
     for obj in scene.objects:
         if obj.name not in seen:
-            entries.append(ObjectEntry(obj.name, obj.type, False,
-                                       _hidden(obj, layer, depsgraph.mode)))
+            entries.append(
+                ObjectEntry(obj.name, obj.type, False, _hidden(obj, layer, depsgraph.mode))
+            )
     features = [u for e in seen.values() for u in e.features.values()]
     return Manifest(
-        file=bpy.path.basename(bpy.data.filepath), scene=scene.name, view_layer=layer.name,
-        frame=scene.frame_current, evaluation=depsgraph.mode, camera=camera,
+        file=bpy.path.basename(bpy.data.filepath),
+        scene=scene.name,
+        view_layer=layer.name,
+        frame=scene.frame_current,
+        evaluation=depsgraph.mode,
+        camera=camera,
         objects=tuple(entries),
         unmodelled=(*features, *of_scene(depsgraph.scene_eval)),
     )

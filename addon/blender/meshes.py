@@ -34,8 +34,11 @@ def export_mesh(mesh: Any, name: str, with_colors: bool) -> tuple[Mesh, int]:
     slots = _read(loops, "material_index", 1, np.int32).ravel()
     colors = _corner_colors(mesh) if with_colors else None
     return Mesh(
-        vertices=vertices, triangles=triangles[keep], slots=np.maximum(slots[keep], 0),
-        corner_colors=None if colors is None else colors[keep], name=name,
+        vertices=vertices,
+        triangles=triangles[keep],
+        slots=np.maximum(slots[keep], 0),
+        corner_colors=None if colors is None else colors[keep],
+        name=name,
     ), int(len(keep) - keep.sum())
 
 

@@ -10,7 +10,7 @@ import bpy
 from bpy.props import StringProperty
 
 from ..scene import SceneError
-from ..tracer.render import result_of
+from ..tracer.progress import result_of
 from . import results
 from .compare import compare_to_folder, gather
 
@@ -19,14 +19,20 @@ PAUSE = 0.005  # seconds that the interface gets in between
 
 
 class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
-    """Trace the scene with the textbook's maths and compare every pixel with Blender's own picture"""
+    """The button and the script's way to one comparison."""
 
     bl_idname = "reference_tracer.compare"
     bl_label = "Trace and Compare"
+    bl_description = (
+        "Trace the scene with the textbook's maths, and compare every pixel with "
+        "Blender's own picture"
+    )
     bl_options = {"UNDO"}  # the three images are one step
 
     directory: StringProperty(  # type: ignore[valid-type]
-        name="Folder", subtype="DIR_PATH", options={"SKIP_SAVE"},
+        name="Folder",
+        subtype="DIR_PATH",
+        options={"SKIP_SAVE"},
         description="Where to write the pictures and comparison.json; nothing is written if empty",
     )
 
@@ -90,7 +96,9 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
         context.window_manager.progress_update(int(100 * share))
         past = time.monotonic() - self._began
         left = f"  {past * (1 - share) / share:.0f} s left" if share > 0.01 else ""
-        context.workspace.status_text_set(f"Trace and Compare: {int(100 * share)} %{left}  (Esc: cancel)")
+        context.workspace.status_text_set(
+            f"Trace and Compare: {int(100 * share)} %{left}  (Esc: cancel)"
+        )
 
     def _clean_up(self, context: Any) -> None:
         self._work.close()

@@ -11,8 +11,13 @@ from .engine import ENGINE
 from .operators import REFERENCE_TRACER_OT_compare
 
 # Blender's own panels that this engine has no use for.
-_NOT_OURS = {"RENDER_PT_simplify", "RENDER_PT_freestyle", "RENDER_PT_stamp", "VIEWLAYER_PT_filter",
-             "VIEWLAYER_PT_layer_passes"}
+_NOT_OURS = {
+    "RENDER_PT_simplify",
+    "RENDER_PT_freestyle",
+    "RENDER_PT_stamp",
+    "VIEWLAYER_PT_filter",
+    "VIEWLAYER_PT_layer_passes",
+}
 # Those of Workbench that say which colours are shown.
 _WORKBENCHS = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film"}
 
@@ -50,8 +55,11 @@ class _Result:
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
         rows = [("Agree", pixels["agree"]), ("Differ", pixels["differ"])]
-        rows += [(f"  {name.replace('_', ' ').capitalize()}", n)
-                 for name, n in pixels["by_cause"].items() if n]
+        rows += [
+            (f"  {name.replace('_', ' ').capitalize()}", n)
+            for name, n in pixels["by_cause"].items()
+            if n
+        ]
         rows = [(label, f"{n:,} px") for label, n in rows]
         psnr = measured["psnr"]
         x, y = measured["largest_difference"]["pixel"]
@@ -138,8 +146,12 @@ class OBJECT_PT_reference_tracer(bpy.types.Panel):
 
 
 CLASSES = (
-    RENDER_PT_reference_tracer, RENDER_PT_reference_tracer_result, RENDER_PT_reference_tracer_export,
-    VIEW3D_PT_reference_tracer, VIEW3D_PT_reference_tracer_result, VIEW3D_PT_reference_tracer_export,
+    RENDER_PT_reference_tracer,
+    RENDER_PT_reference_tracer_result,
+    RENDER_PT_reference_tracer_export,
+    VIEW3D_PT_reference_tracer,
+    VIEW3D_PT_reference_tracer_result,
+    VIEW3D_PT_reference_tracer_export,
     OBJECT_PT_reference_tracer,
 )
 
@@ -147,9 +159,13 @@ CLASSES = (
 def _shared_panels() -> list[Any]:
     """Return Blender's own panels that also speak of this engine: format, camera, colours."""
     return [
-        panel for panel in bpy.types.Panel.__subclasses__()
+        panel
+        for panel in bpy.types.Panel.__subclasses__()
         if panel.__name__ in _WORKBENCHS
-        or ("BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in _NOT_OURS)
+        or (
+            "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ())
+            and panel.__name__ not in _NOT_OURS
+        )
     ]
 
 

@@ -44,8 +44,13 @@ def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
     across = found[0] - found.mean(axis=0)
     along = np.cross(plane.normal, across)
     centered = found - found.mean(axis=0)
-    return found[np.argsort(np.arctan2(centered @ along / np.linalg.norm(along),
-                                       centered @ across / np.linalg.norm(across)))]
+    return found[
+        np.argsort(
+            np.arctan2(
+                centered @ along / np.linalg.norm(along), centered @ across / np.linalg.norm(across)
+            )
+        )
+    ]
 
 
 def _view_volume(camera: Camera) -> NDArray[np.float64]:
@@ -56,8 +61,11 @@ def _view_volume(camera: Camera) -> NDArray[np.float64]:
         for y in (w.bottom - BEYOND * dy, w.top + BEYOND * dy):
             for x in (w.left - BEYOND * dx, w.right + BEYOND * dx):
                 scale = 1 if camera.orthographic else depth
-                out.append(camera.origin + scale * (x * camera.right + y * camera.up)
-                           + depth * camera.forward)
+                out.append(
+                    camera.origin
+                    + scale * (x * camera.right + y * camera.up)
+                    + depth * camera.forward
+                )
     return np.array(out)
 
 
@@ -99,7 +107,9 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
             bpy.data.collections.remove(collection)
 
 
-def _stand_in(tmp: Any, corners: NDArray[np.float64], source: Any, color: NDArray[np.float32]) -> Any:
+def _stand_in(
+    tmp: Any, corners: NDArray[np.float64], source: Any, color: NDArray[np.float32]
+) -> Any:
     # Vertices are float32: relative to the polygon's own middle they keep the most digits.
     middle = corners.mean(axis=0)
     mesh = bpy.data.meshes.new("Infinite Plane")

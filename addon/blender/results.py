@@ -35,8 +35,9 @@ def keep(context: Any, comparison: Comparison) -> Result:
         if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
             area.spaces.active.image = shown
             break
-    _latest = Result(bpy.data.filepath, comparison.manifest.scene, comparison,
-                     tuple(comparison.lines()))
+    _latest = Result(
+        bpy.data.filepath, comparison.manifest.scene, comparison, tuple(comparison.lines())
+    )
     return _latest
 
 

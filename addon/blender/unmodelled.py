@@ -28,8 +28,14 @@ _DRAWN_OTHERWISE = {
 def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
     corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
-    hair = max((p.settings.hair_length for p in getattr(obj, "particle_systems", ())
-                if p.settings.type == "HAIR"), default=0.0)
+    hair = max(
+        (
+            p.settings.hair_length
+            for p in getattr(obj, "particle_systems", ())
+            if p.settings.type == "HAIR"
+        ),
+        default=0.0,
+    )
     return np.stack((corners[:, :3].min(axis=0) - hair, corners[:, :3].max(axis=0) + hair))
 
 
@@ -52,10 +58,16 @@ def of_object(obj: Any, matrix: Any, shading: Any, viewport: bool) -> Iterator[U
     if color_type in ("MATERIAL", "TEXTURE"):
         for material in {m.name: m for m in slot_materials(obj) if m}.values():
             if material.diffuse_color[3] < 1:
-                yield found("transparency", f"material '{material.name}' has a viewport alpha of "
-                            f"{material.diffuse_color[3]:.3g}")
-            if color_type == "TEXTURE" and material.node_tree and any(
-                    node.type == "TEX_IMAGE" for node in material.node_tree.nodes):
+                yield found(
+                    "transparency",
+                    f"material '{material.name}' has a viewport alpha of "
+                    f"{material.diffuse_color[3]:.3g}",
+                )
+            if (
+                color_type == "TEXTURE"
+                and material.node_tree
+                and any(node.type == "TEX_IMAGE" for node in material.node_tree.nodes)
+            ):
                 yield found("texture", f"material '{material.name}'")
     attributes = obj.data.color_attributes
     if color_type == "VERTEX" and len(attributes) and attributes.active_color is None:
@@ -84,13 +96,18 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
         yield found("motion blur")
     if render.use_multiview:
         yield found("multiview", "not part of what is traced")
-    strips = scene.sequence_editor and len(scene.sequence_editor.strips_all
-                                           if hasattr(scene.sequence_editor, "strips_all")
-                                           else scene.sequence_editor.sequences_all)
+    strips = scene.sequence_editor and len(
+        scene.sequence_editor.strips_all
+        if hasattr(scene.sequence_editor, "strips_all")
+        else scene.sequence_editor.sequences_all
+    )
     if render.use_sequencer and strips:
         yield found("sequencer", "not part of what is traced")
-    composited = (scene.compositing_node_group is not None
-                  if hasattr(scene, "compositing_node_group") else scene.use_nodes)
+    composited = (
+        scene.compositing_node_group is not None
+        if hasattr(scene, "compositing_node_group")
+        else scene.use_nodes
+    )
     if render.use_compositing and composited:
         yield found("compositor", "not part of what is traced")
     if render.use_freestyle:

@@ -57,21 +57,49 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
     """
     render, display, view = scene.render, scene.display, scene.view_settings
     values = [
-        (render, {"use_sequencer": False, "use_compositing": False, "use_multiview": False,
-                  "use_freestyle": False, "use_motion_blur": False, "use_stamp": False,
-                  "use_crop_to_border": True, "use_file_extension": True,
-                  "use_overwrite": True, "use_placeholder": False}),
+        (
+            render,
+            {
+                "use_sequencer": False,
+                "use_compositing": False,
+                "use_multiview": False,
+                "use_freestyle": False,
+                "use_motion_blur": False,
+                "use_stamp": False,
+                "use_crop_to_border": True,
+                "use_file_extension": True,
+                "use_overwrite": True,
+                "use_placeholder": False,
+            },
+        ),
     ]
     if like_for_like:
         values += [
-            (display.shading, {
-                "light": "FLAT", "show_xray": False, "show_shadows": False, "show_cavity": False,
-                "show_object_outline": False, "show_specular_highlight": False,
-                "show_backface_culling": False, "use_dof": False}),
+            (
+                display.shading,
+                {
+                    "light": "FLAT",
+                    "show_xray": False,
+                    "show_shadows": False,
+                    "show_cavity": False,
+                    "show_object_outline": False,
+                    "show_specular_highlight": False,
+                    "show_backface_culling": False,
+                    "use_dof": False,
+                },
+            ),
             (display, {"render_aa": "OFF", "viewport_aa": "OFF"}),
             (render, {"film_transparent": True}),
-            (view, {"view_transform": "Raw", "look": "None", "exposure": 0.0, "gamma": 1.0,
-                    "use_curve_mapping": False}),
+            (
+                view,
+                {
+                    "view_transform": "Raw",
+                    "look": "None",
+                    "exposure": 0.0,
+                    "gamma": 1.0,
+                    "use_curve_mapping": False,
+                },
+            ),
         ]
     for target, settings in values:
         for name, value in settings.items():
@@ -82,8 +110,11 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
     image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGBA", "32"
     shading = display.shading
     return {
-        "like_for_like": like_for_like, "light": shading.light, "color_type": shading.color_type,
-        "film_transparent": render.film_transparent, "view_transform": view.view_transform,
+        "like_for_like": like_for_like,
+        "light": shading.light,
+        "color_type": shading.color_type,
+        "film_transparent": render.film_transparent,
+        "view_transform": view.view_transform,
         "anti_aliasing": display.render_aa,
     }
 
@@ -99,7 +130,9 @@ def use_view_shading(scene: Any, shading: Any) -> None:
                 continue
 
 
-def picture(scene: Any, layer: str, source: str, camera: Camera, like_for_like: bool) -> NDArray[np.float32]:
+def picture(
+    scene: Any, layer: str, source: str, camera: Camera, like_for_like: bool
+) -> NDArray[np.float32]:
     """Return Blender's picture of a prepared temporary scene.
 
     Parameters

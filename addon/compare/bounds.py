@@ -26,7 +26,9 @@ _FILM = 4
 _DEPTH_STEPS = 5
 
 
-def view_error(scene: Scene, positions: NDArray, instances: NDArray[np.integer]) -> NDArray[np.float64]:
+def view_error(
+    scene: Scene, positions: NDArray, instances: NDArray[np.integer]
+) -> NDArray[np.float64]:
     """Return how far float32 may move a point in camera space, (n,) metres.
 
     Parameters
@@ -45,7 +47,9 @@ def view_error(scene: Scene, positions: NDArray, instances: NDArray[np.integer])
     return U * (_MODEL * model + _VIEW * (p + np.abs(scene.camera.origin).sum()))
 
 
-def pixel_error(camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]) -> NDArray[np.float64]:
+def pixel_error(
+    camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Return how far Blender's sample may lie from the pixel's centre, (n,) pixels.
 
     Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film.
@@ -61,8 +65,10 @@ def pixel_error(camera: Camera, depth: NDArray[np.float64], view: NDArray[np.flo
     return SNAPPING + film + moved / min(width, height)
 
 
-def depth_resolution(camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far apart in depth two surfaces must be for Blender to tell them apart, (n,) metres.
+def depth_resolution(
+    camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return how far apart in depth Blender can tell two surfaces, (n,) metres.
 
     A 24-bit depth buffer holds f / (f - n) (1 - n / z) of a perspective camera, so a step at depth
     z is z^2 (f - n) / (f n) 2^-24; of an orthographic one (f - n) 2^-24. Both surfaces carry the

@@ -7,10 +7,9 @@ where the manifest names something in that place that the tracer does not model.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +20,7 @@ from ..tracer import shading
 from ..tracer.camera import pixel_size, project
 from ..tracer.frame import Frame
 from ..tracer.probe import Probe
+from ..tracer.progress import Work, scaled
 from ..tracer.render import tiles
 from ..tracer.settings import Settings
 from ..tracer.visibility import NOTHING, Hits, plan
@@ -42,8 +42,6 @@ OFFSETS = (
 )
 
 LAYERS = 4  # surfaces behind one another that a depth tie is looked for in
-
-T = TypeVar("T")
 
 
 class Cause(IntEnum):
@@ -88,7 +86,7 @@ def find_causes(
     picture: NDArray[np.float32],
     unmodelled: Sequence[Unmodelled] = (),
     sample_radius: float = 0.0,
-) -> Generator[float, None, Causes]:
+) -> Work[Causes]:
     """Give every pixel of a picture its cause.
 
     Parameters
@@ -170,8 +168,13 @@ def _largest_around(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _look_again(
-    scene: Scene, settings: Settings, frame: Frame, picture: NDArray, band: NDArray, settle: _Settler
-) -> Generator[float, None, None]:
+    scene: Scene,
+    settings: Settings,
+    frame: Frame,
+    picture: NDArray,
+    band: NDArray,
+    settle: _Settler,
+) -> Work[None]:
     """Trace the open pixels again, a tile at a time: around their centres, then in depth."""
     if not settle.open.any():
         return
@@ -215,8 +218,10 @@ def _edges(scene, probe: Probe, wanted, picture, band, settle: _Settler) -> Iter
 
 def _depth_ties(scene, probe: Probe, wanted, picture, frame: Frame, rows, settle) -> Iterator[None]:
     """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart."""
-    first = Hits(*(a[rows][wanted] for a in (frame.t, frame.instance_index, frame.triangle_index)),
-                 np.zeros((3, int(wanted.sum()))))
+    first = Hits(
+        *(a[rows][wanted] for a in (frame.t, frame.instance_index, frame.triangle_index)),
+        np.zeros((3, int(wanted.sum()))),
+    )
     view = np.full(len(first.t), np.inf)
     seen = first.instance != NOTHING
     view[seen] = view_error(scene, frame.position[rows][wanted][seen], first.instance[seen])
@@ -227,8 +232,12 @@ def _depth_ties(scene, probe: Probe, wanted, picture, frame: Frame, rows, settle
         with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
             gap = hits.t - first.t
             same = (gap <= allowed) & ~differing(shading.colors(scene, hits), shown)
-        settle(_set_out(same, wanted), Cause.DEPTH_TIE, _set_out(gap, wanted),
-               _set_out(allowed, wanted))
+        settle(
+            _set_out(same, wanted),
+            Cause.DEPTH_TIE,
+            _set_out(gap, wanted),
+            _set_out(allowed, wanted),
+        )
         yield
         if not settle.open.any():
             return
@@ -238,16 +247,6 @@ def _set_out(values: NDArray, where: NDArray[np.bool_]) -> NDArray:
     out = np.zeros(where.shape, values.dtype)
     out[where] = values
     return out
-
-
-def scaled(work: Generator[float, None, T], start: float, size: float) -> Generator[float, None, T]:
-    """Run `work` as the part of a larger work that begins at `start` and has this size."""
-    while True:
-        try:
-            share = next(work)
-        except StopIteration as stop:
-            return stop.value
-        yield start + size * share
 
 
 def covered(camera: Camera, bounds: NDArray[np.float64]) -> NDArray[np.bool_]:

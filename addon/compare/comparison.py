@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,10 +11,11 @@ from numpy.typing import NDArray
 from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.frame import Frame
+from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import Settings
 from . import metrics
-from .causes import Cause, Causes, find_causes, scaled
+from .causes import Cause, Causes, find_causes
 
 SCHEMA = "reference_tracer.comparison/1"
 
@@ -54,8 +54,9 @@ class Comparison:
             "unexplained": count[Cause.UNEXPLAINED],
             "not_decidable": count[Cause.NOT_DECIDABLE],
             "not_traced": count[Cause.NOT_TRACED],
-            "by_cause": {c.name.lower(): count[c] for c in Cause
-                         if c not in (Cause.AGREE, Cause.NOT_TRACED)},
+            "by_cause": {
+                c.name.lower(): count[c] for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
+            },
         }
 
     @property
@@ -63,8 +64,12 @@ class Comparison:
         """RMSE, PSNR (None for infinite), SSIM and the largest difference of linear RGBA."""
         a, b = np.nan_to_num(self.frame.color), np.nan_to_num(self.picture)
         psnr = metrics.psnr(a, b)
-        return {"rmse": metrics.rmse(a, b), "psnr": psnr if np.isfinite(psnr) else None,
-                "ssim": metrics.ssim(a, b), "largest_difference": metrics.largest_difference(a, b)}
+        return {
+            "rmse": metrics.rmse(a, b),
+            "psnr": psnr if np.isfinite(psnr) else None,
+            "ssim": metrics.ssim(a, b),
+            "largest_difference": metrics.largest_difference(a, b),
+        }
 
     @property
     def verdict(self) -> str:
@@ -87,12 +92,17 @@ class Comparison:
             "scene": self.manifest.to_dict(),
             "blender": self.blender,
             "tracer": {
-                "method": self.settings.method.value, "precision": self.settings.precision.value,
-                "samples": self.settings.samples, "seconds": round(s.seconds, 6),
-                "triangles": s.triangles, "pairs_tested": s.pairs_tested,
+                "method": self.settings.method.value,
+                "precision": self.settings.precision.value,
+                "samples": self.settings.samples,
+                "seconds": round(s.seconds, 6),
+                "triangles": s.triangles,
+                "pairs_tested": s.pairs_tested,
                 "cancelled": self.frame.cancelled,
             },
-            "pixels": self.pixels, "metrics": self.metrics, "verdict": self.verdict,
+            "pixels": self.pixels,
+            "metrics": self.metrics,
+            "verdict": self.verdict,
         }
 
     def lines(self) -> list[str]:
@@ -114,9 +124,13 @@ class Comparison:
 
 
 def compare(
-    scene: Scene, manifest: Manifest, settings: Settings, frame: Frame,
-    picture: NDArray[np.float32], blender: dict[str, Any],
-) -> Generator[float, None, Comparison]:
+    scene: Scene,
+    manifest: Manifest,
+    settings: Settings,
+    frame: Frame,
+    picture: NDArray[np.float32],
+    blender: dict[str, Any],
+) -> Work[Comparison]:
     """Compare a traced frame with Blender's picture; yields the share of the work done.
 
     Raises
@@ -130,14 +144,18 @@ def compare(
             f"{frame.color.shape[1]} x {frame.color.shape[0]}."
         )
     causes = yield from find_causes(
-        scene, settings, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0))
+        scene, settings, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0)
+    )
     return Comparison(scene, manifest, settings, frame, picture, blender, causes)
 
 
 def trace_and_compare(
-    scene: Scene, manifest: Manifest, settings: Settings, picture: NDArray[np.float32],
+    scene: Scene,
+    manifest: Manifest,
+    settings: Settings,
+    picture: NDArray[np.float32],
     blender: dict[str, Any],
-) -> Generator[float, None, Comparison]:
+) -> Work[Comparison]:
     """Trace a scene and compare it with Blender's picture, in small steps.
 
     Yields the share of the work done; the caller stops by not asking for more.
@@ -147,4 +165,3 @@ def trace_and_compare(
         yield _TRACING * share
     comparing = compare(scene, manifest, settings, frame, picture, blender)
     return (yield from scaled(comparing, _TRACING, 1 - _TRACING))
-

@@ -27,10 +27,11 @@ LARGE = 16
 
 @dataclass(eq=False)
 class Coverage:
-    """For n pixels: `hits` are those of k triangles that may cover a pixel, each where it comes
-    nearest to the centre, at `distance` (k,) pixels; `pixel` (k,) says which.
+    """What k triangles that may cover one of n pixels would show there.
 
-    `sure` (n,) is the depth of the nearest surface that Blender's sample cannot miss; inf for none.
+    `hits` are theirs, each where the triangle comes nearest to the centre, at `distance` (k,)
+    pixels; `pixel` (k,) says of which pixel. `sure` (n,) is the depth of the nearest surface that
+    Blender's sample cannot miss; inf for none.
     """
 
     pixel: NDArray[np.integer]
@@ -62,17 +63,28 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
         rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
         hit, t, s = METHODS[settings.method](rays, *some.corners[..., near])
         hit = np.flatnonzero(hit & within_clip(scene.camera, t))
-        found.append((pixel[hit], np.maximum(np.abs(x), np.abs(y))[hit], t[hit],
-                      some.instance[near][hit], some.triangle[near][hit], s[:, hit]))
+        found.append(
+            (
+                pixel[hit],
+                np.maximum(np.abs(x), np.abs(y))[hit],
+                t[hit],
+                some.instance[near][hit],
+                some.triangle[near][hit],
+                s[:, hit],
+            )
+        )
     if not found:
         return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure.t)
     pixel, distance, t, instance, triangle, s = (
-        np.concatenate(c, axis=-1) for c in zip(*found, strict=True))
+        np.concatenate(c, axis=-1) for c in zip(*found, strict=True)
+    )
     return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure.t)
 
 
 def _take(some: Pairs, index: NDArray[np.integer]) -> Pairs:
-    return Pairs(some.pixel[index], some.corners[..., index], some.instance[index], some.triangle[index])
+    return Pairs(
+        some.pixel[index], some.corners[..., index], some.instance[index], some.triangle[index]
+    )
 
 
 def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:

@@ -57,8 +57,11 @@ def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:
     _same_shape(first, second)
     difference = np.abs(first.astype(np.float64) - second)
     y, x, channel = np.unravel_index(int(difference.argmax()), difference.shape)
-    return {"value": float(difference[y, x, channel]), "pixel": [int(x), int(y)],
-            "channel": int(channel)}
+    return {
+        "value": float(difference[y, x, channel]),
+        "pixel": [int(x), int(y)],
+        "channel": int(channel),
+    }
 
 
 def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]:
@@ -67,10 +70,14 @@ def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]
         sums = np.cumsum(picture, axis=axis)
         sums = np.concatenate((np.zeros_like(sums.take([0], axis)), sums), axis=axis)
         count = picture.shape[axis]
-        picture = (sums.take(range(size, count + 1), axis) - sums.take(range(count + 1 - size), axis)) / size
+        picture = (
+            sums.take(range(size, count + 1), axis) - sums.take(range(count + 1 - size), axis)
+        ) / size
     return picture
 
 
 def _same_shape(first: NDArray, second: NDArray) -> None:
     if first.shape != second.shape or first.ndim != 3:
-        raise ValueError(f"Pictures must be (h, w, c) of one size, not {first.shape} and {second.shape}.")
+        raise ValueError(
+            f"Pictures must be (h, w, c) of one size, not {first.shape} and {second.shape}."
+        )

@@ -43,8 +43,12 @@ def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> N
         save_png(directory / f"{name}.png", to_display(color))
     causes = comparison.causes
     np.savez_compressed(
-        directory / "frame.npz", **comparison.frame.passes(), blender=comparison.picture,
-        cause=causes.cause, cause_figure=causes.figure, cause_allowed=causes.allowed,
+        directory / "frame.npz",
+        **comparison.frame.passes(),
+        blender=comparison.picture,
+        cause=causes.cause,
+        cause_figure=causes.figure,
+        cause_allowed=causes.allowed,
     )
     _write_json(directory, comparison.to_dict())
 
@@ -53,8 +57,14 @@ def write_failure(directory: str | Path, error: BaseException) -> None:
     """Write a `comparison.json` that says why there is no comparison."""
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    _write_json(directory, {"schema": SCHEMA, "verdict": "failed",
-                            "error": {"type": type(error).__name__, "message": str(error)}})
+    _write_json(
+        directory,
+        {
+            "schema": SCHEMA,
+            "verdict": "failed",
+            "error": {"type": type(error).__name__, "message": str(error)},
+        },
+    )
 
 
 def _write_json(directory: Path, content: dict[str, Any]) -> None:

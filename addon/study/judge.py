@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from ..tracer.camera import camera_rays
-from ..tracer.render import result_of, tiles
+from ..tracer.progress import result_of
+from ..tracer.render import tiles
 from ..tracer.settings import Settings
 from ..tracer.visibility import NOTHING, candidates, film_positions, plan
 
@@ -45,8 +46,9 @@ def judge(scene: Scene) -> Iterator[list[set[tuple[int, int]]]]:
     for tile in tiles(scene.camera):
         count = tile.width * tile.height
         rays = camera_rays(scene.camera, *film_positions(tile, 0.0, 0.0))
-        origins, directions = (np.broadcast_to(v, (3, count)).T
-                               for v in (rays.origins, rays.directions))
+        origins, directions = (
+            np.broadcast_to(v, (3, count)).T for v in (rays.origins, rays.directions)
+        )
         hits: list[list] = [[] for _ in range(count)]
         for index, plane in enumerate(scene.planes):
             name = (len(scene.instances) + index, NOTHING)
@@ -60,7 +62,9 @@ def judge(scene: Scene) -> Iterator[list[set[tuple[int, int]]]]:
             tested += len(some.pixel)
             if tested > MOST_PAIRS:
                 raise TooLargeError(
-                    f"more than {MOST_PAIRS:,} pairs of a pixel and a triangle: choose a smaller --width")
+                    f"more than {MOST_PAIRS:,} pairs of a pixel and a triangle to judge: "
+                    "choose a smaller --width"
+                )
             for k, pixel in enumerate(some.pixel):
                 found = _triangle(origins[pixel], directions[pixel], some.corners[:, :, k])
                 if found is not None:
@@ -77,12 +81,14 @@ def _nearest(hits: list, clip_start: float, clip_end: float) -> set[tuple[int, i
 
 
 def integers(*vectors: NDArray[np.float64]) -> tuple[list[list[int]], int]:
-    """Return vectors of floats as integers and an exponent: each float is its integer * 2^exponent."""
+    """Return vectors of floats as integers and an exponent e: each float is integer * 2^e."""
     mantissa, exponent = np.frexp(np.stack(vectors))
     whole = (mantissa * 2.0**53).astype(np.int64)
     least = int(exponent.min())
-    shifted = [[int(m) << int(e) for m, e in zip(row, by, strict=True)]
-               for row, by in zip(whole, exponent - least, strict=True)]
+    shifted = [
+        [int(m) << int(e) for m, e in zip(row, by, strict=True)]
+        for row, by in zip(whole, exponent - least, strict=True)
+    ]
     return shifted, least - 53
 
 

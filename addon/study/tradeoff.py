@@ -68,14 +68,18 @@ def measure(
         if progress:
             progress(0.2 + 0.8 * len(answers) / (width * height))
     return [
-        Row(s.method.value, s.precision.value, median(t), wrong_pixels(frame, answers), len(answers))
+        Row(
+            s.method.value, s.precision.value, median(t), wrong_pixels(frame, answers), len(answers)
+        )
         for s, t, frame in zip(choices, seconds, frames, strict=True)
     ]
 
 
 def wrong_pixels(frame: Frame, answers: list[set[tuple[int, int]]]) -> int:
     """Count the pixels whose instance and triangle are none of those that may be seen."""
-    given = zip(frame.instance_index.ravel().tolist(), frame.triangle_index.ravel().tolist(), strict=True)
+    given = zip(
+        frame.instance_index.ravel().tolist(), frame.triangle_index.ravel().tolist(), strict=True
+    )
     return int(np.sum([name not in may for name, may in zip(given, answers, strict=True)]))
 
 
@@ -85,6 +89,8 @@ def table(rows: list[Row]) -> str:
     lines = [f"{'method':<18}{'precision':<11}{'seconds':>9}{'ratio':>7}{'wrong pixels':>18}"]
     for r in rows:
         share = f"({r.wrong_pixels / r.pixels:.2%})"
-        lines.append(f"{r.method:<18}{r.precision:<11}{r.seconds:>9.4f}{r.seconds / base:>7.2f}"
-                     f"{r.wrong_pixels:>9,} {share:>8}")
+        lines.append(
+            f"{r.method:<18}{r.precision:<11}{r.seconds:>9.4f}{r.seconds / base:>7.2f}"
+            f"{r.wrong_pixels:>9,} {share:>8}"
+        )
     return "\n".join(lines)

@@ -31,8 +31,12 @@ class Rays:
 
     def take(self, index: NDArray[np.integer]) -> Rays:
         """Return the rays at `index`; what all share stays shared."""
-        return Rays(*(v if v.shape[1] == 1 else v.take(index, axis=1)
-                      for v in (self.origins, self.directions)))
+        return Rays(
+            *(
+                v if v.shape[1] == 1 else v.take(index, axis=1)
+                for v in (self.origins, self.directions)
+            )
+        )
 
     def at(self, t: NDArray[np.floating]) -> Vectors:
         """Return the points o + t d, (3, n)."""
@@ -60,6 +64,7 @@ def camera_rays(
     dtype
         In which every step is computed.
     """
+
     def cast(value: object) -> NDArray:
         return np.asarray(value, dtype=dtype)
 
@@ -74,7 +79,9 @@ def camera_rays(
     return Rays(origin, x * right + y * up + forward)
 
 
-def film_of(camera: Camera, points: Vectors) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray]:
+def film_of(
+    camera: Camera, points: Vectors
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray]:
     """Return where world points (3, n) appear on the film, in pixels, and their depth, (n,) each.
 
     What a perspective camera does not have in front of it appears nowhere: NaN.

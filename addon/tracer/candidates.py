@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from .camera import pixel_size, project
-from .vector import Vectors, transform_points
+from .vector import transform_points
 
 BATCH = 1 << 14  # triangles looked at together: a few milliseconds of work, some MiB
 
@@ -117,21 +117,28 @@ def pixel_bounds(
     bounds = np.empty((4, count), np.int32)
     # The part of the triangle that can be seen has a depth of at least this.
     front = np.maximum(nearest, camera.clip_start)
-    for axis, (value, size, start, low, high) in enumerate((
-        (x, sizes[0], window.left, region.x0, region.x1),
-        (y, sizes[1], window.bottom, region.y0, region.y1),
-    )):
+    for axis, (value, size, start, low, high) in enumerate(
+        (
+            (x, sizes[0], window.left, region.x0, region.x1),
+            (y, sizes[1], window.bottom, region.y0, region.y1),
+        )
+    ):
         smallest, largest = value.min(axis=0) - error, value.max(axis=0) + error
         if not camera.orthographic:
-            smallest, largest = _perspective(value, depth, error, smallest, largest,
-                                             nearest, front, farthest, camera.clip_start)
+            smallest, largest = _perspective(
+                value, depth, error, smallest, largest, nearest, front, farthest, camera.clip_start
+            )
         with np.errstate(invalid="ignore", over="ignore"):
             # A film position near `start` comes from cancelling against it.
             slack = reach + _SAFETY * np.finfo(corners.dtype).eps * (
-                abs(start / size) + camera.width + camera.height)
-            bounds[2 * axis] = _pixel(np.ceil((smallest - start) / size - 0.5 - slack), low, high, low)
+                abs(start / size) + camera.width + camera.height
+            )
+            bounds[2 * axis] = _pixel(
+                np.ceil((smallest - start) / size - 0.5 - slack), low, high, low
+            )
             bounds[2 * axis + 1] = _pixel(
-                np.floor((largest - start) / size - 0.5 + slack) + 1, low, high, high)
+                np.floor((largest - start) / size - 0.5 + slack) + 1, low, high, high
+            )
     unseen = (farthest < camera.clip_start) | (nearest > camera.clip_end)
     bounds[1, unseen] = bounds[0, unseen]
     return bounds

@@ -8,16 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera
-from .visibility import NOTHING
-
-
-@dataclass
-class Statistics:
-    """What the picture took."""
-
-    triangles: int = 0  # over all instances
-    pairs_tested: int = 0  # (ray, triangle)
-    seconds: float = 0.0
+from .visibility import NOTHING, Statistics
 
 
 @dataclass(eq=False)
@@ -46,8 +37,11 @@ class Frame:
         h, w = camera.region.height, camera.region.width
         indices = [np.full((h, w), NOTHING, np.int32) for _ in range(3)]
         return cls(
-            np.zeros((h, w, 4), np.float32), np.full((h, w), np.inf),
-            *(np.zeros((h, w, 3)) for _ in range(3)), *indices, np.zeros(h, bool),
+            np.zeros((h, w, 4), np.float32),
+            np.full((h, w), np.inf),
+            *(np.zeros((h, w, 3)) for _ in range(3)),
+            *indices,
+            np.zeros(h, bool),
         )
 
     @property
@@ -60,6 +54,16 @@ class Frame:
 
     def passes(self) -> dict[str, NDArray]:
         """Return every output by name, in the order in which they are declared."""
-        names = ("color", "depth", "t", "position", "normal", "barycentrics", "object_index",
-                 "instance_index", "triangle_index", "rows_done")
+        names = (
+            "color",
+            "depth",
+            "t",
+            "position",
+            "normal",
+            "barycentrics",
+            "object_index",
+            "instance_index",
+            "triangle_index",
+            "rows_done",
+        )
         return {name: getattr(self, name) for name in names}

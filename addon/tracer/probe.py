@@ -5,7 +5,6 @@ The comparison asks with them what a pixel would show had Blender's arithmetic m
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..scene import Region
 from .camera import camera_rays
+from .progress import Work
 from .visibility import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
 
 
@@ -26,7 +26,7 @@ class Probe:
     chunks: list[Pairs]  # `pixel` numbers the n pixels
 
     @classmethod
-    def of(cls, plan: Plan, tile: Region, wanted: NDArray[np.bool_]) -> Generator[float, None, Probe]:
+    def of(cls, plan: Plan, tile: Region, wanted: NDArray[np.bool_]) -> Work[Probe]:
         """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
 
         Yields the share of the work done; returns the probe.

@@ -7,21 +7,22 @@ own way to show progress and to stop. A step takes some ten milliseconds.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Iterator
-from typing import TypeVar
+from collections.abc import Callable, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import shading
 from .camera import camera_rays
 from .frame import Frame
+from .progress import scaled
 from .settings import Settings
 from .visibility import Hits, Plan, film_positions, plan, trace_tile
 
-T = TypeVar("T")
-
-ROWS = 32  # of a tile: enough to share work between rows, few enough that a cancelled picture has some
+# Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
+ROWS = 32
+_WHOLE = 0.999  # of the progress, until the picture is whole
 
 
 def render(
@@ -67,14 +68,12 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     made = yield from plan(scene, settings, reach=max(abs(o) for pair in offsets for o in pair))
     passes = [(0.0, 0.0)] + [o for o in offsets if settings.samples > 1]
     all_tiles = tiles(scene.camera)
+    size = _WHOLE / (len(all_tiles) * len(passes))
     for number, tile in enumerate(all_tiles):
-        color = 0.0
+        color: NDArray | float = 0.0
         for index, (dx, dy) in enumerate(passes):
-            for share, tested, hits in trace_tile(made, tile, dx, dy):
-                frame.statistics.pairs_tested += tested
-                frame.statistics.seconds = time.perf_counter() - began
-                done = (number + (index + share) / len(passes)) / len(all_tiles)
-                yield min(done, 0.999)  # 1 is for the picture that is whole
+            tracing = trace_tile(made, tile, dx, dy, frame.statistics)
+            hits = yield from scaled(tracing, (number * len(passes) + index) * size, size)
             if index == 0:
                 _write(made, frame, tile, hits)
             else:
@@ -83,21 +82,8 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
         if settings.samples > 1:
             frame.color[rows] = (color / len(offsets)).reshape(frame.color[rows].shape)
         frame.rows_done[rows] = True
-    frame.statistics.seconds = time.perf_counter() - began
+        frame.statistics.seconds = time.perf_counter() - began
     yield 1.0
-
-
-def result_of(
-    work: Generator[float, None, T], progress: Callable[[float], None] | None = None
-) -> T:
-    """Run work that yields the share that is done, telling `progress`; returns its result."""
-    while True:
-        try:
-            share = next(work)
-        except StopIteration as stop:
-            return stop.value
-        if progress:
-            progress(share)
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:

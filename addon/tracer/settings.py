@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
+from enum import StrEnum
 
 import numpy as np
 
 
-class Method(str, Enum):
+class Method(StrEnum):
     """How a ray meets a triangle; `triangle.py` has the formulas."""
 
     TEXTBOOK_LITERAL = "textbook_literal"
@@ -16,7 +16,7 @@ class Method(str, Enum):
     MOLLER_TRUMBORE = "moller_trumbore"
 
 
-class Precision(str, Enum):
+class Precision(StrEnum):
     """The floating-point type of rays and vertices."""
 
     FLOAT32 = "float32"

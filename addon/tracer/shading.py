@@ -30,10 +30,13 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
             mesh = scene.meshes[instance.mesh]
             triangle = hits.triangle[rows]
             if mesh.corner_colors is not None:
-                out[rows] = (mesh.corner_colors[triangle] * hits.s[:, rows].T[..., None]).sum(axis=1)
+                out[rows] = (mesh.corner_colors[triangle] * hits.s[:, rows].T[..., None]).sum(
+                    axis=1
+                )
             else:
                 out[rows] = instance.colors[
-                    np.minimum(mesh.slots[triangle], len(instance.colors) - 1)]
+                    np.minimum(mesh.slots[triangle], len(instance.colors) - 1)
+                ]
         out[rows, 3] = 1
     return out
 
@@ -53,7 +56,8 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
             mesh = scene.meshes[instance.mesh]
             corners = mesh.triangles[hits.triangle[rows]].T
             p1, p2, p3 = (
-                transform_points(instance.world_from_object, mesh.vertices[c].T) for c in corners)
+                transform_points(instance.world_from_object, mesh.vertices[c].T) for c in corners
+            )
             mirrored = np.linalg.det(instance.world_from_object[:3, :3]) < 0
             n = cross(p2 - p1, p3 - p1) * (-1 if mirrored else 1)
         n = n / np.abs(n).max(axis=0)  # so that the square below cannot underflow

@@ -6,7 +6,7 @@ whose it is. Exactly equal t go to the lower (instance, triangle); planes come a
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays
 from .candidates import Batch, batches, pairs, pixel_bounds, world_triangles
+from .progress import Work
 from .settings import Settings
 from .triangle import METHODS
 from .vector import Vectors
@@ -26,12 +27,22 @@ PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
 
 
+@dataclass
+class Statistics:
+    """What a picture took."""
+
+    triangles: int = 0  # over all instances
+    pairs_tested: int = 0  # (ray, triangle)
+    seconds: float = 0.0
+
+
 @dataclass(eq=False)
 class Hits:
-    """For n rays: `t` (n,) float64, inf where nothing is hit; `instance` and `triangle`, (n,) int32,
-    NOTHING where nothing is hit; `s`, the barycentrics (3, n) float64.
+    """What n rays meet.
 
-    A hit on plane k has the instance `len(scene.instances) + k` and the triangle NOTHING.
+    `t` (n,) float64 is inf where nothing is hit; `instance` and `triangle`, (n,) int32, are NOTHING
+    there; `s`, the barycentrics, is (3, n) float64. A hit on plane k has the instance
+    `len(scene.instances) + k` and the triangle NOTHING.
     """
 
     t: NDArray[np.float64]
@@ -56,8 +67,9 @@ class Hits:
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Batches of a scene with the rows that each may cover, for rays within `reach` pixels of
-    their pixel's centre.
+    """Batches of a scene with the rows that each may cover.
+
+    For rays within `reach` pixels of their pixel's centre.
     """
 
     scene: Scene
@@ -67,8 +79,8 @@ class Plan:
     rows: list[tuple[int, int]]
 
 
-def plan(scene: Scene, settings: Settings, reach: float) -> Generator[float, None, Plan]:
-    """Look at every batch once; yields 0 while at work (nothing is traced yet), returns the plan."""
+def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
+    """Look at every batch once; yields 0, as nothing is traced yet."""
     found, rows = [], []
     for batch in batches(scene):
         x0, x1, y0, y1 = _bounds(scene, settings, reach, batch)[1]
@@ -113,8 +125,11 @@ def candidates(
         Only these pixels are proposed.
     """
     limit = max(1, min(PAIRS, plan.settings.memory // (4 * _BYTES_PER_PAIR)))
-    work = [b for b, (y0, y1) in zip(plan.batches, plan.rows, strict=True)
-            if y0 < tile.y1 and y1 > tile.y0]
+    work = [
+        b
+        for b, (y0, y1) in zip(plan.batches, plan.rows, strict=True)
+        if y0 < tile.y1 and y1 > tile.y0
+    ]
     for done, batch in enumerate(work):
         triangles, bounds = _bounds(plan.scene, plan.settings, plan.reach, batch)
         yield done / len(work), None
@@ -123,13 +138,15 @@ def candidates(
                 keep = np.flatnonzero(wanted[pixel])
                 pixel, row = pixel[keep], row[keep]
             corners = np.stack([corner.take(row, axis=1) for corner in triangles.corners])
-            yield done / len(work), Pairs(
-                pixel, corners, triangles.instance[row], triangles.triangle[row])
+            yield (
+                done / len(work),
+                Pairs(pixel, corners, triangles.instance[row], triangles.triangle[row]),
+            )
 
 
 def trace_tile(
-    plan: Plan, tile: Region, dx: float = 0.0, dy: float = 0.0
-) -> Iterator[tuple[float, int, Hits]]:
+    plan: Plan, tile: Region, dx: float = 0.0, dy: float = 0.0, statistics: Statistics | None = None
+) -> Work[Hits]:
     """Find the nearest hits of the rays of a tile, in small steps.
 
     Parameters
@@ -139,24 +156,25 @@ def trace_tile(
         Of n pixels.
     dx, dy : float
         Where each ray passes its pixel's centre, in pixels; at most `plan.reach`.
+    statistics : Statistics, optional
+        To count the pairs in.
 
-    Yields
-    ------
-    share : float
-        Of the work that is done, 0 to 1.
-    tested : int
-        (Ray, triangle) pairs tested since the last step.
-    hits : Hits
-        Of the n rays; complete at the last step.
+    Returns
+    -------
+    Hits
+        Of the n rays, row by row from the lowest.
     """
-    rays = camera_rays(plan.scene.camera, *film_positions(tile, dx, dy), plan.settings.precision.dtype)
+    film = film_positions(tile, dx, dy)
+    rays = camera_rays(plan.scene.camera, *film, plan.settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
     test_planes(plan.scene, rays, hits)
     for share, some in candidates(plan, tile):
         if some is not None:
             test_pairs(plan.scene, plan.settings, rays, some, hits)
-        yield share, 0 if some is None else len(some.pixel), hits
-    yield 1.0, 0, hits
+            if statistics:
+                statistics.pairs_tested += len(some.pixel)
+        yield share
+    return hits
 
 
 def test_pairs(
@@ -168,21 +186,35 @@ def test_pairs(
     """
     hit, t, s = METHODS[settings.method](rays.take(some.pixel), *some.corners)
     found = np.flatnonzero(hit & within_clip(scene.camera, t))
-    _keep_nearest(hits, after, some.pixel[found], t[found], some.instance[found],
-                  some.triangle[found], s[:, found])
+    _keep_nearest(
+        hits,
+        after,
+        some.pixel[found],
+        t[found],
+        some.instance[found],
+        some.triangle[found],
+        s[:, found],
+    )
 
 
 def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None) -> None:
     """Enter into `hits` where the rays meet the scene's infinite planes, as :func:`test_pairs`."""
     dtype = rays.directions.dtype
     for index, infinite in enumerate(scene.planes):
-        t = plane.intersect(rays, infinite.point[:, None].astype(dtype),
-                            infinite.normal[:, None].astype(dtype))
+        t = plane.intersect(
+            rays, infinite.point[:, None].astype(dtype), infinite.normal[:, None].astype(dtype)
+        )
         t = np.broadcast_to(t, hits.t.shape)
         found = np.flatnonzero(within_clip(scene.camera, t))
-        _keep_nearest(hits, after, found, t[found],
-                      np.full(len(found), len(scene.instances) + index, np.int32),
-                      np.full(len(found), NOTHING, np.int32), np.zeros((3, len(found))))
+        _keep_nearest(
+            hits,
+            after,
+            found,
+            t[found],
+            np.full(len(found), len(scene.instances) + index, np.int32),
+            np.full(len(found), NOTHING, np.int32),
+            np.zeros((3, len(found))),
+        )
 
 
 def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
@@ -207,7 +239,12 @@ def _keep_nearest(hits: Hits, after: Hits | None, pixel, t, instance, triangle, 
     if after is not None:
         behind = np.flatnonzero(_precedes(after, pixel, t, instance, triangle))
         pixel, t, instance, triangle, s = (
-            pixel[behind], t[behind], instance[behind], triangle[behind], s[:, behind])
+            pixel[behind],
+            t[behind],
+            instance[behind],
+            triangle[behind],
+            s[:, behind],
+        )
     if not len(pixel):
         return
     order = np.lexsort((triangle, instance, t, pixel))

@@ -22,15 +22,28 @@ class Blender:
 
     def run(self, *arguments, timeout=300):
         """Run `blender` with these arguments; returns the finished process, its output as text."""
-        command = [WHOLE_BLENDER, "run", "env", "BLENDER_USER_RESOURCES=/project/out/gui/user",
-                   "blender", *map(str, arguments)]
+        command = [
+            WHOLE_BLENDER,
+            "run",
+            "env",
+            "BLENDER_USER_RESOURCES=/project/out/gui/user",
+            "blender",
+            *map(str, arguments),
+        ]
         return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
 
     def story(self, name, scene="suzanne"):
         """Play a story of stories.py in the real window; returns what it noted."""
         result = OUT / f"{name}.json"
-        done = self.run(f"/project/sample_scenes/{scene}.blend", "--python-exit-code", "9",
-                        "--python", "/project/tests/gui/stories.py", "--", name)
+        done = self.run(
+            f"/project/sample_scenes/{scene}.blend",
+            "--python-exit-code",
+            "9",
+            "--python",
+            "/project/tests/gui/stories.py",
+            "--",
+            name,
+        )
         log = done.stdout + done.stderr
         (OUT / f"{name}.log").write_text(log)
         assert result.exists(), log[-3000:]
@@ -44,7 +57,14 @@ def blender():
     """Give the whole Blender, with the extension from dist/ installed by Blender itself."""
     [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
     blender = Blender()
-    done = blender.run("--command", "extension", "install-file", "-r", "user_default", "--enable",
-                       f"/project/dist/{package.name}")
+    done = blender.run(
+        "--command",
+        "extension",
+        "install-file",
+        "-r",
+        "user_default",
+        "--enable",
+        f"/project/dist/{package.name}",
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     return blender

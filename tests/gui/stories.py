@@ -33,25 +33,45 @@ def screenshot(name):
 
 
 def data_blocks():
-    return {name: sorted(x.name_full for x in getattr(bpy.data, name)) for name in (
-        "scenes", "objects", "meshes", "materials", "images", "collections", "worlds", "node_groups")}
+    return {
+        name: sorted(x.name_full for x in getattr(bpy.data, name))
+        for name in (
+            "scenes",
+            "objects",
+            "meshes",
+            "materials",
+            "images",
+            "collections",
+            "worlds",
+            "node_groups",
+        )
+    }
 
 
 def settings():
     """Everything of the user's that a comparison could have touched."""
     scene, preferences = window().scene, bpy.context.preferences
-    out = {"scene": scene.name, "view_layer": window().view_layer.name,
-           "viewport_aa": preferences.system.viewport_aa, "dirty": preferences.is_dirty}
+    out = {
+        "scene": scene.name,
+        "view_layer": window().view_layer.name,
+        "viewport_aa": preferences.system.viewport_aa,
+        "dirty": preferences.is_dirty,
+    }
     shading = [a.spaces.active.shading for a in window().screen.areas if a.type == "VIEW_3D"]
-    for name, owner in (("render", scene.render), ("display", scene.display),
-                        ("shading", scene.display.shading), ("view", scene.view_settings),
-                        ("image", scene.render.image_settings),
-                        *((f"3d{k}", s) for k, s in enumerate(shading))):
+    for name, owner in (
+        ("render", scene.render),
+        ("display", scene.display),
+        ("shading", scene.display.shading),
+        ("view", scene.view_settings),
+        ("image", scene.render.image_settings),
+        *((f"3d{k}", s) for k, s in enumerate(shading)),
+    ):
         for prop in owner.bl_rna.properties:
             if prop.type in ("BOOLEAN", "INT", "FLOAT", "ENUM", "STRING"):
                 value = getattr(owner, prop.identifier)
                 out[f"{name}.{prop.identifier}"] = repr(
-                    list(value) if getattr(prop, "is_array", False) else value)
+                    list(value) if getattr(prop, "is_array", False) else value
+                )
     return out
 
 
@@ -106,6 +126,7 @@ def f12():
 
     def rendered():
         return done
+
     yield from until(rendered)
     yield 1
     screenshot("f12")
@@ -130,6 +151,7 @@ def f12_escape():
 
     def stopped():
         return cancelled
+
     yield from until(stopped)
     noted["seconds_to_stop"] = cancelled[0] - pressed
     yield 1
@@ -150,11 +172,15 @@ def compare():
     comparison = module().latest(window().scene).comparison
     noted["comparison"] = comparison.to_dict()
     noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
-    noted["new"] = {k: sorted(set(v) - set(before[1][k])) for k, v in after[1].items()
-                    if v != before[1][k]}
+    noted["new"] = {
+        k: sorted(set(v) - set(before[1][k])) for k, v in after[1].items() if v != before[1][k]
+    }
     noted["render_result_kept"] = before[2] == after[2] and before[2] is not None
-    noted["images"] = {i.name: [list(i.size), float(np.ptp(np.array(i.pixels[:])))]
-                       for i in bpy.data.images if i.name.startswith("Reference Tracer")}
+    noted["images"] = {
+        i.name: [list(i.size), float(np.ptp(np.array(i.pixels[:])))]
+        for i in bpy.data.images
+        if i.name.startswith("Reference Tracer")
+    }
     show_panel()
     yield 1
     screenshot("compare")
@@ -186,6 +212,7 @@ def compare_escape():
 
     def stopped():
         return not any("compare" in o.bl_idname.lower() for o in window().modal_operators)
+
     yield from until(stopped)
     noted["seconds_to_stop"] = time.monotonic() - pressed
     after = settings(), data_blocks()
@@ -217,8 +244,7 @@ def scenes():
         noted[path.stem] = module().latest(window().scene).comparison.to_dict()
 
 
-STORIES = {s.__name__: s for s in (
-    f12, f12_escape, compare, compare_escape, compare_error, scenes)}
+STORIES = {s.__name__: s for s in (f12, f12_escape, compare, compare_escape, compare_error, scenes)}
 
 
 def play(name):

@@ -1,10 +1,7 @@
 """`blender -b` and `blender --command` of a whole Blender: files, exit codes, faults."""
 
-import json
 
 import pytest
-
-from .conftest import OUT
 
 pytestmark = pytest.mark.gui
 

@@ -12,7 +12,10 @@ def test_button_leaves_three_images_and_nothing_else(blender):
     assert comparison["pixels"]["unexplained"] == 0
     assert comparison["verdict"] == "agree"
     assert set(noted["images"]) == {
-        "Reference Tracer Traced", "Reference Tracer Blender", "Reference Tracer Difference"}
+        "Reference Tracer Traced",
+        "Reference Tracer Blender",
+        "Reference Tracer Difference",
+    }
     assert all(size == [960, 540] and spread > 0 for size, spread in noted["images"].values())
     assert noted["changed"] == {}
     assert noted["new"] == {"images": sorted(noted["images"])}
@@ -47,6 +50,8 @@ def test_escape_stops_f12(blender):
 def test_every_sample_scene_agrees_with_the_viewport(blender):
     noted = blender.story("scenes")
     assert len(noted) == 11
-    assert {name: c["pixels"]["unexplained"] for name, c in noted.items()} == dict.fromkeys(noted, 0)
+    assert {name: c["pixels"]["unexplained"] for name, c in noted.items()} == dict.fromkeys(
+        noted, 0
+    )
     assert {c["blender"]["source"] for c in noted.values()} == {"viewport"}
     assert noted["far_away"]["pixels"]["not_decidable"] > 0

@@ -1,0 +1,33 @@
+"""Long work as generators: each step yields the share that is done, 0 to 1, and the end returns.
+
+Whoever drives one decides what to show, and stops by not asking for more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator
+from typing import TypeVar
+
+T = TypeVar("T")
+Work = Generator[float, None, T]
+
+
+def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
+    """Run work to its end, telling `progress` every share; returns its result."""
+    while True:
+        try:
+            share = next(work)
+        except StopIteration as stop:
+            return stop.value
+        if progress:
+            progress(share)
+
+
+def scaled(work: Work[T], start: float, size: float) -> Work[T]:
+    """Run work as the part of a larger one that begins at `start` and has this size."""
+    while True:
+        try:
+            share = next(work)
+        except StopIteration as stop:
+            return stop.value
+        yield start + size * share
