@@ -23,6 +23,7 @@ from ..tracer.render import steps
 from .export import export
 
 ENGINE = "REFERENCE_TRACER"
+SHOWN = 10.0  # seconds that the status bar shows a message
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 # Name, channels, their names, kind, and what of the frame it holds (one-based indices: 0 is none).
@@ -89,9 +90,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self._show(frame, layer)
         if frame.cancelled:
             done, rows = int(frame.rows_done.sum()), len(frame.rows_done)
-            self.report(
-                {"WARNING"}, f"Cancelled: {done} of {rows} rows are traced, the others are empty"
-            )
+            _say(f"Cancelled: {done} of {rows} rows are traced, the others are empty")
 
     def _show(self, frame: Frame, layer: str) -> None:
         """Give Blender the rows that are done."""
@@ -104,6 +103,20 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
             values = np.ascontiguousarray(of(frame), dtype=np.float32)
             have[name].rect.foreach_set(values.ravel())
         self.end_result(result)
+
+
+def _say(text: str) -> None:
+    """Print a message and show it in the status bar: a cancelled render's reports are dropped."""
+    print(f"Reference Tracer: {text}")
+    if not bpy.app.background:
+        # Timers run in the main thread; a render does not.
+        bpy.app.timers.register(lambda: _set_status(text), first_interval=0.2)
+        bpy.app.timers.register(lambda: _set_status(None), first_interval=SHOWN)
+
+
+def _set_status(text: str | None) -> None:
+    for window in bpy.context.window_manager.windows:
+        window.workspace.status_text_set(text)
 
 
 def export_for_render(scene: Any, layer: str) -> tuple[Scene, Manifest]:

@@ -16,12 +16,13 @@ from ..scene import Camera, Region, Scene
 from . import shading
 from .camera import camera_rays
 from .frame import Frame
-from .progress import scaled
+from .progress import Work, scaled
 from .settings import Settings
 from .visibility import Hits, Plan, film_positions, plan, trace_tile
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
+PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
 _WHOLE = 0.999  # of the progress, until the picture is whole
 
 
@@ -64,26 +65,27 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     """
     began = time.perf_counter()
     frame.statistics.triangles = scene.triangle_count
-    offsets = sample_offsets(settings.samples)
-    made = yield from plan(scene, settings, reach=max(abs(o) for pair in offsets for o in pair))
-    passes = [(0.0, 0.0)] + [o for o in offsets if settings.samples > 1]
+    offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
+    reach = max((abs(o) for offset in offsets for o in offset), default=0.0)
+    made = yield from plan(scene, settings, reach)
     all_tiles = tiles(scene.camera)
-    size = _WHOLE / (len(all_tiles) * len(passes))
     for number, tile in enumerate(all_tiles):
-        color: NDArray | float = 0.0
-        for index, (dx, dy) in enumerate(passes):
-            tracing = trace_tile(made, tile, dx, dy, frame.statistics)
-            hits = yield from scaled(tracing, (number * len(passes) + index) * size, size)
-            if index == 0:
-                _write(made, frame, tile, hits)
-            else:
-                color = color + shading.colors(scene, hits)
-        rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
-        if settings.samples > 1:
-            frame.color[rows] = (color / len(offsets)).reshape(frame.color[rows].shape)
-        frame.rows_done[rows] = True
+        tracing = _trace(made, tile, offsets, frame)
+        yield from scaled(tracing, _WHOLE * number / len(all_tiles), _WHOLE / len(all_tiles))
         frame.statistics.seconds = time.perf_counter() - began
     yield 1.0
+
+
+def _trace(made: Plan, tile: Region, offsets: list, frame: Frame) -> Work[None]:
+    """Trace a tile through its pixels' centres and, for its colour, at these offsets from them."""
+    share = 1 / (1 + len(offsets))
+    centre = yield from scaled(trace_tile(made, tile, statistics=frame.statistics), 0.0, share)
+    colors = [shading.colors(made.scene, centre)]
+    for number, (dx, dy) in enumerate(offsets, start=1):
+        tracing = trace_tile(made, tile, dx, dy, frame.statistics)
+        hits = yield from scaled(tracing, number * share, share)
+        colors.append(shading.colors(made.scene, hits))
+    _write(made, frame, tile, centre, np.mean(colors[1:] or colors, axis=0, dtype=np.float64))
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:
@@ -95,16 +97,17 @@ def sample_offsets(samples: int) -> list[tuple[float, float]]:
 def tiles(camera: Camera) -> list[Region]:
     """Split the camera's region into bands of whole rows, from the lowest."""
     r = camera.region
-    return [Region(r.x0, y, r.x1, min(y + ROWS, r.y1)) for y in range(r.y0, r.y1, ROWS)]
+    rows = max(1, min(ROWS, PIXELS // r.width))
+    return [Region(r.x0, y, r.x1, min(y + rows, r.y1)) for y in range(r.y0, r.y1, rows)]
 
 
-def _write(plan: Plan, frame: Frame, tile: Region, hits: Hits) -> None:
-    """Enter what the rays through the pixels' centres met."""
+def _write(plan: Plan, frame: Frame, tile: Region, hits: Hits, color: NDArray) -> None:
+    """Enter a tile's colour, and what the rays through its pixels' centres met."""
     scene = plan.scene
     rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
     rays = camera_rays(scene.camera, *film_positions(tile, 0.0, 0.0), plan.settings.precision.dtype)
     for target, value in (
-        (frame.color, shading.colors(scene, hits)),
+        (frame.color, color),
         (frame.t, hits.t),
         (frame.position, shading.positions(rays, hits)),
         (frame.normal, shading.normals(scene, hits)),
@@ -114,3 +117,4 @@ def _write(plan: Plan, frame: Frame, tile: Region, hits: Hits) -> None:
         (frame.triangle_index, hits.triangle),
     ):
         target[rows] = np.asarray(value).reshape(target[rows].shape)
+    frame.rows_done[rows] = True

@@ -16,6 +16,8 @@ MODULE = "bl_ext.user_default.reference_tracer"
 class Blender:
     """Runs commands in the root folder; there the project lies at /project."""
 
+    out = OUT
+
     def __init__(self):
         shutil.rmtree(OUT, ignore_errors=True)
         OUT.mkdir(parents=True)

@@ -95,6 +95,16 @@ def until(condition, seconds=60):
         yield 0.05
 
 
+def reports():
+    """What the Info editor lists."""
+    area = window().screen.areas[0]
+    area.type = "INFO"
+    with bpy.context.temp_override(window=window(), area=area, region=area.regions[-1]):
+        bpy.ops.info.select_all(action="SELECT")
+        bpy.ops.info.report_copy()
+    return bpy.context.window_manager.clipboard
+
+
 def module():
     return sys.modules["bl_ext.user_default.reference_tracer.addon.blender.results"]
 
@@ -157,6 +167,17 @@ def f12_escape():
     yield 1
     screenshot("f12_cancelled")
     noted["result"] = render_result()
+
+
+def f12_error():
+    """F12 on a scene that cannot be traced: the window says why."""
+    window().scene.render.engine = "REFERENCE_TRACER"
+    window().scene.camera.data.type = "PANO"
+    yield 1
+    press("F12")
+    yield 3
+    screenshot("f12_error")
+    noted["reports"] = reports()
 
 
 def compare():
@@ -244,7 +265,10 @@ def scenes():
         noted[path.stem] = module().latest(window().scene).comparison.to_dict()
 
 
-STORIES = {s.__name__: s for s in (f12, f12_escape, compare, compare_escape, compare_error, scenes)}
+STORIES = {
+    s.__name__: s
+    for s in (f12, f12_escape, f12_error, compare, compare_escape, compare_error, scenes)
+}
 
 
 def play(name):

@@ -1,8 +1,140 @@
 """`blender -b` and `blender --command` of a whole Blender: files, exit codes, faults."""
 
+import json
+import shutil
 
 import pytest
 
 pytestmark = pytest.mark.gui
 
 SCENE = "/project/sample_scenes/exercise_perspective.blend"
+
+# Each makes the scene one that cannot be traced, and what the error names.
+FAULTS = {
+    "panoramic": ("C.scene.camera.data.type = 'PANO'", "pano"),
+    "not_a_camera": (
+        "o = D.objects.new('Bulb', D.lights.new('Bulb', 'POINT')); "
+        "C.scene.collection.objects.link(o); C.scene.camera = o",
+        "Bulb",
+    ),
+    "no_camera": ("C.scene.camera = None", "camera"),
+    "clip": ("C.scene.camera.data.clip_start = 50; C.scene.camera.data.clip_end = 1", "clip"),
+    "broken_exporter": (
+        "import sys; e = sys.modules['bl_ext.user_default.reference_tracer.addon.blender.engine']; "
+        "e.export = None",
+        "failed",
+    ),
+}
+
+
+@pytest.fixture
+def folder(blender, request):
+    """Give an empty folder of the test's own, with its name inside the root folder."""
+    path = blender.out / request.node.name.replace("[", "_").replace("]", "")
+    shutil.rmtree(path, ignore_errors=True)
+    path.mkdir()
+    return path, f"/project/out/gui/{path.name}"
+
+
+def test_renders_a_frame_as_a_farm_does(blender, folder):
+    path, inside = folder
+    done = blender.run(
+        "-b", SCENE, "-E", "REFERENCE_TRACER", "-o", f"{inside}/out_####", "-F", "PNG", "-f", "1"
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert [p.name for p in path.iterdir()] == ["out_0001.png"]
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_fault_stops_the_render(blender, folder, fault):
+    path, inside = folder
+    code, named = FAULTS[fault]
+    done = blender.run(
+        "-b",
+        SCENE,
+        "--python-exit-code",
+        "9",
+        "--python-expr",
+        f"import bpy; C, D = bpy.context, bpy.data; {code}",
+        "-E",
+        "REFERENCE_TRACER",
+        "-o",
+        f"{inside}/out_####",
+        "-F",
+        "PNG",
+        "-f",
+        "1",
+    )
+    assert done.returncode not in (0, 9), done.stdout + done.stderr
+    assert named in done.stdout + done.stderr
+    assert list(path.iterdir()) == []
+
+
+def test_operator_in_background(blender, folder):
+    path, inside = folder
+    done = blender.run(
+        "-b",
+        SCENE,
+        "--python-exit-code",
+        "9",
+        "--python-expr",
+        f"import bpy; bpy.ops.reference_tracer.compare(directory='{inside}')",
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    check_files(path)
+
+
+def test_command(blender, folder):
+    path, inside = folder
+    done = blender.run(SCENE, "--command", "reference_tracer", "compare", "--out", inside)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "verdict: agree" in done.stdout
+    check_files(path)
+
+
+def test_command_refuses_a_file_that_is_not_there(blender, folder):
+    path, inside = folder
+    done = blender.run(
+        "/project/no_such.blend", "--command", "reference_tracer", "compare", "--out", inside
+    )
+    assert done.returncode == 4, done.stdout + done.stderr
+    assert "no file is open" in done.stderr
+    assert list(path.iterdir()) == []
+
+
+def test_command_says_how_it_is_used(blender):
+    done = blender.run("--command", "reference_tracer", "--help")
+    assert done.returncode == 0
+    assert "compare" in done.stdout
+
+
+def test_sample_scenes_are_made_by_blender_itself(blender, folder):
+    path, inside = folder
+    done = blender.run(
+        "-b",
+        "--python-exit-code",
+        "9",
+        "-P",
+        "/project/sample_scenes/make_scenes.py",
+        "--",
+        "exercise_triangle",
+        "--out",
+        inside,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert [p.name for p in path.iterdir()] == ["exercise_triangle.blend"]
+
+
+def check_files(path):
+    """A comparison's five files are there, and speak of a Workbench picture without a doubt."""
+    assert {p.name for p in path.iterdir()} == {
+        "traced.png",
+        "blender.png",
+        "difference.png",
+        "frame.npz",
+        "comparison.json",
+    }
+    found = json.loads((path / "comparison.json").read_text())
+    assert found["blender"]["source"] == "workbench"
+    assert found["pixels"]["unexplained"] == 0
+    assert found["verdict"] == "agree"

@@ -55,3 +55,8 @@ def test_every_sample_scene_agrees_with_the_viewport(blender):
     )
     assert {c["blender"]["source"] for c in noted.values()} == {"viewport"}
     assert noted["far_away"]["pixels"]["not_decidable"] > 0
+
+
+def test_f12_says_why_it_cannot(blender):
+    noted = blender.story("f12_error")
+    assert "models perspective and orthographic cameras" in noted["reports"]
