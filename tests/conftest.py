@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
@@ -50,10 +49,12 @@ class Make:
         rgba = [[*COLORS[k % len(COLORS)], 1] for k in range(len(meshes) + len(planes))]
         count = len(meshes)
         return Scene(
-            camera, meshes,
+            camera,
+            meshes,
             tuple(Instance(k, k, np.eye(4), [rgba[k]]) for k in range(count)),
             tuple(Plane(count + k, *p, rgba[count + k]) for k, p in enumerate(planes)),
-            np.array(background), (*(m.name for m in meshes), *(f"Plane {k}" for k in range(len(planes)))),
+            np.array(background),
+            (*(m.name for m in meshes), *(f"Plane {k}" for k in range(len(planes)))),
         )
 
 

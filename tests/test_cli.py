@@ -7,7 +7,6 @@ import OpenEXR
 import pytest
 import trimesh
 from PIL import Image
-
 from reference_tracer import __version__
 from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
@@ -50,7 +49,9 @@ def test_other_meshes(suffix, tmp_path):
 def test_eye_target_angle(ball, tmp_path):
     """Seen from 2 radii, a sphere fills the cone of 30 degrees around the axis."""
     half = np.degrees(np.arctan(np.tan(np.radians(30)) * 1.25))
-    assert trace(ball, tmp_path / "b.exr", "--eye", "0", "-2", "0", "--angle", str(2 * half)) == AGREE
+    assert (
+        trace(ball, tmp_path / "b.exr", "--eye", "0", "-2", "0", "--angle", str(2 * half)) == AGREE
+    )
     depth = channels(tmp_path / "b.exr")["depth.V"]
     assert depth[7:9, 11:13].min() == pytest.approx(1, abs=0.03)
     rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
@@ -59,7 +60,10 @@ def test_eye_target_angle(ball, tmp_path):
 
 def test_target_and_up(ball, tmp_path):
     """Looking past the ball to its right and above, one sees it at the left and below."""
-    assert trace(ball, tmp_path / "b.exr", "--eye", "0", "-5", "0", "--target", "1", "0", "0.7") == AGREE
+    assert (
+        trace(ball, tmp_path / "b.exr", "--eye", "0", "-5", "0", "--target", "1", "0", "0.7")
+        == AGREE
+    )
     y, x = np.nonzero(np.isfinite(channels(tmp_path / "b.exr")["depth.V"]))
     assert x.mean() < 11 and y.mean() < 7
 
@@ -73,11 +77,16 @@ def test_ortho_scale(ball, tmp_path):
 
 
 def test_exr_holds_the_passes(ball, tmp_path):
-    assert trace(ball, tmp_path / "b.exr", "--method", "moller_trumbore", "--precision", "float32") == 0
+    assert (
+        trace(ball, tmp_path / "b.exr", "--method", "moller_trumbore", "--precision", "float32")
+        == 0
+    )
     found = channels(tmp_path / "b.exr")
     seen = found["object_index.V"] == 0
     assert seen.any() and not seen.all()
-    assert (found["triangle_index.V"][seen] >= 0).all() and (found["triangle_index.V"][~seen] == -1).all()
+    assert (found["triangle_index.V"][seen] >= 0).all() and (
+        found["triangle_index.V"][~seen] == -1
+    ).all()
     weights = sum(found[f"barycentrics.{x}"] for x in "XYZ")
     assert weights[seen] == pytest.approx(1, abs=1e-5)
     assert np.isinf(found["depth.V"][~seen]).all()
@@ -115,7 +124,10 @@ BAD = {
     "angle not a number": (["ball.ply", "--eye", "0", "0", "5", "--angle", "nan"], "--angle"),
     "no eye": (["ball.ply", "--eye", "nan", "0", "5"], "--eye"),
     "ortho scale 0": (["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "0"], "--ortho-scale"),
-    "ortho scale below 0": (["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"], "orthographic scale"),
+    "ortho scale below 0": (
+        ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"],
+        "orthographic scale",
+    ),
     "width 0": (["ball.ply", "--width", "0"], "0 x 16"),
     "height below 0": (["ball.ply", "--height", "-5"], "24 x -5"),
     "samples": (["ball.ply", "--samples", "0"], "samples"),

@@ -8,7 +8,6 @@ import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
-
 from reference_tracer.images import MissingLibraryError, save_exr, save_png, to_display
 
 
@@ -60,23 +59,36 @@ def test_png_has_row_0_at_the_bottom(picture, tmp_path):
 
 def test_exr_holds_every_pass(tmp_path, rng):
     passes = {
-        "color": rng.random((5, 7, 4), np.float32), "depth": np.where(rng.random((5, 7)) < 0.2, np.inf, 2.0),
-        "normal": rng.normal(size=(5, 7, 3)), "object_index": rng.integers(-1, 2**24, (5, 7), dtype=np.int32),
+        "color": rng.random((5, 7, 4), np.float32),
+        "depth": np.where(rng.random((5, 7)) < 0.2, np.inf, 2.0),
+        "normal": rng.normal(size=(5, 7, 3)),
+        "object_index": rng.integers(-1, 2**24, (5, 7), dtype=np.int32),
         "rows_done": np.ones(5, bool),
     }
     save_exr(tmp_path / "p.exr", passes)
     with OpenEXR.File(str(tmp_path / "p.exr"), separate_channels=True) as file:
         channels = {name: c.pixels[::-1] for name, c in file.channels().items()}
-    assert set(channels) == {*"RGBA", "depth.V", "normal.X", "normal.Y", "normal.Z", "object_index.V"}
+    assert set(channels) == {
+        *"RGBA",
+        "depth.V",
+        "normal.X",
+        "normal.Y",
+        "normal.Z",
+        "object_index.V",
+    }
     for index, name in enumerate("RGBA"):
         assert np.array_equal(channels[name], passes["color"][..., index])
     for index, name in enumerate("XYZ"):
-        assert np.array_equal(channels[f"normal.{name}"], passes["normal"][..., index].astype(np.float32))
+        assert np.array_equal(
+            channels[f"normal.{name}"], passes["normal"][..., index].astype(np.float32)
+        )
     assert np.array_equal(channels["depth.V"], passes["depth"])
     assert np.array_equal(channels["object_index.V"], passes["object_index"])
 
 
-@pytest.mark.parametrize("save, library, module", [(save_png, "Pillow", "PIL"), (save_exr, "OpenEXR", "OpenEXR")])
+@pytest.mark.parametrize(
+    "save, library, module", [(save_png, "Pillow", "PIL"), (save_exr, "OpenEXR", "OpenEXR")]
+)
 def test_missing_library_says_how_to_get_it(save, library, module, picture, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(MissingLibraryError, match=rf"{library}.*pip install"):

@@ -6,17 +6,29 @@ import json
 
 import numpy as np
 import pytest
-
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
 
 
 @pytest.fixture
 def manifest():
     return Manifest(
-        "room.blend", "Scene", "ViewLayer", 12, "VIEWPORT", "Cam.001",
+        "room.blend",
+        "Scene",
+        "ViewLayer",
+        12,
+        "VIEWPORT",
+        "Cam.001",
         objects=(
-            ObjectEntry("Cube", "MESH", True, triangles=12, vertices=8, instances=100, empty_slots=2,
-                        diagnosis={"closed": True}),
+            ObjectEntry(
+                "Cube",
+                "MESH",
+                True,
+                triangles=12,
+                vertices=8,
+                instances=100,
+                empty_slots=2,
+                diagnosis={"closed": True},
+            ),
             ObjectEntry("Torn", "MESH", True, triangles=30, vertices=20, instances=1, left_out=7),
             ObjectEntry("Hair", "CURVES", False, "has no triangles"),
         ),
@@ -32,28 +44,49 @@ def test_lines_name_everything(manifest):
     first, *rest = manifest.lines()
     for word in ("2 of 3 objects", "1,230 triangles", "viewport", "'Cam.001'"):
         assert word in first
-    for words in (("Torn", "7 triangles left out"), ("Cube", "2 empty material slots"),
-                  ("skipped Hair (CURVES)", "has no triangles"), ("Glass", "transparency", "alpha 0.5"),
-                  ("Cam.001", "depth of field"), ("sequencer",)):
+    for words in (
+        ("Torn", "7 triangles left out"),
+        ("Cube", "2 empty material slots"),
+        ("skipped Hair (CURVES)", "has no triangles"),
+        ("Glass", "transparency", "alpha 0.5"),
+        ("Cam.001", "depth of field"),
+        ("sequencer",),
+    ):
         assert sum(all(word in line for word in words) for line in rest) == 1
     assert len(rest) == 6
 
 
 def test_json_holds_everything(manifest):
     again = json.loads(json.dumps(manifest.to_dict(), allow_nan=False))
-    assert {k: again[k] for k in ("file", "scene", "view_layer", "frame", "evaluation", "camera")} == {
-        "file": "room.blend", "scene": "Scene", "view_layer": "ViewLayer", "frame": 12,
-        "evaluation": "VIEWPORT", "camera": "Cam.001"}
+    assert {
+        k: again[k] for k in ("file", "scene", "view_layer", "frame", "evaluation", "camera")
+    } == {
+        "file": "room.blend",
+        "scene": "Scene",
+        "view_layer": "ViewLayer",
+        "frame": 12,
+        "evaluation": "VIEWPORT",
+        "camera": "Cam.001",
+    }
     assert [o["name"] for o in again["objects"]] == ["Cube", "Torn", "Hair"]
     assert again["objects"][0]["diagnosis"] == {"closed": True}
-    assert again["objects"][2] | {"exported": False, "reason": "has no triangles"} == again["objects"][2]
+    assert (
+        again["objects"][2] | {"exported": False, "reason": "has no triangles"}
+        == again["objects"][2]
+    )
     assert again["unmodelled"][0]["bounds"] == [[0, 0, 0], [1, 2, 3]]
-    assert again["unmodelled"][1] == {"object": "Cam.001", "feature": "depth of field", "detail": "",
-                                      "bounds": None}
+    assert again["unmodelled"][1] == {
+        "object": "Cam.001",
+        "feature": "depth of field",
+        "detail": "",
+        "bounds": None,
+    }
     assert again["notes"] == ["the sequencer is not part of it"]
 
 
 def test_an_empty_scene_has_a_manifest():
     empty = Manifest("", "Scene", "ViewLayer", 1, "FILE", "Camera")
-    assert empty.lines() == ["0 of 0 objects exported, 0 triangles, file evaluation, camera 'Camera'"]
+    assert empty.lines() == [
+        "0 of 0 objects exported, 0 triangles, file evaluation, camera 'Camera'"
+    ]
     assert empty.to_dict()["objects"] == []

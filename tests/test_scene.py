@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
 from reference_tracer.scene import (
     Camera,
     Instance,
@@ -24,7 +23,9 @@ NAN = np.where(np.eye(4) > 0, np.nan, 0)
 
 
 def camera(**changes):
-    return Camera(**{"world_from_camera": np.eye(4), "window": WINDOW, "width": 8, "height": 6} | changes)
+    return Camera(
+        **{"world_from_camera": np.eye(4), "window": WINDOW, "width": 8, "height": 6} | changes
+    )
 
 
 def mesh(**changes):
@@ -32,8 +33,12 @@ def mesh(**changes):
 
 
 def scene(**changes):
-    whole = {"camera": camera(), "meshes": (mesh(),), "instances": (Instance(0, 0, np.eye(4)),),
-             "objects": ("Cube",)}
+    whole = {
+        "camera": camera(),
+        "meshes": (mesh(),),
+        "instances": (Instance(0, 0, np.eye(4)),),
+        "objects": ("Cube",),
+    }
     return Scene(**whole | changes)
 
 
@@ -43,14 +48,26 @@ FAULTS = {
     "empty border": (camera, {"region": Region(3, 1, 3, 5)}, ["border", "3 to 3"]),
     "border outside": (camera, {"region": Region(0, 0, 9, 6)}, ["border", "0 to 9"]),
     "border below": (camera, {"region": Region(0, -1, 8, 6)}, ["border", "-1 to 6"]),
-    "clip range": (camera, {"clip_start": 5, "clip_end": 5, "name": "Cam.001"}, ["Cam.001", "clip", "5 m"]),
+    "clip range": (
+        camera,
+        {"clip_start": 5, "clip_end": 5, "name": "Cam.001"},
+        ["Cam.001", "clip", "5 m"],
+    ),
     "clip not a number": (camera, {"clip_start": np.nan, "name": "Cam.001"}, ["Cam.001", "clip"]),
-    "flat window": (camera, {"window": ViewWindow(1, 1, -1, 1), "name": "C"}, ["'C'", "view window"]),
+    "flat window": (
+        camera,
+        {"window": ViewWindow(1, 1, -1, 1), "name": "C"},
+        ["'C'", "view window"],
+    ),
     "turned window": (camera, {"window": ViewWindow(-1, 1, 1, -1)}, ["view window"]),
     "infinite window": (camera, {"window": ViewWindow(-np.inf, 1, -1, 1)}, ["view window"]),
     "camera matrix": (camera, {"world_from_camera": NAN, "name": "Cam.001"}, ["Cam.001", "finite"]),
     "camera matrix shape": (camera, {"world_from_camera": np.eye(3)}, ["camera 'Camera'", "4 x 4"]),
-    "flat camera": (camera, {"world_from_camera": np.diag([1, 0, 1, 1])}, ["camera 'Camera'", "scale"]),
+    "flat camera": (
+        camera,
+        {"world_from_camera": np.diag([1, 0, 1, 1])},
+        ["camera 'Camera'", "scale"],
+    ),
     "eye as clip start": (camera, {"clip_start": 0.0, "name": "Cam.001"}, ["Cam.001", "clip"]),
     "clip behind the eye": (camera, {"clip_start": -1.0, "name": "Cam.001"}, ["Cam.001", "clip"]),
     "vertices": (mesh, {"vertices": POINTS[:, :2]}, ["Mesh 'Cube'", "vertices", "(3, 2)"]),
@@ -64,12 +81,22 @@ FAULTS = {
     "not finite": (mesh, {"vertices": POINTS * np.float32(np.nan)}, ["Mesh 'Cube'", "not finite"]),
     "corner colours": (mesh, {"corner_colors": np.ones((1, 3, 3))}, ["Mesh 'Cube'", "(1, 3, 3)"]),
     "instance matrix": (Instance, {"mesh": 0, "object": 7, "world_from_object": NAN}, ["object 7"]),
-    "instance colours": (Instance, {"mesh": 0, "object": 7, "world_from_object": np.eye(4),
-                                    "colors": np.zeros((0, 4))}, ["object 7", "(0, 4)"]),
+    "instance colours": (
+        Instance,
+        {"mesh": 0, "object": 7, "world_from_object": np.eye(4), "colors": np.zeros((0, 4))},
+        ["object 7", "(0, 4)"],
+    ),
     "plane point": (Plane, {"object": 0, "point": (0, 0, np.inf), "normal": (0, 0, 1)}, ["point"]),
-    "plane normal": (Plane, {"object": 0, "point": (0, 0, 0), "normal": (0, 0, 0)}, ["normal", "zero"]),
-    "plane colour": (Plane, {"object": 0, "point": (0, 0, 0), "normal": (0, 0, 1), "color": (1, 1, 1)},
-                     ["infinite plane"]),
+    "plane normal": (
+        Plane,
+        {"object": 0, "point": (0, 0, 0), "normal": (0, 0, 0)},
+        ["normal", "zero"],
+    ),
+    "plane colour": (
+        Plane,
+        {"object": 0, "point": (0, 0, 0), "normal": (0, 0, 1), "color": (1, 1, 1)},
+        ["infinite plane"],
+    ),
     "mesh of instance": (scene, {"meshes": ()}, ["mesh 0 of 0"]),
     "object of instance": (scene, {"objects": ()}, ["object 0 of 0"]),
     "object of plane": (scene, {"planes": [Plane(4, (0, 0, 0), (0, 0, 1))]}, ["object 4 of 1"]),
@@ -116,11 +143,23 @@ def test_vertices_keep_their_precision(dtype):
 
 
 def test_arrays_are_read_only():
-    whole = scene(planes=[Plane(0, (0, 0, 0), (0, 0, 1))],
-                  meshes=[mesh(corner_colors=np.ones((1, 3, 4)))])
+    whole = scene(
+        planes=[Plane(0, (0, 0, 0), (0, 0, 1))], meshes=[mesh(corner_colors=np.ones((1, 3, 4)))]
+    )
     m, i, p = whole.meshes[0], whole.instances[0], whole.planes[0]
-    for array in (whole.camera.world_from_camera, whole.background, m.vertices, m.triangles, m.slots,
-                  m.corner_colors, i.world_from_object, i.colors, p.point, p.normal, p.color):
+    for array in (
+        whole.camera.world_from_camera,
+        whole.background,
+        m.vertices,
+        m.triangles,
+        m.slots,
+        m.corner_colors,
+        i.world_from_object,
+        i.colors,
+        p.point,
+        p.normal,
+        p.color,
+    ):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
     with pytest.raises(AttributeError):

@@ -7,7 +7,6 @@ import json
 import numpy as np
 import pytest
 import trimesh
-
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
 from reference_tracer.scene_files import (
     diagnose,
@@ -22,15 +21,31 @@ from reference_tracer.tracer.camera import film_of
 
 @pytest.fixture
 def scene(make, rng):
-    camera = make.camera(20, 10, eye=rng.normal(size=3), target=(0.1, 0.2, 0.3), clip_start=1 / 3,
-                         clip_end=1e300, region=Region(3, 2, 11, 7), name="Käm 'ra'", orthographic=True)
+    camera = make.camera(
+        20,
+        10,
+        eye=rng.normal(size=3),
+        target=(0.1, 0.2, 0.3),
+        clip_start=1 / 3,
+        clip_end=1e300,
+        region=Region(3, 2, 11, 7),
+        name="Käm 'ra'",
+        orthographic=True,
+    )
     meshes = (
-        Mesh(rng.normal(size=(9, 3)).astype(np.float32), rng.integers(0, 9, (5, 3)),
-             rng.integers(0, 3, 5), rng.random((5, 3, 4)), "with colours"),
+        Mesh(
+            rng.normal(size=(9, 3)).astype(np.float32),
+            rng.integers(0, 9, (5, 3)),
+            rng.integers(0, 3, 5),
+            rng.random((5, 3, 4)),
+            "with colours",
+        ),
         Mesh(rng.normal(size=(4, 3)), [[0, 1, 2]], name="plain"),
         Mesh(np.zeros((0, 3)), np.zeros((0, 3), int), name="empty"),
     )
-    instances = [Instance(k % 3, k % 2, rng.normal(size=(4, 4)), rng.random((2, 4))) for k in range(4)]
+    instances = [
+        Instance(k % 3, k % 2, rng.normal(size=(4, 4)), rng.random((2, 4))) for k in range(4)
+    ]
     planes = [Plane(1, rng.normal(size=3), rng.normal(size=3), rng.random(4))]
     return Scene(camera, meshes, instances, planes, rng.random(4), ("A", "B/../B"))
 
@@ -38,19 +53,35 @@ def scene(make, rng):
 def test_round_trip_is_bit_identical(scene, tmp_path):
     save_scene(tmp_path / "scene.npz", scene)
     again = load_scene(tmp_path / "scene.npz")
-    for name in ("window", "width", "height", "orthographic", "clip_start", "clip_end", "region", "name"):
+    for name in (
+        "window",
+        "width",
+        "height",
+        "orthographic",
+        "clip_start",
+        "clip_end",
+        "region",
+        "name",
+    ):
         assert getattr(again.camera, name) == getattr(scene.camera, name)
     assert again.objects == scene.objects
-    pairs = [(scene.camera, again.camera), (scene, again), *zip(scene.meshes, again.meshes, strict=True),
-             *zip(scene.instances, again.instances, strict=True),
-             *zip(scene.planes, again.planes, strict=True)]
+    pairs = [
+        (scene.camera, again.camera),
+        (scene, again),
+        *zip(scene.meshes, again.meshes, strict=True),
+        *zip(scene.instances, again.instances, strict=True),
+        *zip(scene.planes, again.planes, strict=True),
+    ]
     compared = 0
     for first, second in pairs:
         for name, value in vars(first).items():
             other = getattr(second, name)
             if isinstance(value, np.ndarray):
                 assert (value.dtype, value.shape, value.tobytes()) == (
-                    other.dtype, other.shape, other.tobytes())
+                    other.dtype,
+                    other.shape,
+                    other.tobytes(),
+                )
                 compared += 1
             elif isinstance(value, (int, str)) or value is None:
                 assert value == other
@@ -74,9 +105,18 @@ def test_pickle_is_refused(tmp_path, capsys):
     assert capsys.readouterr().out == ""
 
 
-@pytest.mark.parametrize("content", [
-    b"", b"\x93", b"PK\x03\x04", b"PK\x03\x04" + bytes(80), b"\x80\x04.", b"words " * 40,
-], ids=["empty", "a byte", "short zip", "hollow zip", "pickle", "words"])
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\x93",
+        b"PK\x03\x04",
+        b"PK\x03\x04" + bytes(80),
+        b"\x80\x04.",
+        b"words " * 40,
+    ],
+    ids=["empty", "a byte", "short zip", "hollow zip", "pickle", "words"],
+)
 def test_garbage_is_named(content, tmp_path):
     (tmp_path / "bad.npz").write_bytes(content)
     with pytest.raises(SceneError, match=r"bad\.npz"):
@@ -89,7 +129,7 @@ def test_damage_is_named(scene, tmp_path, rng):
     whole = (tmp_path / "scene.npz").read_bytes()
     damaged = [whole[:n] for n in rng.integers(0, len(whole), 40)]
     for at in rng.integers(0, len(whole), 150):
-        damaged.append(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1:])
+        damaged.append(whole[:at] + bytes([whole[at] ^ 0xFF]) + whole[at + 1 :])
     refused, escaped = 0, set()
     for content in damaged:
         (tmp_path / "bad.npz").write_bytes(content)
@@ -104,10 +144,19 @@ def test_damage_is_named(scene, tmp_path, rng):
     assert refused > 100
 
 
-@pytest.mark.parametrize("head", [
-    "[]", "3", "null", "{}", "not JSON", '{"schema": "reference_tracer.scene/2"}',
-    '{"schema": "reference_tracer.scene/1"}', '{"schema": "reference_tracer.scene/1", "camera": []}',
-])
+@pytest.mark.parametrize(
+    "head",
+    [
+        "[]",
+        "3",
+        "null",
+        "{}",
+        "not JSON",
+        '{"schema": "reference_tracer.scene/2"}',
+        '{"schema": "reference_tracer.scene/1"}',
+        '{"schema": "reference_tracer.scene/1", "camera": []}',
+    ],
+)
 def test_wrong_head_is_named(head, tmp_path):
     np.savez(tmp_path / "bad.npz", scene=np.array(head))
     with pytest.raises(SceneError, match=r"bad\.npz"):
@@ -130,7 +179,7 @@ def test_meshes_from_files(suffix, tmp_path):
     shape.apply_translation((3, 4, 5))
     path = tmp_path / f"mesh.{suffix.upper()}"
     shape.export(path, file_type=suffix)
-    (mesh, matrix), = load_meshes(path)
+    ((mesh, matrix),) = load_meshes(path)
     corners = mesh.vertices[mesh.triangles] @ matrix[:3, :3].T + matrix[:3, 3]
     expected = shape.triangles
     if suffix == "glb":  # its readers may turn the up axis; the size stays
@@ -142,8 +191,11 @@ def test_meshes_from_files(suffix, tmp_path):
 def test_a_file_of_several_meshes_keeps_them_apart(tmp_path):
     several = trimesh.Scene()
     for k in range(3):
-        several.add_geometry(trimesh.creation.box(), transform=trimesh.transformations.translation_matrix(
-            (10 * k, 0, 0)), geom_name=f"box{k}")
+        several.add_geometry(
+            trimesh.creation.box(),
+            transform=trimesh.transformations.translation_matrix((10 * k, 0, 0)),
+            geom_name=f"box{k}",
+        )
     several.export(tmp_path / "several.glb")
     loaded = load_meshes(tmp_path / "several.glb")
     whole = scene_of_meshes(loaded, None, 30, 20)
@@ -152,10 +204,21 @@ def test_a_file_of_several_meshes_keeps_them_apart(tmp_path):
     assert np.ptp([matrix[:3, 3] for _, matrix in loaded], axis=0).max() == pytest.approx(20)
 
 
-@pytest.mark.parametrize("name, content", [
-    ("a.obj", ""), ("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"), ("a.ply", ""), ("a.ply", "ply\nformat"),
-    ("a.stl", ""), ("a.stl", "solid"), ("a.glb", ""), ("a.glb", "glTF"), ("a.obj", "words"), ("b.ply", None),
-])
+@pytest.mark.parametrize(
+    "name, content",
+    [
+        ("a.obj", ""),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"),
+        ("a.ply", ""),
+        ("a.ply", "ply\nformat"),
+        ("a.stl", ""),
+        ("a.stl", "solid"),
+        ("a.glb", ""),
+        ("a.glb", "glTF"),
+        ("a.obj", "words"),
+        ("b.ply", None),
+    ],
+)
 def test_bad_mesh_files_are_named(name, content, tmp_path):
     if content is not None:
         (tmp_path / name).write_text(content)
@@ -165,12 +228,14 @@ def test_bad_mesh_files_are_named(name, content, tmp_path):
 
 def test_triangles_that_are_not_finite_are_left_out(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 nan 1\nf 1 2 3\nf 1 2 4\n")
-    (mesh, _), = load_meshes(tmp_path / "a.obj")
+    ((mesh, _),) = load_meshes(tmp_path / "a.obj")
     assert len(mesh.triangles) == 1
 
 
 @pytest.mark.parametrize("width, height", [(30, 20), (20, 30), (1, 1), (400, 10), (10, 400)])
-@pytest.mark.parametrize("stretch", [(1, 1, 1), (1e4, 1, 1), (1, 1, 0), (1e-5, 1e-5, 1e-5), (1e6, 1e6, 1e6)])
+@pytest.mark.parametrize(
+    "stretch", [(1, 1, 1), (1e4, 1, 1), (1, 1, 0), (1e-5, 1e-5, 1e-5), (1e6, 1e6, 1e6)]
+)
 def test_framing_camera_sees_every_vertex(width, height, stretch, make, rng):
     matrix = trimesh.transformations.random_rotation_matrix(rng.random(3)) * (1, 1, 1, 0)
     matrix[:3, :3] *= stretch
@@ -189,13 +254,19 @@ class TestDiagnose:
         return diagnose(Mesh(**whole))
 
     def test_closed(self):
-        expected = {"closed": True, "consistent_winding": True, "degenerate_faces": 0, "duplicate_faces": 0}
+        expected = {
+            "closed": True,
+            "consistent_winding": True,
+            "degenerate_faces": 0,
+            "duplicate_faces": 0,
+        }
         assert self.of(trimesh.creation.box()) == expected
 
     def test_split_corners_are_still_closed(self):
         shape = trimesh.creation.box()
-        split = self.of(shape, vertices=shape.triangles.reshape(-1, 3),
-                        triangles=np.arange(36).reshape(-1, 3))
+        split = self.of(
+            shape, vertices=shape.triangles.reshape(-1, 3), triangles=np.arange(36).reshape(-1, 3)
+        )
         assert split["closed"] and split["consistent_winding"]
 
     def test_open(self):
@@ -210,7 +281,9 @@ class TestDiagnose:
 
     def test_degenerate_and_duplicate(self):
         shape = trimesh.creation.box()
-        faces = np.concatenate((shape.faces, [[0, 1, 1]], shape.faces[:2, [1, 2, 0]], shape.faces[:1, ::-1]))
+        faces = np.concatenate(
+            (shape.faces, [[0, 1, 1]], shape.faces[:2, [1, 2, 0]], shape.faces[:1, ::-1])
+        )
         found = self.of(shape, triangles=faces)
         assert (found["degenerate_faces"], found["duplicate_faces"]) == (1, 3)
 

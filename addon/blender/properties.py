@@ -64,7 +64,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         default="AUTO",
         description="Which of Blender's own pictures the traced one is compared with",
     )
-    shading: EnumProperty(name="Blender's Shading", items=SHADINGS, default="LIKE_FOR_LIKE")  # type: ignore[valid-type]
+    shading: EnumProperty(name="Shading", items=SHADINGS, default="LIKE_FOR_LIKE")  # type: ignore[valid-type]
 
     def settings(self) -> Settings:
         """Return what the tracer is to use."""

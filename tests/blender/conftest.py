@@ -19,7 +19,7 @@ from reference_tracer.blender.compare import gather
 from reference_tracer.blender.engine import export_for_render
 from reference_tracer.blender.export import export as export_depsgraph
 from reference_tracer.blender.viewport import temporary_scene
-from reference_tracer.tracer.render import result_of
+from reference_tracer.tracer.progress import result_of
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 CUBE_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -101,6 +101,68 @@ class Build:
         if link:
             bpy.context.scene.collection.children.link(collection)
         return collection
+
+    def nodes(self, obj: Any, *names: str) -> tuple[Any, Any]:
+        """Give an object a modifier of new geometry nodes, linked one behind the other.
+
+        Returns their tree and nodes. The first node takes the object's own geometry, if it takes any.
+        """
+        tree = bpy.data.node_groups.new("Nodes", "GeometryNodeTree")
+        for direction in ("INPUT", "OUTPUT"):
+            tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
+        nodes = [tree.nodes.new(name) for name in ("NodeGroupInput", *names, "NodeGroupOutput")]
+        for first, second in zip(nodes, nodes[1:], strict=False):
+            sockets = [s for s in second.inputs if s.type == "GEOMETRY"]
+            if sockets:
+                tree.links.new(first.outputs[0], sockets[0])
+        obj.modifiers.new("Nodes", "NODES").node_group = tree
+        return tree, nodes[1:-1]
+
+    def instances_on_points(self, obj: Any, source: Any) -> None:
+        """Have geometry nodes put an object, or a mesh primitive by its node's name, on the points."""
+        tree, (on_points,) = self.nodes(obj, "GeometryNodeInstanceOnPoints")
+        by_name = isinstance(source, str)
+        node = tree.nodes.new(source if by_name else "GeometryNodeObjectInfo")
+        if not by_name:
+            node.inputs["Object"].default_value = source
+            node.inputs["As Instance"].default_value = True
+        output = node.outputs["Mesh" if by_name else "Geometry"]
+        tree.links.new(output, on_points.inputs["Instance"])
+        on_points.inputs["Scale"].default_value = (0.3, 0.3, 0.3)
+
+    def text(self, name: str = "Text", **place: Any) -> Any:
+        curve = bpy.data.curves.new(name, "FONT")
+        curve.body, curve.extrude = "Ray", 0.1
+        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+
+    def bevelled_curve(self, name: str = "Curve", **place: Any) -> Any:
+        curve = bpy.data.curves.new(name, "CURVE")
+        curve.dimensions, curve.bevel_depth = "3D", 0.2
+        spline = curve.splines.new("BEZIER")
+        spline.bezier_points.add(1)
+        for point, x in zip(spline.bezier_points, (-1, 1), strict=True):
+            point.co, point.handle_left, point.handle_right = (x, 0, 0), (x, -1, 0), (x, 1, 1)
+        return self.place(self.link(bpy.data.objects.new(name, curve)), **place)
+
+    def surface(self, name: str = "Surface", **place: Any) -> Any:
+        bpy.ops.surface.primitive_nurbs_surface_sphere_add(radius=1)
+        obj = bpy.context.object
+        obj.name = name
+        return self.place(obj, **place)
+
+    def metaball(self, name: str = "Metaball", **place: Any) -> Any:
+        ball = bpy.data.metaballs.new(name)
+        ball.resolution = ball.render_resolution = 0.4
+        ball.elements.new().co = (0, 0, 0)
+        ball.elements.new().co = (1, 0, 0)
+        return self.place(self.link(bpy.data.objects.new(name, ball)), **place)
+
+    def color_attribute(self, obj: Any, domain: str, kind: str = "FLOAT_COLOR", seed: int = 5) -> Any:
+        attribute = obj.data.color_attributes.new("Shown", kind, domain)
+        values = np.random.default_rng(seed).random((len(attribute.data), 4), np.float32)
+        attribute.data.foreach_set("color", values.ravel())
+        obj.data.color_attributes.active_color = attribute
+        return attribute
 
     def solids(self) -> None:
         """A red, a green and a blue solid that overlap in the picture, on a grey floor."""

@@ -1,0 +1,225 @@
+"""What of a Blender scene reaches the tracer, against Blender's own evaluated data."""
+
+from __future__ import annotations
+
+import math
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.tracer.vector import transform_points
+
+MODES = ("VIEWPORT", "RENDER")
+
+
+def own_triangles(obj) -> int:
+    """Count an object's triangles by Blender's `to_mesh`, in the viewport's evaluation."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    mesh.calc_loop_triangles()
+    count = len(mesh.loop_triangles)
+    evaluated.to_mesh_clear()
+    return count
+
+
+def world_corners(obj) -> np.ndarray:
+    """Return the corners of an object's triangles in world space, float64, from Blender's data."""
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    mesh.calc_loop_triangles()
+    matrix = np.array(evaluated.matrix_world, float)
+    corners = [[mesh.vertices[v].co[:] for v in t.vertices] for t in mesh.loop_triangles]
+    evaluated.to_mesh_clear()
+    points = np.array(corners, float).reshape(-1, 3)
+    return (points @ matrix[:3, :3].T + matrix[:3, 3]).reshape(-1, 3, 3)
+
+
+def exported_corners(scene, name: str) -> np.ndarray:
+    """Return the corners of all triangles of one object as the tracer has them."""
+    out = []
+    for instance in scene.instances:
+        if scene.objects[instance.object] == name:
+            mesh = scene.meshes[instance.mesh]
+            points = transform_points(instance.world_from_object, mesh.vertices.T).T
+            out.append(points[mesh.triangles])
+    return np.concatenate(out)
+
+
+def test_modifiers_have_the_level_of_the_mode(build, export):
+    build.scene()
+    build.camera()
+    cube = build.cube()
+    modifier = cube.modifiers.new("Subdivision", "SUBSURF")
+    modifier.subdivision_type, modifier.levels, modifier.render_levels = "SIMPLE", 1, 2
+    found = {mode: run() for mode, run in export.modes.items()}
+    assert {m: scene.triangle_count for m, (scene, _) in found.items()} == {
+        "VIEWPORT": 12 * 4, "RENDER": 12 * 16}
+    assert {m: manifest.evaluation for m, (_, manifest) in found.items()} == {m: m for m in MODES}
+
+
+def test_modifiers_shown_in_one_mode_only(build, export):
+    build.camera()
+    cube = build.cube()
+    for name, viewport, render in (("V", True, False), ("R", False, True)):
+        modifier = cube.modifiers.new(name, "ARRAY")
+        modifier.count = 2 if viewport else 3
+        modifier.show_viewport, modifier.show_render = viewport, render
+    assert export.viewport()[0].triangle_count == 24
+    assert export.render()[0].triangle_count == 36
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_shape_keys_and_armatures_move_vertices(mode, build, export):
+    build.camera()
+    square = build.square()
+    square.shape_key_add(name="Basis")
+    key = square.shape_key_add(name="Up")
+    key.data[0].co.z = 4
+    key.value = 0.25
+    rigged = build.square("Rigged")
+    armature = bpy.data.armatures.new("Armature")
+    rig = build.link(bpy.data.objects.new("Rig", armature))
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.mode_set(mode="EDIT")
+    armature.edit_bones.new("Bone").tail = (0, 0, 1)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    rig.pose.bones["Bone"].location = (0, 2, 0)  # along the bone: upwards
+    rigged.vertex_groups.new(name="Bone").add(range(4), 1, "REPLACE")
+    rigged.modifiers.new("Armature", "ARMATURE").object = rig
+    scene, manifest = export.modes[mode]()
+    corners = exported_corners(scene, "Square")
+    assert corners[..., 2].max() == 1
+    np.testing.assert_allclose(exported_corners(scene, "Rigged")[..., 2], 2, atol=1e-6)
+    reasons = {e.name: e.reason for e in manifest.objects if not e.exported}
+    assert reasons == {"Camera": "has no surface", "Rig": "has no surface"}
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_every_type_gives_the_triangles_that_blender_makes(mode, build, export, entries):
+    build.camera()
+    made = [build.cube(), build.text(), build.bevelled_curve(), build.surface(), build.metaball()]
+    made[3].data.resolution_u = made[3].data.resolution_v = 4
+    for curve in (made[2].data, made[3].data):
+        curve.render_resolution_u = getattr(curve, "resolution_u", 0)
+    scene, manifest = export.modes[mode]()
+    found = entries(manifest)
+    for obj in made:
+        count = own_triangles(obj)
+        assert count > 10
+        assert found[obj.name].exported
+        assert found[obj.name].triangles == count
+        assert found[obj.name].type == obj.type
+    assert scene.triangle_count == sum(own_triangles(obj) for obj in made)
+
+
+def test_curves_have_the_resolution_of_the_mode(build, export):
+    build.camera()
+    curve = build.bevelled_curve()
+    curve.data.resolution_u, curve.data.render_resolution_u = 4, 8
+    viewport, render = export.viewport()[0], export.render()[0]
+    assert viewport.triangle_count == own_triangles(curve)
+    assert render.triangle_count == 2 * viewport.triangle_count
+
+
+@pytest.mark.parametrize("mode", MODES)
+@pytest.mark.parametrize("name", ["negative", "sheared", "zero", "rotated"])
+def test_world_vertices_are_blenders_in_float64(name, mode, build, export):
+    build.camera()
+    cube = build.cube(location=(1.1, -2.2, 3.3), rotation=(0.3, 0.7, 1.9), scale={
+        "negative": (-1, 2, 0.5), "sheared": (1, 3, 1), "zero": (1, 1, 0), "rotated": (1, 1, 1)}[name])
+    if name == "sheared":
+        cube.parent = build.empty("Parent", rotation=(0.2, 0.9, 0.4), scale=(0.3, 2, 1))
+    bpy.context.view_layer.update()
+    scene, _ = export.modes[mode]()
+    # A few roundings of float64 on numbers of some metres.
+    np.testing.assert_allclose(exported_corners(scene, "Cube"), world_corners(cube), rtol=0, atol=1e-14)
+    assert scene.meshes[0].vertices.dtype == np.float32
+    assert np.linalg.det(scene.instances[0].world_from_object[:3, :3]) == pytest.approx(
+        np.linalg.det(np.array(cube.matrix_world, float)[:3, :3]), abs=1e-12)
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_n_gons_are_blenders_own_loop_triangles(mode, build, export):
+    build.camera()
+    angles = np.arange(10) * math.tau / 10
+    star = [(r * math.cos(a), r * math.sin(a), 0) for a, r in zip(angles, [2, 0.7] * 5, strict=True)]
+    obj = build.mesh("Star", star, [range(10)])
+    scene, _ = export.modes[mode]()
+    np.testing.assert_array_equal(exported_corners(scene, "Star"), world_corners(obj))
+    assert scene.triangle_count == 8
+    a, b, c = np.moveaxis(exported_corners(scene, "Star"), 1, 0)
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+    assert area == pytest.approx(10 * 2 * 0.7 * math.sin(math.tau / 10) / 2)
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_slots_empty_past_the_end_and_linked_to_the_object(mode, build, export, entries):
+    build.camera()
+    red, blue = build.material("Red", 1, 0, 0), build.material("Blue", 0, 0, 1)
+    cube = build.cube()
+    for material in (red, None):
+        cube.data.materials.append(material)
+    for polygon, index in zip(cube.data.polygons, (0, 1, 2, 5, 0, 0), strict=True):
+        polygon.material_index = index
+    square = build.square(material=red)
+    square.material_slots[0].link, square.material_slots[0].material = "OBJECT", blue
+    bare = build.square("Bare")
+    scene, manifest = export.modes[mode]()
+    colors = {scene.objects[i.object]: i.colors.round(4).tolist() for i in scene.instances}
+    grey = np.array([0.8, 0.8, 0.8, 1], np.float32).round(4).tolist()
+    assert colors == {"Cube": [[1, 0, 0, 1], grey], "Square": [[0, 0, 1, 1]], "Bare": [grey]}
+    assert sorted(scene.meshes[0].slots) == [0] * 6 + [1] * 2 + [2] * 2 + [5] * 2
+    found = entries(manifest)
+    assert (found["Cube"].empty_slots, found[square.name].empty_slots, found[bare.name].empty_slots) == (
+        1, 0, 0)
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_vertices_that_are_not_finite_are_left_out_and_counted(mode, build, export, entries):
+    build.camera()
+    cube, square = build.cube(), build.square()
+    cube.data.vertices[0].co.x = math.nan  # of three faces, in one or two triangles of each
+    touching = sum(0 in face.vertices for face in cube.data.polygons)
+    points = np.zeros((4, 3), np.float32)
+    points[2, 0] = math.inf  # `co` would cut it off at the largest float
+    square.data.attributes["position"].data.foreach_set("vector", points.ravel())
+    scene, manifest = export.modes[mode]()
+    found = entries(manifest)
+    assert touching == 3
+    assert 3 <= found["Cube"].left_out <= 6
+    assert found["Cube"].triangles == 12 - found["Cube"].left_out
+    assert 1 <= found["Square"].left_out <= 2
+    assert all(np.isfinite(mesh.vertices).all() for mesh in scene.meshes)
+    assert f"  Cube: {found['Cube'].left_out} triangles left out (not finite)" in manifest.lines()
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_a_matrix_that_is_not_finite_leaves_the_object_out(mode, build, export, entries):
+    build.camera()
+    build.cube("Lost").location.x = math.nan
+    build.cube("Kept")
+    scene, manifest = export.modes[mode]()
+    assert scene.objects == ("Kept",)
+    lost = entries(manifest)["Lost"]
+    assert (lost.exported, lost.left_out) == (False, 12)
+    assert "not finite" in lost.reason
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_an_empty_scene(mode, build, export):
+    build.camera()
+    scene, manifest = export.modes[mode]()
+    assert scene.instances == scene.meshes == scene.objects == ()
+    assert [(e.name, e.exported) for e in manifest.objects] == [("Camera", False)]
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_the_manifest_counts_and_diagnoses(mode, build, export, entries):
+    build.camera()
+    build.cube()
+    build.square()
+    found = entries(export.modes[mode](*([True] if mode == "VIEWPORT" else []))[1])
+    assert (found["Cube"].triangles, found["Cube"].vertices, found["Cube"].instances) == (12, 8, 1)
+    assert found["Cube"].diagnosis == {
+        "closed": True, "consistent_winding": True, "degenerate_faces": 0, "duplicate_faces": 0}
+    assert found["Square"].diagnosis["closed"] is False

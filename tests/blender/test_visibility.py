@@ -1,0 +1,151 @@
+"""What is hidden, in which mode, and the reason that the manifest gives for it."""
+
+from __future__ import annotations
+
+import bpy
+import pytest
+
+MODES = ("VIEWPORT", "RENDER")
+
+
+def hide_viewport(obj, collection, layer):
+    obj.hide_viewport = True
+
+
+def hide_render(obj, collection, layer):
+    obj.hide_render = True
+
+
+def eye(obj, collection, layer):
+    obj.hide_set(True)
+
+
+def collection_viewport(obj, collection, layer):
+    collection.hide_viewport = True
+
+
+def collection_render(obj, collection, layer):
+    collection.hide_render = True
+
+
+def collection_eye(obj, collection, layer):
+    layer.hide_viewport = True
+
+
+def excluded(obj, collection, layer):
+    layer.exclude = True
+
+
+BOTH, NONE = set(MODES), set()
+CASES = {  # how, in which modes it hides, a word of the reason
+    hide_viewport: ({"VIEWPORT"}, "hidden in the viewport"),
+    hide_render: ({"RENDER"}, "hidden in renders"),
+    eye: ({"VIEWPORT"}, "view layer"),
+    collection_viewport: ({"VIEWPORT"}, "collection"),
+    collection_render: ({"RENDER"}, "collection"),
+    collection_eye: ({"VIEWPORT"}, "collection"),
+    excluded: (BOTH, "excluded"),
+}
+
+
+@pytest.mark.parametrize("hide", CASES, ids=lambda hide: hide.__name__)
+@pytest.mark.parametrize("mode", MODES)
+def test_hidden_objects_are_skipped_with_the_reason(mode, hide, build, export, entries):
+    build.camera()
+    build.square("Shown")
+    cube = build.cube("Hidden", link=False)
+    collection = build.collection("Collection", cube, link=True)
+    hide(cube, collection, bpy.context.view_layer.layer_collection.children["Collection"])
+    bpy.context.view_layer.update()
+    scene, manifest = export.modes[mode]()
+    found = entries(manifest)
+    assert set(found) == {"Camera", "Hidden", "Shown"}
+    modes, reason = CASES[hide]
+    if mode in modes:
+        assert scene.objects == ("Shown",)
+        assert not found["Hidden"].exported
+        assert reason in found["Hidden"].reason
+        assert f"  skipped Hidden (MESH): {found['Hidden'].reason}" in manifest.lines()
+    else:
+        assert set(scene.objects) == {"Hidden", "Shown"}
+        assert (found["Hidden"].exported, found["Hidden"].reason) == (True, "")
+
+
+@pytest.mark.parametrize("hide", CASES, ids=lambda hide: hide.__name__)
+def test_what_workbench_hides_is_hidden(hide, build, compare):
+    """The judge is Blender's own picture: what it draws is what was exported for it."""
+    build.scene()
+    build.camera()
+    cube = build.cube("Hidden", 1.5, link=False, material=build.material("Red", 1, 0, 0))
+    collection = build.collection("Collection", cube, link=True)
+    hide(cube, collection, bpy.context.view_layer.layer_collection.children["Collection"])
+    comparison = compare()
+    assert comparison.pixels["unexplained"] == 0
+    assert comparison.picture.any() == ("RENDER" not in CASES[hide][0])
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_only_the_active_view_layer_is_traced(mode, build, export, entries):
+    scene = build.scene()
+    build.camera()
+    build.collection("First", build.cube("In First", link=False), link=True)
+    build.collection("Second", build.square("In Second", link=False), link=True)
+    first, second = scene.view_layers[0], scene.view_layers.new("Other")
+    first.layer_collection.children["Second"].exclude = True
+    second.layer_collection.children["First"].exclude = True
+    traced, manifest = export.modes[mode]()
+    assert traced.objects == ("In First",)
+    assert manifest.view_layer == first.name
+    assert "excluded" in entries(manifest)["In Second"].reason
+
+
+@pytest.mark.parametrize("use", [True, False], ids=["used", "not_used_for_rendering"])
+def test_the_compared_view_layer_is_the_active_one(use, build, compare):
+    scene = build.scene()
+    build.camera()
+    build.collection("First", build.cube("In First", link=False), link=True)
+    build.collection("Second", build.square("In Second", 1, link=False), link=True)
+    second = scene.view_layers.new("Other")
+    second.layer_collection.children["First"].exclude = True
+    second.use = use
+    bpy.context.window.view_layer = second
+    comparison = compare()
+    assert comparison.manifest.view_layer == "Other"
+    assert comparison.scene.objects == ("In Second",)
+    assert comparison.verdict == "agree"
+    assert comparison.picture.any()
+
+
+@pytest.mark.parametrize("display", ["WIRE", "BOUNDS", "SOLID", "TEXTURED"])
+@pytest.mark.parametrize("mode", MODES)
+def test_display_type_matters_in_the_viewport_alone(mode, display, build, export, entries):
+    build.camera()
+    build.cube().display_type = display
+    scene, manifest = export.modes[mode]()
+    drawn = mode == "RENDER" or display in ("SOLID", "TEXTURED")
+    assert entries(manifest)["Cube"].exported == drawn
+    assert bool(scene.instances) == drawn
+    assert [(u.object, u.feature) for u in manifest.unmodelled] == (
+        [] if drawn else [("Cube", "display type")])
+
+
+@pytest.mark.parametrize("display", ["WIRE", "BOUNDS"])
+def test_workbench_draws_wire_and_bounds_as_solids(display, build, compare):
+    build.scene()
+    build.camera()
+    build.cube(rotation=(0.3, 0.4, 0)).display_type = display
+    comparison = compare()
+    assert comparison.verdict == "agree"
+    assert comparison.frame.color.any()
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_a_hidden_collection_is_still_seen_through_its_instances(mode, build, export):
+    build.camera()
+    collection = build.collection("Kit", build.cube(link=False), link=True)
+    bpy.context.view_layer.layer_collection.children["Kit"].exclude = True
+    empty = build.empty("Empty")
+    empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    scene, _ = export.modes[mode]()
+    assert scene.objects == ("Cube",)
+    assert len(scene.instances) == 1

@@ -1,0 +1,166 @@
+"""Camera rays against what a camera is, for both kinds and for frames that are not orthonormal."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.scene import Region, ViewWindow
+from reference_tracer.tracer.camera import Rays, camera_rays, film_of, pixel_size, project
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.visibility import film_positions
+
+TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
+FRAMES = {
+    "straight": np.eye(3),
+    "rotated": TURN * np.linalg.det(TURN),
+    "mirrored": -TURN * np.linalg.det(TURN),
+    "sheared": TURN @ np.array([[1, 0.4, 0], [0, 1, -0.3], [0.2, 0, 1]]),
+}
+EYE = (3.25, -40.5, 7.125)
+SHIFTED = ViewWindow(-0.2, 1.1, -0.9, 0.3)
+EPS = np.finfo(float).eps
+
+
+@pytest.fixture(
+    params=[(kind, frame) for kind in (False, True) for frame in FRAMES],
+    ids=lambda p: f"{'orthographic' if p[0] else 'perspective'} {p[1]}",
+)
+def camera(request, make):
+    orthographic, frame = request.param
+    return make.camera(
+        20, 14, eye=EYE, axes=FRAMES[frame], window=SHIFTED, orthographic=orthographic
+    )
+
+
+def one(camera, px, py):
+    rays = camera_rays(camera, np.array([px]), np.array([py]))
+    return rays.origins[:, 0], rays.directions[:, 0]
+
+
+def test_centre_is_the_view_direction(camera):
+    camera = replace(camera, window=ViewWindow(-0.7, 0.7, -0.5, 0.5))
+    origin, direction = one(camera, 10, 7)
+    assert np.array_equal(direction, camera.forward)
+    assert np.array_equal(origin, camera.origin)
+
+
+def test_corners_are_those_of_the_view_window(camera):
+    w = camera.window
+    for px, py, x, y in (
+        (0, 0, w.left, w.bottom),
+        (20, 0, w.right, w.bottom),
+        (0, 14, w.left, w.top),
+        (20, 14, w.right, w.top),
+    ):
+        origin, direction = one(camera, px, py)
+        offset = x * camera.right + y * camera.up
+        if camera.orthographic:
+            assert np.allclose(origin, camera.origin + offset, rtol=0, atol=64 * EPS)
+            assert np.array_equal(direction, camera.forward)
+        else:
+            assert np.allclose(direction, offset + camera.forward, rtol=0, atol=8 * EPS)
+            assert np.array_equal(origin, camera.origin)
+
+
+def test_t_is_the_depth_along_the_view_axis(camera, rng):
+    px, py, t = rng.uniform(0, 20, 300), rng.uniform(0, 14, 300), rng.uniform(0.1, 100, 300)
+    points = camera_rays(camera, px, py).at(t)
+    axes = np.stack((camera.right, camera.up, camera.forward), axis=1)
+    depth = np.linalg.solve(axes, points - camera.origin[:, None])[2]
+    assert np.allclose(depth, t, rtol=1e-12, atol=1e-12)
+    assert np.allclose(film_of(camera, points)[2], t, rtol=1e-12, atol=1e-12)
+
+
+def test_film_of_inverts_camera_rays(camera, rng):
+    px, py, t = rng.uniform(-5, 25, 300), rng.uniform(-5, 19, 300), rng.uniform(0.1, 100, 300)
+    x, y, _ = film_of(camera, camera_rays(camera, px, py).at(t))
+    assert np.allclose(x, px, rtol=0, atol=1e-9) and np.allclose(y, py, rtol=0, atol=1e-9)
+
+
+def test_project_bounds_its_error(camera, rng):
+    """Against whole numbers: what `magnitude` allows is not exceeded, and is not idle talk."""
+    points = rng.normal(size=(3, 200)) * 10.0 ** rng.uniform(-3, 6, 200)
+    xyz, magnitude = project(camera, points)
+    axes = np.stack((camera.right, camera.up, camera.forward), axis=1).astype(np.longdouble)
+    dual = np.stack([np.cross(axes[:, (k + 1) % 3], axes[:, (k + 2) % 3]) for k in range(3)])
+    dual /= (axes[:, 0] * dual[0]).sum()
+    q = points.astype(np.longdouble) - camera.origin[:, None]
+    exact = np.stack([(d[:, None] * q).sum(axis=0) for d in dual])
+    error = np.abs(xyz - exact).astype(float) / (EPS * magnitude)
+    assert error.max() < 16
+    assert (magnitude >= np.abs(xyz)).all()
+
+
+def test_nothing_appears_behind_a_perspective_camera(make):
+    camera = make.camera(20, 14)
+    points = np.array([[0, 0, 1.0], [1, 2, 0], [0, 0, -1]]).T
+    x, y, depth = film_of(camera, points)
+    assert np.isnan([x[:2], y[:2]]).all() and np.isfinite([x[2], y[2]]).all()
+    assert depth.tolist() == [-1, 0, 1]
+    assert np.isfinite(film_of(replace(camera, orthographic=True), points)).all()
+
+
+def test_rays_of_a_region_are_those_of_the_picture(camera):
+    region, whole = Region(3, 2, 11, 9), Region(0, 0, 20, 14)
+    part = camera_rays(camera, *film_positions(region, 0.125, -0.25))
+    full = camera_rays(camera, *film_positions(whole, 0.125, -0.25))
+    for some, every in ((part.origins, full.origins), (part.directions, full.directions)):
+        if every.shape[1] > 1:
+            every = every.reshape(3, 14, 20)[:, 2:9, 3:11].reshape(3, -1)
+        assert some.tobytes() == np.ascontiguousarray(every).tobytes()
+
+
+def test_a_region_is_cut_out_of_the_picture(camera, make):
+    turned = np.eye(4)
+    turned[:3, :3], turned[:3, 3] = camera.world_from_camera[:3, :3], camera.origin
+    quad = make.quad(-1, 3, -2, 0.2, -3)
+    scene = make.scene(camera, quad, planes=[((0, 0, -400), (0.1, 0.3, 1))])
+    scene = replace(scene, instances=[replace(scene.instances[0], world_from_object=turned)])
+    whole = render(scene).passes()
+    part = render(replace(scene, camera=replace(camera, region=Region(3, 2, 11, 9)))).passes()
+    assert len(np.unique(whole["instance_index"])) > 1
+    for name, values in part.items():
+        cut = whole[name][2:9] if values.ndim == 1 else whole[name][2:9, 3:11]
+        assert np.array_equal(values, cut), name
+
+
+@pytest.mark.parametrize("degrees", [0.5, 40, 170])
+def test_the_textbooks_camera(degrees, make):
+    """Pixel length tan(half the angle) / (half the resolution), samples at x - (width - 1) / 2."""
+    width, height = 9, 6
+    camera = make.camera(width, height, half=np.tan(np.radians(degrees / 2)))
+    length = np.tan(np.radians(degrees / 2)) / (height / 2)
+    for x, y in ((0, 0), (8, 5), (4, 2)):
+        _, direction = one(camera, x + 0.5, y + 0.5)
+        expected = (length * (x - (width - 1) / 2), length * (y - (height - 1) / 2), -1)
+        assert np.allclose(direction, expected, rtol=0, atol=16 * EPS * width * length)
+    assert pixel_size(camera) == pytest.approx((length, length))
+
+
+def test_directions_do_not_depend_on_the_place(camera):
+    """Far from the origin, too, neighbouring pixels have directions of their own."""
+    far = camera.world_from_camera.copy()
+    far[:3, 3] = (1e12, -3e12, 2e11)
+    px = np.linspace(0, 20, 1001)
+    here = camera_rays(camera, px, px)
+    there = camera_rays(replace(camera, world_from_camera=far), px, px)
+    assert np.array_equal(here.directions, there.directions)
+    assert here.directions.shape[1] == (1 if camera.orthographic else 1001)
+
+
+def test_float32_is_near(camera, rng):
+    px, py = rng.uniform(0, 20, 100), rng.uniform(0, 14, 100)
+    rays, near = camera_rays(camera, px, py), camera_rays(camera, px, py, np.float32)
+    assert near.origins.dtype == near.directions.dtype == np.float32
+    assert np.allclose(near.directions, rays.directions, rtol=0, atol=1e-6)
+    assert np.allclose(near.origins, rays.origins, rtol=0, atol=1e-5)
+
+
+def test_what_all_rays_share_stays_shared(rng):
+    rays = Rays(rng.normal(size=(3, 1)), rng.normal(size=(3, 6)))
+    some = rays.take(np.array([4, 4, 0]))
+    assert some.origins.shape == (3, 1)
+    assert np.array_equal(some.directions, rays.directions[:, [4, 4, 0]])
+    assert np.array_equal(some.at(2.0), rays.origins + 2 * rays.directions[:, [4, 4, 0]])

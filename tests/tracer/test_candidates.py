@@ -1,0 +1,243 @@
+"""Culling never leaves out a hit, and pairs are spelled out exactly."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from reference_tracer.scene import Instance, Mesh, Region, Scene, ViewWindow
+from reference_tracer.tracer import candidates
+from reference_tracer.tracer.camera import Rays, camera_rays, pixel_size
+from reference_tracer.tracer.candidates import batches, pairs, pixel_bounds, world_triangles
+from reference_tracer.tracer.settings import Method
+from reference_tracer.tracer.triangle import METHODS
+from reference_tracer.tracer.visibility import film_positions, within_clip
+
+CASES = 1500  # of TRIANGLES triangles each
+TRIANGLES = 40
+
+
+def hostile_camera(make, rng):
+    """Return a camera of any scale, place, shape of axes, window, border and clip range."""
+    orthographic, scale = bool(rng.integers(2)), 10.0 ** rng.uniform(-6, 6)
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0]  # rotated or mirrored
+    axes = (
+        axes,
+        axes @ (np.eye(3) + rng.uniform(-0.5, 0.5, (3, 3)) * (1 - np.eye(3))),
+        axes @ np.array([[1, 0.97, 0], [0, 0.25, 0], [0, 0, 1]]),
+        np.diag(rng.choice([-1.0, 1.0], 3)),
+    )[rng.integers(4)]
+    eye = scale * rng.normal(size=3) * 10.0 ** rng.choice([-3, 0, 2, 5])
+    width, height = (int(n) for n in rng.integers(4, 21, 2))
+    half = (scale if orthographic else 1) * 10.0 ** rng.uniform(-3, 1.5)
+    x, y = rng.uniform(-2, 2, 2) * half * rng.integers(2)
+    wide = half * width / height
+    region = None
+    if rng.integers(2):
+        (x0, x1), (y0, y1) = (np.sort(rng.choice(n + 1, 2, replace=False)) for n in (width, height))
+        region = Region(int(x0), int(y0), int(x1), int(y1))
+    start = scale * 10.0 ** rng.uniform(-4, 0)
+    return scale, make.camera(
+        width,
+        height,
+        eye=eye,
+        axes=axes,
+        orthographic=orthographic,
+        region=region,
+        window=ViewWindow(x - wide, x + wide, y - half, y + half),
+        clip_start=start,
+        clip_end=start * 10.0 ** rng.uniform(0.3, 6),
+    )
+
+
+def hostile_triangles(camera, scale, rng):
+    """Return corners (3, 3, n): tiny to huge, through pixel centres, behind the eye."""
+    n = TRIANGLES
+    size = 10.0 ** rng.uniform(-3, 2, n)  # pixels
+    film = [
+        rng.uniform(-0.5, 1.5, n) * extent + size * rng.normal(size=(3, n))
+        for extent in (camera.width, camera.height)
+    ]
+    film = np.where(rng.random(n) < 0.3, np.floor(film) + 0.5, film)
+    slant = np.where(rng.random((3, n)) < 0.5, 1, 10.0 ** rng.uniform(-1, 1, (3, n)))
+    depth = scale * 10.0 ** rng.uniform(-3, 2, n) * slant
+    depth *= np.where(rng.random(n) < 0.25, rng.choice([-1, 1, 0], (3, n)), 1)
+    (width, height), w = pixel_size(camera), camera.window
+    x, y = w.left + film[0] * width, w.bottom + film[1] * height
+    if not camera.orthographic:
+        x, y = (v * np.where(depth == 0, 1, np.abs(depth)) for v in (x, y))
+    corners = [
+        camera.origin[:, None]
+        + x[i] * camera.right[:, None]
+        + y[i] * camera.up[:, None]
+        + depth[i] * camera.forward[:, None]
+        for i in range(3)
+    ]
+    return np.stack(corners).astype(rng.choice([np.float64, np.float32]))
+
+
+def exact_depth(o, d, corners):
+    """Return t, decided with fractions, where the ray meets the triangle; else None."""
+    o, d, p1, p2, p3 = ([Fraction(float(x)) for x in v] for v in (o, d, *corners))
+    e1, e2, q = ([a - b for a, b in zip(v, p1, strict=True)] for v in (p2, p3, o))
+
+    def det(a, b, c):
+        return (
+            a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+        )
+
+    against = [-x for x in d]
+    whole = det(e1, e2, against)
+    if whole == 0:
+        return None
+    u, v, t = (n / whole for n in (det(q, e2, against), det(e1, q, against), det(e1, e2, q)))
+    return t if u >= 0 and v >= 0 and u + v <= 1 else None
+
+
+def hits_outside(camera, corners, bounds, dx, dy):
+    """Brute force: yield the (ray, triangle) that floats call a hit outside the triangle's box.
+
+    Some are none: a triangle seen edge on can seem to be hit anywhere along its plane. With them
+    come the numbers of hits inside the boxes, of pairs inside them, and of all pairs.
+    """
+    r, count = camera.region, corners.shape[2]
+    rays = camera_rays(camera, *film_positions(r, dx, dy), corners.dtype)
+    pixels = r.width * r.height
+    o, d = (np.broadcast_to(v, (3, pixels)) for v in (rays.origins, rays.directions))
+    px, py = (np.floor(v)[:, None] for v in film_positions(r, 0, 0))
+    inside = (px >= bounds[0]) & (px < bounds[1]) & (py >= bounds[2]) & (py < bounds[3])
+    every = Rays(*(np.repeat(v, count, axis=1) for v in (o, d)))
+    for method in (Method.TEXTBOOK, Method.MOLLER_TRUMBORE):
+        hit, t, _ = METHODS[method](every, *np.tile(corners, (1, 1, pixels)))
+        hit = (hit & within_clip(camera, t)).reshape(pixels, count)
+        yield (
+            [
+                (o[:, p], d[:, p], corners[:, :, k])
+                for p, k in zip(*np.nonzero(hit & ~inside), strict=True)
+            ],
+            (int((hit & inside).sum()), int(inside.sum()), inside.size),
+        )
+
+
+@pytest.mark.parametrize("part", range(5))
+def test_no_hit_is_culled(part, make):
+    lost, counts = [], np.zeros(3)
+    for seed in range(part * CASES // 5, (part + 1) * CASES // 5):
+        rng = np.random.default_rng(seed)
+        scale, camera = hostile_camera(make, rng)
+        corners = hostile_triangles(camera, scale, rng)
+        reach = float(rng.choice([0, 0.25, 0.5]))
+        bounds = pixel_bounds(camera, corners, reach)
+        r = camera.region
+        assert (bounds[[0, 2]].T >= (r.x0, r.y0)).all() and (bounds[[1, 3]].T <= (r.x1, r.y1)).all()
+        for dx, dy in {(0, 0), (reach, reach), (-reach, reach), (reach, -reach), (-reach, -reach)}:
+            for outside, count in hits_outside(camera, corners, bounds, dx, dy):
+                counts += count
+                for o, d, triangle in outside:
+                    t = exact_depth(o, d, triangle)
+                    if t is not None and camera.clip_start <= t <= camera.clip_end:
+                        lost.append((seed, reach, float(t)))
+    assert not lost
+    hits, proposed, possible = counts
+    assert hits > 50_000
+    assert proposed < 0.4 * possible  # a box that holds everything would be conservative, too
+
+
+def test_boxes_of_ordinary_triangles_are_tight(make):
+    camera = make.camera(40, 40, half=1)
+    corners = make.quad(-0.5, 0.25, -0.25, 0.75, -1).vertices[:3, :, None]
+    box = pixel_bounds(camera, corners)
+    assert box[:, 0].tolist() == [10, 25, 15, 35]
+    wider = pixel_bounds(camera, corners, reach=0.5)
+    assert (np.abs(wider - box) <= 1).all() and (wider[[1, 3]] > box[[1, 3]]).all()
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_what_the_clip_range_leaves_out_has_no_box(orthographic, make):
+    camera = make.camera(8, 8, orthographic=orthographic, clip_start=1, clip_end=10)
+    depths = np.array([-5, 0, 0.99, 1, 5, 10, 10.01, 1e9])
+    corners = np.stack(
+        [
+            np.stack(
+                (x * np.maximum(np.abs(depths), 1), y * np.maximum(np.abs(depths), 1), -depths)
+            )
+            for x, y in ((-9, -9), (9, -9), (0, 9))
+        ]
+    )
+    x0, x1, y0, y1 = pixel_bounds(camera, corners)
+    assert ((x0 < x1) & (y0 < y1)).tolist() == [False, False, False, True, True, True, False, False]
+
+
+TILE = Region(4, 6, 15, 13)
+
+
+@pytest.mark.parametrize("limit", [1, 7, 64, 10**9])
+def test_pairs_spell_boxes_out(limit, rng):
+    bounds = rng.integers(0, 20, (4, 200)).astype(np.int32)
+    expected = [
+        ((y - TILE.y0) * TILE.width + x - TILE.x0, k)
+        for k, (x0, x1, y0, y1) in enumerate(bounds.T)
+        for y in range(max(y0, TILE.y0), min(y1, TILE.y1))
+        for x in range(max(x0, TILE.x0), min(x1, TILE.x1))
+    ]
+    found, longest = [], 0
+    for pixel, triangle in pairs(bounds, TILE, limit):
+        assert len(pixel) == len(triangle) > 0
+        longest = max(longest, len(pixel))
+        found += zip(pixel.tolist(), triangle.tolist(), strict=True)
+    assert len(expected) > 200
+    assert sorted(found) == sorted(expected)
+    assert longest <= max(limit, TILE.width)
+
+
+def test_nothing_in_the_tile_gives_no_pairs():
+    empty = np.array([[5, 5, 7, 9], [20, 30, 7, 9]], np.int32).T.copy()
+    assert not list(pairs(empty, TILE, 10)) and not list(pairs(empty[:, :0], TILE, 10))
+
+
+@pytest.fixture
+def forest(make, rng):
+    """Return three meshes (one empty), with instances in a mixed order."""
+    meshes = tuple(
+        Mesh(rng.normal(size=(12, 3)).astype(np.float32), rng.integers(0, 12, (n, 3)), name=str(n))
+        for n in (7, 0, 30)
+    )
+    instances = [
+        Instance(k % 3, 0, np.vstack((rng.normal(size=(3, 4)), (0, 0, 0, 1)))) for k in range(20)
+    ]
+    return Scene(make.camera(), meshes, instances, objects=("Forest",))
+
+
+@pytest.mark.parametrize("size", [1, 8, 50, 1 << 14])
+def test_batches_hold_every_triangle_once(size, forest, monkeypatch):
+    monkeypatch.setattr(candidates, "BATCH", size)
+    names = []
+    for batch in batches(forest):
+        some = world_triangles(forest, batch, np.float64)
+        assert some.corners.shape == (3, 3, len(some.instance)) and len(some.instance) <= size
+        names += zip(some.instance.tolist(), some.triangle.tolist(), strict=True)
+    assert sorted(names) == [
+        (i, k)
+        for i, instance in enumerate(forest.instances)
+        for k in range(len(forest.meshes[instance.mesh].triangles))
+    ]
+
+
+def test_vertices_are_bit_identical_whatever_the_batch(forest, monkeypatch):
+    """A vertex that two triangles share is one point, and stays it in any batch."""
+    known = {}
+    for size in (1, 3, 10, 64, 1 << 14):
+        monkeypatch.setattr(candidates, "BATCH", size)
+        for batch in batches(forest):
+            some = world_triangles(forest, batch, np.float64)
+            triangles = forest.meshes[batch.mesh].triangles
+            for k, (i, triangle) in enumerate(
+                zip(some.instance.tolist(), some.triangle.tolist(), strict=True)
+            ):
+                for corner, vertex in enumerate(triangles[triangle].tolist()):
+                    point = some.corners[corner, :, k].tobytes()
+                    assert known.setdefault((i, vertex), point) == point
+    assert len(known) > 100

@@ -1,0 +1,213 @@
+"""Whole pictures: against an independent tracer, sampled, cancelled, empty."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.scene import Region
+from reference_tracer.tracer import render as rendering
+from reference_tracer.tracer import visibility
+from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.render import render, sample_offsets, steps, tiles
+from reference_tracer.tracer.settings import Method, Precision, Settings
+from reference_tracer.tracer.visibility import NOTHING, film_positions
+
+TURN = trimesh.transformations.rotation_matrix(0.7, (0.3, -0.5, 0.8), (0.1, 0, 0.2))
+SHAPES = {
+    "icosphere": trimesh.creation.icosphere(3),
+    "torus": trimesh.creation.torus(1.0, 0.4).apply_transform(TURN),
+    "box": trimesh.creation.box().apply_transform(TURN),
+    "cylinder": trimesh.creation.cylinder(0.6, 1.5).apply_transform(TURN),
+    "cone": trimesh.creation.cone(0.8, 1.2),
+    "capsule": trimesh.creation.capsule(1.0, 0.5).apply_transform(TURN),
+    "annulus": trimesh.creation.annulus(0.5, 1.0, 0.7).apply_transform(TURN),
+}
+
+
+@pytest.mark.parametrize("method", ["textbook", "moller_trumbore"])
+@pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_trimesh_sees_the_same(shape, orthographic, method, make):
+    """Trimesh's ray query (rtree): the nearest triangle of each ray, and t."""
+    mesh = SHAPES[shape]
+    camera = make.camera(
+        48,
+        36,
+        half=1.6 if orthographic else 0.45,
+        eye=(2.3, -2.6, 1.9),
+        target=(0.03, 0.02, 0.01),
+        orthographic=orthographic,
+    )
+    frame = render(make.scene(camera, make.mesh(mesh)), Settings(method))
+    rays = camera_rays(camera, *film_positions(camera.region, 0.0, 0.0))
+    origins, directions = (
+        np.broadcast_to(v, (3, 48 * 36)).T for v in (rays.origins, rays.directions)
+    )
+    place, ray, triangle = mesh.ray.intersects_location(origins, directions, multiple_hits=True)
+    t = ((place - origins[ray]) * directions[ray]).sum(axis=1) / (directions[ray] ** 2).sum(axis=1)
+    nearest = np.full(48 * 36, np.inf)
+    np.minimum.at(nearest, ray, t)
+    hit = np.isfinite(nearest)
+    assert hit.mean() > 0.05
+    assert np.array_equal(hit, np.isfinite(frame.t.ravel()))
+    assert np.allclose(frame.t.ravel()[hit], nearest[hit], rtol=0, atol=1e-9)
+    may = set(
+        zip(
+            ray[t <= nearest[ray] + 1e-9].tolist(),
+            triangle[t <= nearest[ray] + 1e-9].tolist(),
+            strict=True,
+        )
+    )
+    given = frame.triangle_index.ravel()
+    assert all((pixel, given[pixel]) in may for pixel in np.flatnonzero(hit))
+    assert np.allclose(
+        frame.position.reshape(-1, 3)[hit], (origins + nearest[:, None] * directions)[hit]
+    )
+    outward = frame.normal.reshape(-1, 3)[hit]
+    assert np.allclose(outward, mesh.face_normals[given[hit]], rtol=0, atol=1e-6)
+    assert (
+        (outward * directions[hit]).sum(axis=1) < 1e-9
+    ).all()  # closed: only its outside is seen
+
+
+@pytest.mark.parametrize("method", ["textbook", "moller_trumbore"])
+def test_float32_differs_a_little_near_edges(method, make):
+    camera = make.camera(60, 45, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
+    scene = make.scene(camera, make.mesh(SHAPES["torus"]))
+    fine, coarse = (render(scene, Settings(method, p)) for p in ("float64", "float32"))
+    differ = fine.triangle_index != coarse.triangle_index
+    assert differ.mean() < 0.01
+    assert (fine.barycentrics.min(axis=-1)[differ & np.isfinite(fine.t)] < 1e-3).all()
+    same = ~differ & np.isfinite(fine.t)
+    assert same.any() and np.allclose(coarse.t[same], fine.t[same], rtol=1e-5, atol=0)
+    assert not np.array_equal(coarse.t[same], fine.t[same])
+
+
+@pytest.mark.parametrize("samples", [1, 2, 3, 5])
+def test_samples_are_spread_evenly(samples):
+    offsets = np.array(sample_offsets(samples))
+    assert offsets.shape == (samples**2, 2)
+    assert np.allclose(offsets.mean(axis=0), 0) and np.abs(offsets).max() < 0.5
+    assert np.allclose(np.diff(np.unique(offsets[:, 0].round(12))), 1 / samples)
+
+
+@pytest.mark.parametrize("samples", [1, 2, 4, 8])
+@pytest.mark.parametrize("covered", [0.25, 0.5, 0.75])
+def test_an_edge_becomes_the_mean(make, samples, covered):
+    """A half-plane that covers a share of a column: that share of the samples, and of alpha."""
+    camera = make.camera(10, 10, half=5, orthographic=True)
+    scene = make.scene(camera, make.quad(-9, covered, -9, 9, -2), background=(0, 0, 0, 0))
+    frame = render(scene, Settings(samples=samples))
+    exact = covered * samples % 1 == 0
+    share = frame.color[:, 5, 3]
+    assert np.allclose(share, covered, rtol=0, atol=1e-6 if exact else 0.5 / samples)
+    assert np.allclose(frame.color[:, 5], share[:, None] * frame.color[0, 0])
+    assert (frame.color[:, :5] == frame.color[0, 0]).all() and (frame.color[:, 6:] == 0).all()
+
+
+def test_passes_stay_at_the_centre(make):
+    scene = make.scene(
+        make.camera(), make.mesh(SHAPES["torus"]), planes=[((0, 0, -3), (0.1, 0, 1))]
+    )
+    scene = replace(scene, camera=make.camera(eye=(2, -2.6, 1.9), target=(0, 0, 0)))
+    one, four = (render(scene, Settings(samples=n)).passes() for n in (1, 4))
+    assert not np.array_equal(one.pop("color"), four.pop("color"))
+    for name, values in one.items():
+        assert values.tobytes() == four[name].tobytes(), name
+
+
+def test_float32_and_methods_reach_the_picture(make):
+    """Each choice makes a picture of its own, so none is lost on the way."""
+    scene = make.scene(
+        make.camera(eye=(2, -2.6, 1.9), target=(0, 0, 0)), make.mesh(SHAPES["torus"])
+    )
+    frames = [render(scene, Settings(m, p)) for m in Method for p in Precision]
+    assert len({f.t.tobytes() for f in frames}) == len(frames)
+
+
+@pytest.mark.parametrize("background", [(0, 0, 0, 0), (0.1, 0.2, 0.3, 1), (0.1, 0.1, 0.1, 0.5)])
+@pytest.mark.parametrize("samples", [1, 2])
+def test_an_empty_scene_is_its_background(make, background, samples):
+    frame = render(make.scene(make.camera(), background=background), Settings(samples=samples))
+    assert np.allclose(frame.color, background)
+    assert np.isinf(frame.t).all() and frame.rows_done.all() and not frame.cancelled
+    for name in ("object_index", "instance_index", "triangle_index"):
+        assert (getattr(frame, name) == NOTHING).all()
+    assert not (frame.normal.any() or frame.position.any() or frame.barycentrics.any())
+
+
+@pytest.fixture
+def busy(make, monkeypatch):
+    """Return a scene whose picture takes many small steps."""
+    monkeypatch.setattr(visibility, "PAIRS", 100)
+    monkeypatch.setattr(rendering, "ROWS", 4)
+    camera = make.camera(40, 30, half=0.3, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
+    return make.scene(camera, make.mesh(SHAPES["torus"]), make.mesh(SHAPES["box"]))
+
+
+@pytest.mark.parametrize("samples", [1, 2])
+def test_progress_rises_to_1_at_the_end(busy, samples):
+    shares = []
+    render(busy, Settings(samples=samples), progress=shares.append)
+    assert len(shares) > 30 * samples
+    assert (np.diff(shares) >= 0).all() and shares[0] >= 0
+    assert shares[-1] == 1 and max(shares[:-1]) < 1
+
+
+def test_steps_are_small(busy):
+    frame = Frame.empty(busy.camera)
+    tested = [0]
+    for _ in steps(busy, Settings(), frame):
+        tested.append(frame.statistics.pairs_tested)
+    assert max(np.diff(tested)) <= visibility.PAIRS + busy.camera.region.width
+    assert tested[-1] > 20 * visibility.PAIRS
+    assert frame.statistics.triangles == busy.triangle_count
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.8])
+def test_a_cancelled_picture_keeps_its_rows(busy, share):
+    whole = render(busy)
+    reached = []
+    frame = render(busy, progress=reached.append, cancelled=lambda: reached[-1] >= share)
+    assert frame.cancelled and max(reached) < 1
+    rows = int(frame.rows_done.sum())
+    assert frame.rows_done[:rows].all() and rows % 4 == 0
+    assert abs(rows / 30 - share) < 0.2
+    for name, values in frame.passes().items():
+        if name == "rows_done":
+            continue
+        assert np.array_equal(values[:rows], getattr(whole, name)[:rows])
+        assert np.array_equal(values[rows:], getattr(Frame.empty(busy.camera), name)[rows:])
+
+
+def test_cancelling_a_whole_picture_does_nothing(make):
+    scene, shares = make.scene(make.camera(4, 4)), []
+    frame = render(scene, progress=shares.append, cancelled=lambda: shares[-1] == 1)
+    assert not frame.cancelled and frame.rows_done.all()
+
+
+def test_tiles_cover_the_region_once(make, monkeypatch):
+    monkeypatch.setattr(rendering, "ROWS", 5)
+    covered = np.zeros((18, 24), int)
+    for tile in tiles(make.camera(24, 18, region=Region(3, 1, 20, 15))):
+        covered[tile.y0 : tile.y1, tile.x0 : tile.x1] += 1
+    assert (covered[1:15, 3:20] == 1).all() and covered.sum() == 14 * 17
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"method": "magic"},
+        {"precision": "float16"},
+        {"samples": 0},
+        {"samples": 65},
+        {"memory": 1000},
+    ],
+)
+def test_settings_name_what_is_wrong(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        Settings(**wrong)

@@ -1,0 +1,180 @@
+"""Ray and triangle: three ways, against points that were chosen by their barycentrics."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.settings import Method
+from reference_tracer.tracer.triangle import (
+    METHODS,
+    SUM_TOLERANCE,
+    moller_trumbore,
+    textbook,
+    textbook_literal,
+)
+
+BOTH = pytest.mark.parametrize("test", [textbook, moller_trumbore])
+TYPES = pytest.mark.parametrize("dtype, near", [(np.float64, 1e-9), (np.float32, 2e-3)])
+
+
+@pytest.fixture
+def chosen(rng):
+    """Return rays, corners (3 corners, 3, n), barycentrics (3, n) and t: inside or out."""
+    count = 6000
+    corners = rng.normal(size=(3, 3, count))
+    n = np.cross(corners[1] - corners[0], corners[2] - corners[0], axis=0)
+    directions = rng.normal(size=(3, count))
+    facing = np.abs((n * directions).sum(axis=0))
+    longest = np.max(
+        [np.linalg.norm(corners[i] - corners[i - 1], axis=0) for i in range(3)], axis=0
+    )
+    good = (facing > 0.3) & (np.linalg.norm(n, axis=0) > 0.2 * longest**2)
+    s = np.stack((rng.uniform(-0.5, 1.5, count), rng.uniform(-0.5, 1.5, count)))
+    s = np.stack((1 - s.sum(axis=0), *s))
+    t = rng.uniform(0.5, 4, count)
+    origins = (s[:, None] * corners).sum(axis=0) - t * directions
+    return Rays(origins[:, good], directions[:, good]), corners[:, :, good], s[:, good], t[good]
+
+
+def cast(rays, corners, dtype):
+    return Rays(rays.origins.astype(dtype), rays.directions.astype(dtype)), corners.astype(dtype)
+
+
+@BOTH
+@TYPES
+def test_closed_form(chosen, test, dtype, near):
+    rays, corners, s, t = chosen
+    near_rays, near_corners = cast(rays, corners, dtype)
+    hit, found_t, found_s = test(near_rays, *near_corners)
+    assert found_t.dtype == found_s.dtype == dtype
+    clear = np.abs(s).min(axis=0) > near  # away from edges
+    inside = (s > 0).all(axis=0)
+    assert (hit == inside)[clear].all()
+    assert 500 < (inside & clear).sum() < clear.sum() - 500
+    assert np.allclose(found_t[hit], t[hit], rtol=0, atol=near)
+    assert np.allclose(found_s[:, hit], s[:, hit], rtol=0, atol=near)
+
+
+@pytest.mark.parametrize("method", Method)
+@TYPES
+def test_barycentrics_are_in_the_order_of_the_corners(chosen, method, dtype, near):
+    """The erratum: s2 as printed weighs p3, and gives another point."""
+    rays, corners = cast(*chosen[:2], dtype)
+    hit, t, s = METHODS[method](rays, *corners)
+    assert hit.sum() > 200
+    points = (s[:, None] * corners).sum(axis=0)
+    swapped = (s[[0, 2, 1], None] * corners).sum(axis=0)
+    assert np.allclose(points[:, hit], rays.at(t)[:, hit], rtol=0, atol=near)
+    assert not np.allclose(swapped[:, hit], rays.at(t)[:, hit], rtol=0, atol=0.1)
+
+
+@TYPES
+def test_literal_is_the_textbook_where_the_sum_is_1(chosen, dtype, near):
+    rays, corners = cast(*chosen[:2], dtype)
+    hit, t, s = textbook(rays, *corners)
+    literal, literal_t, literal_s = textbook_literal(rays, *corners)
+    assert np.array_equal(literal, hit & (s[0] + s[1] + s[2] == 1))
+    assert np.array_equal(t, literal_t) and np.array_equal(s, literal_s)
+    sums = np.abs(s.sum(axis=0) - 1)
+    assert (sums[hit] <= 1.01 * SUM_TOLERANCE[np.dtype(dtype)]).all()
+
+
+def closed(dtype, rng, count=1500):
+    """Return hits (rays, triangles) of rays from inside a sphere, for a method."""
+    shape = trimesh.creation.icosphere(2)
+    turn = trimesh.transformations.random_rotation_matrix(rng.random(3))[:3, :3]
+    corners = (shape.triangles @ turn.T).transpose(1, 2, 0).astype(dtype)[:, :, None, :]
+    origins = rng.uniform(-0.4, 0.4, (3, count)).astype(dtype)[:, :, None]
+    directions = rng.normal(size=(3, count)).astype(dtype)[:, :, None]
+
+    def found(test):
+        hit, t, _ = test(Rays(origins, directions), *corners)
+        return hit & (t > 0)
+
+    return found
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_literal_loses_about_half_of_a_closed_mesh(dtype, rng):
+    found = closed(dtype, rng)
+    assert found(textbook).any(axis=1).mean() > 0.999
+    lost = 1 - found(textbook_literal).any(axis=1).mean()
+    assert 0.35 < lost < 0.65
+
+
+@BOTH
+def test_from_inside_a_sphere_one_triangle_is_seen(test, rng):
+    assert (closed(np.float64, rng)(test).sum(axis=1) == 1).mean() > 0.999
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_parallel_rays_miss(method, dtype):
+    p1, p2, p3 = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], dtype)[:, :, None]
+    directions = np.array([[1, 0, 0], [0, -3, 0], [1, 2, 0]], dtype).T
+    for height in (0, 1):  # in the triangle's plane, and beside it
+        origins = np.array([[-1], [1], [height]], dtype)
+        assert not METHODS[method](Rays(origins, directions), p1, p2, p3)[0].any()
+
+
+@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_triangles_without_area_miss(method, dtype):
+    flat = [
+        [(0, 0, 0), (1, 0, 0), (2, 0, 0)],
+        [(0, 0, 0), (0, 0, 0), (1, 1, 0)],
+        [(0, 0, 0)] * 3,
+        [(1, 2, 4), (2, 4, 8), (3, 6, 12)],
+    ]
+    corners = np.array(flat, dtype).transpose(1, 2, 0)
+    targets = corners.mean(axis=0)
+    for direction in ((0, 0, -1), (1, 2, -5)):
+        d = np.array(direction, dtype)[:, None]
+        assert not METHODS[method](Rays(targets - d, np.broadcast_to(d, targets.shape)), *corners)[
+            0
+        ].any()
+
+
+@BOTH
+def test_both_faces_and_any_order_of_corners(chosen, test):
+    rays, corners, s, t = chosen
+    clear = np.abs(s).min(axis=0) > 1e-9
+    expected = test(rays, *corners)[0]
+    for order in ([0, 2, 1], [1, 2, 0], [2, 1, 0]):
+        hit, found_t, found_s = test(rays, *corners[order])
+        assert np.array_equal(hit[clear], expected[clear])
+        assert np.allclose(found_t, t, rtol=0, atol=1e-9)
+        assert np.allclose(found_s, s[order], rtol=0, atol=1e-9)
+
+
+@BOTH
+@pytest.mark.parametrize("dtype, reach", [(np.float64, 60), (np.float32, 6)])
+def test_scale_invariance(chosen, test, dtype, reach):
+    """Powers of two change no digit, so every decision and barycentric stays what it was."""
+    rays, corners = cast(*chosen[:2], dtype)
+    hit, t, s = test(rays, *corners)
+    for exponent in (-reach, -1, 3, reach):
+        scale = dtype(2.0**exponent)
+        scaled = test(Rays(rays.origins * scale, rays.directions), *(corners * scale))
+        assert np.array_equal(scaled[0], hit)
+        assert np.array_equal(scaled[1], t * scale) and np.array_equal(scaled[2], s)
+
+
+@BOTH
+def test_scale_invariance_away_from_edges(chosen, test):
+    rays, corners, s, _ = chosen
+    clear = np.abs(s).min(axis=0) > 1e-9
+    for scale in (1e-9, 1e-3, 7.0, 1e6, 1e9):
+        hit = test(Rays(rays.origins * scale, rays.directions), *(corners * scale))[0]
+        assert np.array_equal(hit[clear], (s > 0).all(axis=0)[clear])
+
+
+@BOTH
+def test_float32_differs_only_near_edges(chosen, test):
+    rays, corners, s, _ = chosen
+    coarse, near = cast(rays, corners, np.float32)
+    differs = test(coarse, *near)[0] != test(rays, *corners)[0]
+    assert differs.mean() < 0.01
+    assert (np.abs(s).min(axis=0)[differs] < 1e-3).all()
