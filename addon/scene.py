@@ -8,6 +8,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -280,6 +281,29 @@ class Scene:
         for i in (*self.instances, *self.planes):
             if not 0 <= i.object < len(self.objects):
                 raise SceneError(f"An instance names object {i.object} of {len(self.objects)}.")
+
+    @cached_property
+    def instance_meshes(self) -> NDArray[np.intp]:
+        """Which mesh each instance shows, (k,)."""
+        return np.array([i.mesh for i in self.instances], np.intp)
+
+    @cached_property
+    def instance_matrices(self) -> NDArray[np.float64]:
+        """world_from_object of every instance, (4, 4, k)."""
+        matrices = [i.world_from_object for i in self.instances]
+        return np.stack(matrices, axis=-1) if matrices else np.zeros((4, 4, 0))
+
+    @cached_property
+    def color_table(self) -> NDArray[np.float32]:
+        """The colours of all instances below one another, (r, 4) linear RGBA."""
+        return np.concatenate([np.zeros((0, 4), np.float32), *(i.colors for i in self.instances)])
+
+    @cached_property
+    def color_rows(self) -> NDArray[np.intp]:
+        """First and last row of each instance in `color_table`, (2, k)."""
+        counts = np.array([len(i.colors) for i in self.instances], np.intp)
+        ends = np.cumsum(counts)
+        return np.stack((ends - counts, ends - 1))
 
     @property
     def triangle_count(self) -> int:

@@ -15,12 +15,14 @@ from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import Settings
 from . import metrics
-from .causes import Cause, Causes, find_causes
+from .cause import Cause, Causes
+from .causes import find_causes
 
 SCHEMA = "reference_tracer.comparison/1"
 
 # What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
 _TRACING = 0.7  # of the work, roughly
+_CAUSES = 0.8  # of what is left
 
 EXIT_CODES = {"agree": 0, "warnings": 1, "differences": 2, "cancelled": 1}
 
@@ -40,36 +42,8 @@ class Comparison:
     picture: NDArray[np.float32]  # (h, w, 4) linear RGBA: Blender's
     blender: dict[str, Any]  # version, source, sample radius, settings used
     causes: Causes
-
-    @property
-    def pixels(self) -> dict[str, Any]:
-        """Count pixels: total = agree + differ + not_decidable (+ not_traced)."""
-        count = {c: int((self.causes.cause == c).sum()) for c in Cause}
-        explained = count[Cause.EDGE] + count[Cause.DEPTH_TIE] + count[Cause.NOT_MODELLED]
-        return {
-            "total": self.causes.cause.size,
-            "agree": count[Cause.AGREE],
-            "differ": explained + count[Cause.UNEXPLAINED],
-            "explained": explained,
-            "unexplained": count[Cause.UNEXPLAINED],
-            "not_decidable": count[Cause.NOT_DECIDABLE],
-            "not_traced": count[Cause.NOT_TRACED],
-            "by_cause": {
-                c.name.lower(): count[c] for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
-            },
-        }
-
-    @property
-    def metrics(self) -> dict[str, Any]:
-        """RMSE, PSNR (None for infinite), SSIM and the largest difference of linear RGBA."""
-        a, b = np.nan_to_num(self.frame.color), np.nan_to_num(self.picture)
-        psnr = metrics.psnr(a, b)
-        return {
-            "rmse": metrics.rmse(a, b),
-            "psnr": psnr if np.isfinite(psnr) else None,
-            "ssim": metrics.ssim(a, b),
-            "largest_difference": metrics.largest_difference(a, b),
-        }
+    pixels: dict[str, Any]  # see count_pixels
+    metrics: dict[str, Any]  # see measure
 
     @property
     def verdict(self) -> str:
@@ -143,10 +117,59 @@ def compare(
             f"Blender's picture has {picture.shape[1]} x {picture.shape[0]} pixels, the traced one "
             f"{frame.color.shape[1]} x {frame.color.shape[0]}."
         )
-    causes = yield from find_causes(
+    finding = find_causes(
         scene, settings, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0)
     )
-    return Comparison(scene, manifest, settings, frame, picture, blender, causes)
+    causes = yield from scaled(finding, 0.0, _CAUSES)
+    measured = yield from scaled(measure(frame.color, picture), _CAUSES, 1 - _CAUSES)
+    return Comparison(
+        scene, manifest, settings, frame, picture, blender, causes, count_pixels(causes), measured
+    )
+
+
+def count_pixels(causes: Causes) -> dict[str, Any]:
+    """Count pixels by what is said of them.
+
+    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained.
+    """
+    count = {c: int((causes.cause == c).sum()) for c in Cause}
+    explained = count[Cause.EDGE] + count[Cause.DEPTH_TIE] + count[Cause.NOT_MODELLED]
+    return {
+        "total": causes.cause.size,
+        "agree": count[Cause.AGREE],
+        "differ": explained + count[Cause.UNEXPLAINED],
+        "explained": explained,
+        "unexplained": count[Cause.UNEXPLAINED],
+        "not_decidable": count[Cause.NOT_DECIDABLE],
+        "not_traced": count[Cause.NOT_TRACED],
+        "by_cause": {
+            c.name.lower(): count[c] for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
+        },
+    }
+
+
+def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:
+    """Measure how far two pictures of linear RGBA differ; what is not a number counts as 0.
+
+    RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
+    """
+    a, b = np.nan_to_num(traced), np.nan_to_num(picture)
+    height, squares, largest = len(a), 0.0, {"value": -1.0}
+    for start in range(0, height, metrics.ROWS):
+        rows = slice(start, min(start + metrics.ROWS, height))
+        squares += metrics.rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
+        found = metrics.largest_difference(a[rows], b[rows])
+        if found["value"] > largest["value"]:
+            largest = found | {"pixel": [found["pixel"][0], found["pixel"][1] + start]}
+        yield 0.2 * start / height
+    rmse = float(np.sqrt(squares / height))
+    similarity = yield from scaled(metrics.ssim_work(a, b), 0.2, 0.8)
+    return {
+        "rmse": rmse,
+        "psnr": metrics.psnr_of(rmse) if rmse else None,
+        "ssim": similarity,
+        "largest_difference": largest,
+    }
 
 
 def trace_and_compare(

@@ -10,6 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..tracer.progress import Work, result_of
+
+ROWS = 32  # looked at together, so that a step of the work is short
+
 
 def rmse(first: NDArray, second: NDArray) -> float:
     """Return the root of the mean squared difference over all pixels and channels.
@@ -25,11 +29,22 @@ def rmse(first: NDArray, second: NDArray) -> float:
 
 def psnr(first: NDArray, second: NDArray, data_range: float = 1.0) -> float:
     """Return the peak signal-to-noise ratio in decibels; infinite for equal pictures."""
-    error = rmse(first, second)
+    return psnr_of(rmse(first, second), data_range)
+
+
+def psnr_of(error: float, data_range: float = 1.0) -> float:
+    """Return the peak signal-to-noise ratio in decibels of a root mean squared error."""
     return float("inf") if error == 0 else float(20 * np.log10(data_range / error))
 
 
 def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7) -> float:
+    """Return the mean structural similarity of two pictures; see :func:`ssim_work`."""
+    return result_of(ssim_work(first, second, data_range, size))
+
+
+def ssim_work(
+    first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
+) -> Work[float]:
     """Return the mean structural similarity of two pictures, 1 for equal ones.
 
     Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to
@@ -40,6 +55,16 @@ def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
     _same_shape(first, second)
     shortest = min(first.shape[:2])
     size = min(size, shortest - (1 - shortest % 2))
+    windows, total = first.shape[0] - size + 1, 0.0
+    for start in range(0, windows, ROWS):
+        rows = slice(start, min(start + ROWS, windows) + size - 1)
+        total += _similarity(first[rows], second[rows], data_range, size).sum()
+        yield start / windows
+    return float(total / (windows * (first.shape[1] - size + 1) * first.shape[2]))
+
+
+def _similarity(first: NDArray, second: NDArray, data_range: float, size: int) -> NDArray:
+    """Return the similarity of every window and channel."""
     x, y = first.astype(np.float64), second.astype(np.float64)
     samples = size * size
     unbiased = samples / (samples - 1) if samples > 1 else 1.0
@@ -48,8 +73,7 @@ def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
     vy = unbiased * (_window_mean(y * y, size) - uy * uy)
     vxy = unbiased * (_window_mean(x * y, size) - ux * uy)
     c1, c2 = (0.01 * data_range) ** 2, (0.03 * data_range) ** 2
-    score = ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
-    return float(score.mean())
+    return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
 
 
 def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:

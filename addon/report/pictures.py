@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare.causes import Cause
+from ..compare.cause import Cause
 from ..compare.comparison import Comparison
 
 # Linear RGB. Pixels that agree show the traced picture, dimmed and grey.

@@ -75,7 +75,7 @@ def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> World
     mesh = scene.meshes[batch.mesh]
     triangles = mesh.triangles[batch.first : batch.last]
     each, copies = len(triangles), len(batch.instances)
-    matrices = np.stack([scene.instances[i].world_from_object for i in batch.instances], axis=-1)
+    matrices = scene.instance_matrices[..., batch.instances]
     corners = []
     for corner in triangles.T:
         local = mesh.vertices[corner].T.astype(np.float64)

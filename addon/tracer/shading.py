@@ -6,12 +6,14 @@ whatever the precision of the intersection: it says where the hit was found to b
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
+from ..scene import Mesh, Scene
 from .camera import Rays
-from .vector import cross, transform_points
+from .vector import cross, dot, transform_points
 from .visibility import NOTHING, Hits
 
 
@@ -22,22 +24,16 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     barycentrics weigh them.
     """
     out = np.tile(scene.background, (len(hits.t), 1))
-    for index, rows in _by_instance(hits):
-        if index >= len(scene.instances):
-            out[rows] = scene.planes[index - len(scene.instances)].color
+    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
+        out[hits.instance == index] = infinite.color
+    for mesh, rows in _by_mesh(scene, hits):
+        triangle, instance = hits.triangle[rows], hits.instance[rows]
+        if mesh.corner_colors is not None:
+            out[rows] = (mesh.corner_colors[triangle] * hits.s[:, rows].T[..., None]).sum(axis=1)
         else:
-            instance = scene.instances[index]
-            mesh = scene.meshes[instance.mesh]
-            triangle = hits.triangle[rows]
-            if mesh.corner_colors is not None:
-                out[rows] = (mesh.corner_colors[triangle] * hits.s[:, rows].T[..., None]).sum(
-                    axis=1
-                )
-            else:
-                out[rows] = instance.colors[
-                    np.minimum(mesh.slots[triangle], len(instance.colors) - 1)
-                ]
-        out[rows, 3] = 1
+            first, last = scene.color_rows[:, instance]
+            out[rows] = scene.color_table[np.minimum(first + mesh.slots[triangle], last)]
+    out[hits.instance != NOTHING, 3] = 1
     return out
 
 
@@ -47,22 +43,20 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     It is the side that the winding (p2 - p1) x (p3 - p1) names in *object* space: a mirrored
     instance keeps its outside outside. (The textbook's own n is its opposite.)
     """
-    out = np.zeros((len(hits.t), 3))
-    for index, rows in _by_instance(hits):
-        if index >= len(scene.instances):
-            n = scene.planes[index - len(scene.instances)].normal[:, None]
-        else:
-            instance = scene.instances[index]
-            mesh = scene.meshes[instance.mesh]
-            corners = mesh.triangles[hits.triangle[rows]].T
-            p1, p2, p3 = (
-                transform_points(instance.world_from_object, mesh.vertices[c].T) for c in corners
-            )
-            mirrored = np.linalg.det(instance.world_from_object[:3, :3]) < 0
-            n = cross(p2 - p1, p3 - p1) * (-1 if mirrored else 1)
-        n = n / np.abs(n).max(axis=0)  # so that the square below cannot underflow
-        out[rows] = (n / np.sqrt((n * n).sum(axis=0))).T
-    return out
+    n = np.zeros((3, len(hits.t)))
+    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
+        n[:, hits.instance == index] = infinite.normal[:, None]
+    for mesh, rows in _by_mesh(scene, hits):
+        matrices = scene.instance_matrices[..., hits.instance[rows]]
+        corners = mesh.triangles[hits.triangle[rows]].T
+        p1, p2, p3 = (transform_points(matrices, mesh.vertices[c].T) for c in corners)
+        x, y, z = matrices[:3, :3].swapaxes(0, 1)  # columns: where the object's axes go
+        mirrored = dot(cross(x, y), z) < 0
+        n[:, rows] = cross(p2 - p1, p3 - p1) * np.where(mirrored, -1, 1)
+    largest = np.abs(n).max(axis=0)  # divided by, so that the squares cannot underflow
+    n /= np.where(largest > 0, largest, 1)
+    length = np.sqrt(dot(n, n))
+    return (n / np.where(length > 0, length, 1)).T
 
 
 def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
@@ -80,10 +74,9 @@ def objects(scene: Scene, hits: Hits) -> NDArray[np.int32]:
     return np.array([*of, NOTHING], np.int32)[hits.instance]
 
 
-def _by_instance(hits: Hits):
-    """Yield each instance that is seen, with its rows."""
-    order = np.argsort(hits.instance, kind="stable")
-    seen, start = np.unique(hits.instance[order], return_index=True)
-    for index, rows in zip(seen, np.split(order, start[1:]), strict=True):
-        if index != NOTHING:
-            yield int(index), rows
+def _by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
+    """Yield each mesh that is seen, with the rows of its hits."""
+    on_mesh = np.flatnonzero((hits.instance != NOTHING) & (hits.instance < len(scene.instances)))
+    meshes = scene.instance_meshes[hits.instance[on_mesh]]
+    for index in np.unique(meshes):
+        yield scene.meshes[index], on_mesh[meshes == index]
