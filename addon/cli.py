@@ -24,7 +24,7 @@ from .arguments import (
     add_settings,
     settings_from,
 )
-from .scene import Camera, Scene, SceneError, ViewWindow
+from .scene import Camera, Scene, SceneError, ViewWindow, check_size
 from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, save_scene, scene_of_meshes
 from .tracer.render import render
 from .tracer.settings import Settings
@@ -148,6 +148,7 @@ def _add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int =
 def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | None:
     if options.eye is None:
         return None
+    check_size(width, height)
     if not 0 < options.angle < 180:
         raise SceneError(f"--angle is {options.angle:g}; it must be between 0 and 180 degrees.")
     eye, target = np.array(options.eye), np.array(options.target, float)
@@ -160,14 +161,19 @@ def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | No
         raise SceneError("--eye and --target are the same point: move one of them.")
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
-    half = options.ortho_scale / 2 if options.ortho_scale else np.tan(np.radians(options.angle) / 2)
+    orthographic = options.ortho_scale is not None
+    if orthographic and not options.ortho_scale > 0:
+        raise SceneError(
+            f"--ortho-scale is {options.ortho_scale:g} (orthographic scale); it must be above 0."
+        )
+    half = options.ortho_scale / 2 if orthographic else np.tan(np.radians(options.angle) / 2)
     distance = float(np.linalg.norm(backward))
     return Camera(
         matrix,
         ViewWindow(-half * width / height, half * width / height, -half, half),
         width,
         height,
-        orthographic=options.ortho_scale is not None,
+        orthographic=orthographic,
         clip_start=distance * 1e-3,
         clip_end=distance * 1e3,
         name="--eye",
@@ -184,7 +190,7 @@ def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
         width, height = (
-            getattr(options, name) or default
+            default if (value := getattr(options, name)) is None else value
             for name, default in zip(("width", "height"), options.default_size, strict=True)
         )
         meshes = load_meshes(path)
@@ -262,7 +268,9 @@ def _trade(options: argparse.Namespace) -> int:
     scene, _ = _load(options)
     try:
         with _progress() as progress:
-            rows = measure(scene, options.width or options.default_size[0], progress)
+            rows = measure(
+                scene, options.default_size[0] if options.width is None else options.width, progress
+            )
     except TooLargeError as error:
         raise SceneError(str(error)) from error
     print(table(rows))
@@ -272,7 +280,8 @@ def _trade(options: argparse.Namespace) -> int:
 def _export(options: argparse.Namespace) -> int:
     if options.out.suffix.lower() != ".npz":
         raise SceneError(f"'{options.out}' must end in .npz")
-    options.default_size = (0, 0)
+    if options.scene.suffix.lower() != ".blend":
+        raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
     scene, _ = _load(options)
     options.out.parent.mkdir(parents=True, exist_ok=True)
     save_scene(options.out, scene)

@@ -72,7 +72,10 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
             key = letter if name == "color" else f"{name}.{letter}"
             channels[key] = np.ascontiguousarray(values[::-1, :, index], dtype=np.float32)
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    OpenEXR.File(header, channels).write(str(path))
+    try:
+        OpenEXR.File(header, channels).write(str(path))
+    except RuntimeError as error:
+        raise OSError(f"cannot write '{path}': {error}") from error
 
 
 def _missing(what: str, library: str) -> MissingLibraryError:

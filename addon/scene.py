@@ -94,11 +94,7 @@ class Camera:
             raise SceneError(f"The axes of camera '{self.name}' lie in a plane: clear its scale.")
         if self.region is None:
             _store(self, "region", Region(0, 0, self.width, self.height))
-        if self.width < 1 or self.height < 1:
-            raise SceneError(
-                f"The picture has {self.width} x {self.height} pixels: raise the resolution or its "
-                "percentage, so that both are at least 1."
-            )
+        check_size(self.width, self.height)
         r = self.region
         if not (0 <= r.x0 < r.x1 <= self.width and 0 <= r.y0 < r.y1 <= self.height):
             raise SceneError(
@@ -109,6 +105,11 @@ class Camera:
             raise SceneError(
                 f"Camera '{self.name}' sees nothing: its clip start ({self.clip_start:g} m) is not "
                 f"below its clip end ({self.clip_end:g} m)."
+            )
+        if not self.orthographic and not self.clip_start > 0:
+            raise SceneError(
+                f"Camera '{self.name}' has a clip start of {self.clip_start:g} m: what a "
+                "perspective camera sees begins in front of it, so raise it above 0."
             )
         w = self.window
         if not (
@@ -174,7 +175,7 @@ class Mesh:
         vertices = np.asarray(self.vertices)
         if vertices.dtype not in (np.float32, np.float64):
             vertices = vertices.astype(np.float64)
-        triangles = np.asarray(self.triangles, dtype=np.int32)
+        triangles = np.asarray(self.triangles)
         slots = np.zeros(len(triangles), np.int32) if self.slots is None else self.slots
         slots = np.asarray(slots, dtype=np.int32)
         what = f"Mesh '{self.name}'"
@@ -197,7 +198,7 @@ class Mesh:
                 raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
             _store(self, "corner_colors", _locked(colors))
         _store(self, "vertices", _locked(vertices))
-        _store(self, "triangles", _locked(triangles))
+        _store(self, "triangles", _locked(triangles.astype(np.int32)))
         _store(self, "slots", _locked(slots))
 
 
@@ -309,6 +310,15 @@ class Scene:
     def triangle_count(self) -> int:
         """Triangles over all instances."""
         return sum(len(self.meshes[i.mesh].triangles) for i in self.instances)
+
+
+def check_size(width: int, height: int) -> None:
+    """Raise a SceneError if a picture of this size has no pixel."""
+    if width < 1 or height < 1:
+        raise SceneError(
+            f"The picture has {width} x {height} pixels: raise the resolution or its percentage, "
+            "so that both are at least 1."
+        )
 
 
 def drop_non_finite(

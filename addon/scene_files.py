@@ -21,6 +21,7 @@ from .scene import (
     Scene,
     SceneError,
     ViewWindow,
+    check_size,
     drop_non_finite,
 )
 
@@ -73,7 +74,8 @@ def save_scene(path: str | Path, scene: Scene) -> None:
     for k, plane in enumerate(scene.planes):
         for name in ("point", "normal", "color"):
             arrays[f"plane{k}_{name}"] = getattr(plane, name)
-    np.savez_compressed(path, **arrays)
+    with open(path, "wb") as file:  # given a name, numpy would add .npz to one in capitals
+        np.savez_compressed(file, **arrays)
 
 
 def load_scene(path: str | Path) -> Scene:
@@ -127,9 +129,9 @@ def load_scene(path: str | Path) -> Scene:
             background=np.array(head["background"]),
             objects=tuple(head["objects"]),
         )
-    except SceneError:
-        raise
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except SceneError as error:
+        raise SceneError(f"'{path}': {error}") from error
+    except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
         raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
 
 
@@ -195,6 +197,7 @@ def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: in
 
     It looks from the front, right and above, as a new Blender scene's camera does.
     """
+    check_size(width, height)
     corners = np.concatenate(
         [
             m.vertices[np.unique(m.triangles)].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]

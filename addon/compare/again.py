@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 
 from ..scene import Region, Scene
 from ..tracer import shading
-from ..tracer.frame import Frame
 from ..tracer.probe import Probe
 from ..tracer.progress import Work, scaled
 from ..tracer.render import tiles
-from ..tracer.settings import Settings
+from ..tracer.settings import Method, Precision, Settings
 from ..tracer.visibility import NOTHING, Hits, plan
 from .bounds import depth_resolution, view_error
 from .cause import Cause, Settler, differing
@@ -30,25 +29,23 @@ OFFSETS = (
     *((a * x, b * y) for a, b in ((1, 0.5), (0.5, 1)) for x in (1, -1) for y in (1, -1)),
 )
 
+# A method that loses hits would find at some sample or other whatever Blender shows.
+SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
+
 LAYERS = 4  # surfaces behind one another that a depth tie is looked for in
 
 FEW = 1 << 13  # pixels looked at together, so that a step is short where whole pictures differ
 
 
 def look_again(
-    scene: Scene,
-    settings: Settings,
-    frame: Frame,
-    picture: NDArray[np.float32],
-    band: NDArray[np.float64],
-    settle: Settler,
+    scene: Scene, picture: NDArray[np.float32], band: NDArray[np.float64], settle: Settler
 ) -> Work[None]:
     """Settle open pixels, a part of the picture at a time.
 
     Parameters
     ----------
-    scene, settings, frame
-        What was traced, how, and what it gave.
+    scene : Scene
+        What was traced; it is asked by SOUND, however the picture was made.
     picture : (h, w, 4) float32
         Blender's.
     band : (h, w) float64
@@ -58,17 +55,20 @@ def look_again(
     """
     if not settle.open.any():
         return
-    made = yield from plan(scene, settings, reach=float(band[settle.open].max()))
+    made = yield from plan(scene, SOUND, reach=float(band[settle.open].max()))
     parts = list(_parts(scene, settle.open))
     for number, tile in enumerate(parts):
         rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
         wanted, part = settle.open[rows].copy(), settle.rows(rows)
         done, size = number / len(parts), 1 / len(parts)
         probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.5 * size)
-        for _ in _edges(scene, probe, wanted, picture[rows], band[rows], part):
-            yield done + 0.5 * size
-        for _ in _depth_ties(scene, probe, wanted, picture[rows], frame, rows, part):
+        centre = probe.trace()
+        for _ in _edges(scene, probe, wanted, picture[rows], band[rows], centre, part):
+            yield done + 0.6 * size
+        for _ in _depth_ties(scene, probe, wanted, picture[rows], centre, part):
             yield done + 0.9 * size
+        if part.open.any():
+            _coverings(scene, probe, wanted, picture[rows], band[rows], centre, part)
 
 
 def _parts(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
@@ -83,36 +83,48 @@ def _parts(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
                 yield part
 
 
-def _edges(scene, probe: Probe, wanted, picture, band, settle: Settler) -> Iterator[None]:
-    """See whether within the band around a pixel's centre there is what Blender shows."""
+def _edges(
+    scene, probe: Probe, wanted, picture, band, centre: Hits, settle: Settler
+) -> Iterator[None]:
+    """See whether within the band around a pixel's centre there is what Blender shows.
+
+    Where it is seen in the centre itself, it was the picture's method that lost it (the literal
+    test does): then only another triangle is an edge's.
+    """
     width, shown = band[wanted], picture[wanted]
+    lost = ~differing(shading.colors(scene, centre), shown)
     for x, y in OFFSETS:
         hits = probe.trace(x * width, y * width)
         same = ~differing(shading.colors(scene, hits), shown)
+        same &= ~lost | (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
         settle(_set_out(same, wanted), Cause.EDGE, band * max(abs(x), abs(y)), band)
         yield
         if not settle.open.any():
             return
-    # What no sample finds: a triangle that comes that near, before any that is surely covered.
+
+
+def _coverings(scene, probe: Probe, wanted, picture, band, centre: Hits, settle: Settler) -> None:
+    """Find what no sample does: a triangle that comes that near, before any surely covered one."""
+    width, shown = band[wanted], picture[wanted]
+    lost = ~differing(shading.colors(scene, centre), shown)
     may = coverage(probe, width)
-    visible = may.hits.t <= may.sure[may.pixel]
+    visible = (may.hits.t <= may.sure[may.pixel]) & ~lost[may.pixel]
     same = visible & ~differing(shading.colors(scene, may.hits), shown[may.pixel])
     nearest = np.full(len(width), np.inf)
     np.minimum.at(nearest, may.pixel[same], may.distance[same])
     nothing = np.isinf(may.sure) & ~differing(np.broadcast_to(scene.background, shown.shape), shown)
+    nothing &= ~lost
     nearest[nothing] = np.minimum(nearest, width)[nothing]
     settle(_set_out(nearest < np.inf, wanted), Cause.EDGE, _set_out(nearest, wanted), band)
 
 
-def _depth_ties(scene, probe: Probe, wanted, picture, frame: Frame, rows, settle) -> Iterator[None]:
+def _depth_ties(
+    scene, probe: Probe, wanted, picture, first: Hits, settle: Settler
+) -> Iterator[None]:
     """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart."""
-    first = Hits(
-        *(a[rows][wanted] for a in (frame.t, frame.instance_index, frame.triangle_index)),
-        np.zeros((3, int(wanted.sum()))),
-    )
-    view = np.full(len(first.t), np.inf)
     seen = first.instance != NOTHING
-    view[seen] = view_error(scene, frame.position[rows][wanted][seen], first.instance[seen])
+    view = np.full(len(first.t), np.inf)
+    view[seen] = view_error(scene, probe.points(first)[seen], first.instance[seen])
     allowed = np.where(seen, depth_resolution(scene.camera, np.where(seen, first.t, 0), view), -1.0)
     hits, shown = first, picture[wanted]
     for _ in range(LAYERS):

@@ -18,7 +18,6 @@ from ..tracer.camera import pixel_size, project
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import tiles
-from ..tracer.settings import Settings
 from ..tracer.visibility import NOTHING
 from .again import look_again
 from .bounds import SNAPPING, pixel_error, view_error
@@ -29,7 +28,6 @@ DECIDABLE = 0.5  # pixels: within a larger band, what lies there explains nothin
 
 def find_causes(
     scene: Scene,
-    settings: Settings,
     frame: Frame,
     picture: NDArray[np.float32],
     unmodelled: Sequence[Unmodelled] = (),
@@ -39,8 +37,8 @@ def find_causes(
 
     Parameters
     ----------
-    scene, settings, frame
-        What was traced, how, and what it gave.
+    scene, frame
+        What was traced, and what it gave.
     picture : (h, w, 4) float32
         Blender's.
     unmodelled : sequence of Unmodelled
@@ -66,7 +64,7 @@ def find_causes(
         # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
         part(band[rows] > DECIDABLE, Cause.NOT_DECIDABLE, band[rows], DECIDABLE)
         yield 0.1
-    yield from scaled(look_again(scene, settings, frame, picture, band, settle), 0.1, 0.9)
+    yield from scaled(look_again(scene, picture, band, settle), 0.1, 0.9)
     for number, feature in enumerate(unmodelled):
         if feature.bounds is not None and settle.open.any():
             inside = settle.open & covered(scene.camera, feature.bounds)

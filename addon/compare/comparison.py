@@ -118,7 +118,7 @@ def compare(
             f"{frame.color.shape[1]} x {frame.color.shape[0]}."
         )
     finding = find_causes(
-        scene, settings, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0)
+        scene, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0)
     )
     causes = yield from scaled(finding, 0.0, _CAUSES)
     measured = yield from scaled(measure(frame.color, picture), _CAUSES, 1 - _CAUSES)

@@ -17,7 +17,9 @@ from ..tracer.probe import Probe
 from ..tracer.triangle import METHODS
 from ..tracer.visibility import Hits, Pairs, test_pairs, test_planes, within_clip
 
-INWARD = 2.0**-20  # of the way to the triangle's middle, so that an aimed ray does not pass its rim
+# An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
+# rim; in a large triangle less, so that it stays within the band.
+INWARD = 2.0**-20
 
 # A triangle is only taken to have been missed near its edge where it is larger than this, in
 # widths of the band. Else every triangle of a fine mesh would be near its edge, and a fault could
@@ -57,8 +59,9 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
             certain = np.flatnonzero((rim > own) | (longest < LARGE * own) | np.isnan(rim))
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
         test_pairs(scene, settings, centres, _take(some, certain), sure)
-        middle = sum(corners)[:, near] / 3
-        x, y = nearest[:, near] + INWARD * (middle - nearest[:, near])
+        inward = sum(corners)[:, near] / 3 - nearest[:, near]
+        share = np.minimum(INWARD, own[near] / 64 / np.maximum(np.hypot(*inward), 1e-300))
+        x, y = nearest[:, near] + share * inward
         pixel = some.pixel[near]
         rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
         hit, t, s = METHODS[settings.method](rays, *some.corners[..., near])
@@ -66,7 +69,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
         found.append(
             (
                 pixel[hit],
-                np.maximum(np.abs(x), np.abs(y))[hit],
+                np.abs(nearest[:, near]).max(axis=0)[hit],
                 t[hit],
                 some.instance[near][hit],
                 some.triangle[near][hit],

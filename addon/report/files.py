@@ -14,6 +14,8 @@ from ..compare.comparison import SCHEMA, Comparison
 from ..images import to_display
 from .pictures import difference
 
+PICTURES = "traced", "blender", "difference"
+
 SavePng = Callable[[Path, NDArray[np.uint8]], None]
 
 
@@ -35,11 +37,8 @@ def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> N
     """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    for name, color in (
-        ("traced", comparison.frame.color),
-        ("blender", comparison.picture),
-        ("difference", difference(comparison)),
-    ):
+    colors = comparison.frame.color, comparison.picture, difference(comparison)
+    for name, color in zip(PICTURES, colors, strict=True):
         save_png(directory / f"{name}.png", to_display(color))
     causes = comparison.causes
     np.savez_compressed(
@@ -54,9 +53,14 @@ def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> N
 
 
 def write_failure(directory: str | Path, error: BaseException) -> None:
-    """Write a `comparison.json` that says why there is no comparison."""
+    """Write a `comparison.json` that says why there is no comparison.
+
+    What an earlier run left goes: it would pass for this one's.
+    """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
+    for name in (*(f"{picture}.png" for picture in PICTURES), "frame.npz"):
+        (directory / name).unlink(missing_ok=True)
     _write_json(
         directory,
         {

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..scene import Region
 from .camera import camera_rays
 from .progress import Work
+from .shading import positions
 from .visibility import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
 
 
@@ -39,6 +40,10 @@ class Probe:
             yield share
         px, py = film_positions(tile, 0.0, 0.0)
         return cls(plan, px[wanted], py[wanted], chunks)
+
+    def points(self, hits: Hits) -> NDArray[np.float64]:
+        """Return where the rays through the n centres end, (n, 3) world space."""
+        return positions(camera_rays(self.plan.scene.camera, self.px, self.py), hits)
 
     def trace(
         self,
