@@ -41,6 +41,10 @@ class Unmodelled:
     detail: str = ""
     bounds: NDArray[np.float64] | None = None
 
+    def __post_init__(self) -> None:
+        if self.bounds is not None and not np.isfinite(self.bounds).all():
+            object.__setattr__(self, "bounds", None)  # a box without an end explains nothing
+
 
 @dataclass(frozen=True)
 class Manifest:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -82,6 +83,14 @@ def test_json_holds_everything(manifest):
         "bounds": None,
     }
     assert again["notes"] == ["the sequencer is not part of it"]
+
+
+def test_json_is_strict_whatever_the_bounds(manifest):
+    """An object with a matrix that is not finite must not cost the whole report."""
+    for value in (np.nan, np.inf):
+        hair = Unmodelled("Hair", "hair", bounds=np.full((2, 3), value))
+        held = replace(manifest, unmodelled=(hair,)).to_dict()
+        assert "Hair" in json.dumps(held, allow_nan=False)
 
 
 def test_an_empty_scene_has_a_manifest():

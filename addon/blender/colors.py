@@ -19,7 +19,9 @@ WITHOUT_ATTRIBUTE = "MATERIAL" if bpy.app.version >= (5, 0, 0) else "OBJECT"
 _SATURATION, _VALUE = 0.5, 0.8  # of Blender's random colours
 
 
-def instance_colors(obj: Any, color_type: str, single: Any) -> NDArray[np.float32]:
+def instance_colors(
+    obj: Any, color_type: str, single: Any, materials: list[Any] | None = None
+) -> NDArray[np.float32]:
     """Return (k, 4) float32: the colour of each material slot, at least one.
 
     Parameters
@@ -32,6 +34,8 @@ def instance_colors(obj: Any, color_type: str, single: Any) -> NDArray[np.float3
         not modelled, and shows the material's colour.
     single : (3,) float
         The colour under 'SINGLE'.
+    materials : list of bpy.types.Material or None, optional
+        By slot; by default those of the object's mesh.
     """
     if color_type == "SINGLE":
         return np.array([(*single, 1.0)], np.float32)
@@ -41,7 +45,8 @@ def instance_colors(obj: Any, color_type: str, single: Any) -> NDArray[np.float3
         color_type = WITHOUT_ATTRIBUTE
     if color_type == "OBJECT":
         return np.array([obj.color], np.float32)
-    materials = slot_materials(obj)
+    if materials is None:
+        materials = slot_materials(obj)
     return np.array([m.diffuse_color if m else GREY for m in materials] or [GREY], np.float32)
 
 
@@ -65,7 +70,9 @@ def background(scene: Any) -> NDArray[np.float32]:
     shading = scene.display.shading
     if shading.background_type == "VIEWPORT":
         return np.array((*shading.background_color, 1.0), np.float32)
-    return np.array((*(scene.world.color if scene.world else (0, 0, 0)), 1.0), np.float32)
+    if scene.world is None:
+        return np.zeros(4, np.float32)
+    return np.array((*scene.world.color, 1.0), np.float32)
 
 
 def random_color(obj: Any) -> tuple[float, float, float, float]:

@@ -23,15 +23,16 @@ from ..scene import Scene
 from ..tracer.progress import Work, result_of
 from ..tracer.settings import Settings
 from . import images
+from .camera import export_camera
 from .engine import export_for_render
 from .export import export
 from .planes import stand_ins
+from .temporary import temporary_scene
 from .viewport import (
     SAMPLE_RADIUS,
     choose_source,
     picture,
     prepare,
-    temporary_scene,
     use_view_shading,
 )
 
@@ -80,7 +81,8 @@ def gather(
     like_for_like = stored.shading == "LIKE_FOR_LIKE" if as_is is None else not as_is
     source = choose_source(judge or stored.judge)
     view_shading = None if like_for_like or source != "viewport" else _solid_shading(context)
-    with temporary_scene(scene) as tmp:
+    export_camera(scene)  # first, as its errors name the user's scene and say what to do
+    with temporary_scene(scene, layer) as tmp:
         if view_shading:
             use_view_shading(tmp, view_shading)
         used = prepare(tmp, like_for_like)
@@ -88,10 +90,9 @@ def gather(
             with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
                 exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
         else:
-            exported, manifest = export_for_render(tmp, layer)
+            exported, manifest = export_for_render(tmp)
         with stand_ins(tmp, layer, exported) as exported:
             drawn = picture(tmp, layer, source, exported.camera, like_for_like)
-    manifest = _named_as(manifest, scene)
     blender = {
         "version": bpy.app.version_string,
         "source": source,
@@ -132,10 +133,10 @@ def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
     SceneError
         If the scene cannot be traced.
     """
-    scene = context.scene
-    with temporary_scene(scene) as tmp:
-        exported, manifest = export_for_render(tmp, context.view_layer.name)
-    return exported, _named_as(manifest, scene), scene.reference_tracer.settings()
+    export_camera(context.scene)
+    with temporary_scene(context.scene, context.view_layer.name) as tmp:
+        exported, manifest = export_for_render(tmp)
+    return exported, manifest, context.scene.reference_tracer.settings()
 
 
 def _solid_shading(context: Any) -> Any:
@@ -145,16 +146,3 @@ def _solid_shading(context: Any) -> Any:
             if area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
                 return area.spaces.active.shading
     return None
-
-
-def _named_as(manifest: Manifest, scene: Any) -> Manifest:
-    """Name the user's scene where the manifest has the temporary copy."""
-    values = vars(manifest) | {"scene": scene.name}
-    copy = f"scene '{manifest.scene}'"
-    values["unmodelled"] = tuple(
-        type(u)(
-            f"scene '{scene.name}'" if u.object == copy else u.object, u.feature, u.detail, u.bounds
-        )
-        for u in manifest.unmodelled
-    )
-    return Manifest(**values)

@@ -119,15 +119,13 @@ def _set_status(text: str | None) -> None:
         window.workspace.status_text_set(text)
 
 
-def export_for_render(scene: Any, layer: str) -> tuple[Scene, Manifest]:
+def export_for_render(scene: Any) -> tuple[Scene, Manifest]:
     """Return the *render* evaluation of a Blender scene, which exists only inside an engine.
 
     Parameters
     ----------
     scene : bpy.types.Scene
         A temporary one: its engine is set to this one.
-    layer : str
-        Name of the view layer.
 
     Raises
     ------
@@ -138,7 +136,7 @@ def export_for_render(scene: Any, layer: str) -> tuple[Scene, Manifest]:
     scene.render.engine = ENGINE
     _captured = []
     try:
-        bpy.ops.render.render(scene=scene.name, layer=layer)
+        bpy.ops.render.render(scene=scene.name)
         return _captured[0]
     except RuntimeError as error:  # Blender turns our report into one
         raise SceneError(str(error).removeprefix("Error: ").strip()) from error

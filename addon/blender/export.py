@@ -17,8 +17,9 @@ from ..manifest import Manifest, ObjectEntry, Unmodelled
 from ..scene import Instance, Mesh, Plane, Scene
 from ..scene_files import diagnose
 from .camera import export_camera
-from .colors import background, instance_colors, random_color
+from .colors import background, instance_colors
 from .meshes import export_mesh
+from .temporary import user_scene
 from .unmodelled import of_object, of_scene
 
 _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
@@ -30,7 +31,7 @@ class _Seen:
 
     type: str
     index: int = -1  # in Scene.objects, once it shows something
-    mesh_keys: set = field(default_factory=set)
+    mesh_keys: dict[int, None] = field(default_factory=dict)  # in the order in which they came
     instances: int = 0
     left_out: int = 0
     planes: int = 0
@@ -57,22 +58,26 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
     camera = export_camera(scene)
     viewport = depsgraph.mode == "VIEWPORT"
     shading = scene.display.shading
-    meshes: dict[Any, tuple[int, Mesh, int]] = {}  # by address: its number, itself, left out
+    meshes: dict[int, tuple[Mesh, int]] = {}  # by address; with the triangles left out
+    numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
     seen: dict[str, _Seen] = {}
     instances: list[Instance] = []
     planes: list[Plane] = []
     for item in depsgraph.object_instances:
         obj = item.object
-        name = obj.original.name
+        name = obj.original.name_full
         entry = seen.setdefault(name, _Seen(obj.original.type))
         matrix = np.array(item.matrix_world, dtype=np.float64)
         if not item.show_self:
             continue
+        finite = np.isfinite(matrix).all()
         if obj.original.reference_tracer.infinite_plane:
-            if np.isfinite(matrix).all() and matrix[:3, 2].any() and not entry.planes:
+            if finite and matrix[:3, :2].any(axis=0).all():
                 _number(entry, seen)
                 planes.append(_plane(obj, matrix, entry.index, shading))
                 entry.planes += 1
+            else:
+                entry.left_out += 1
             continue
         for u in of_object(obj, item.matrix_world, shading, viewport):
             _widen(entry.features, u)
@@ -80,27 +85,24 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
             continue
         key = obj.data.as_pointer()
         if key not in meshes:
-            mesh, left_out = export_mesh(obj.data, name, shading.color_type == "VERTEX")
-            meshes[key] = len(meshes), mesh, left_out
-        number, mesh, left_out = meshes[key]
-        if not np.isfinite(matrix).all():
-            entry.left_out += len(mesh.triangles) + left_out
-            continue
-        entry.left_out += left_out
-        if not len(mesh.triangles):
+            meshes[key] = export_mesh(obj.data, name, shading.color_type == "VERTEX")
+        mesh, left_out = meshes[key]
+        entry.left_out += left_out if finite else len(mesh.triangles) + left_out
+        if not finite or not len(mesh.triangles):
             continue
         _number(entry, seen)
-        entry.mesh_keys.add(key)
+        entry.mesh_keys.setdefault(key)
         entry.instances += 1
         if shading.color_type == "MATERIAL":
             entry.empty_slots = max(entry.empty_slots, sum(m is None for m in obj.data.materials))
         colors = instance_colors(obj, shading.color_type, shading.single_color)
+        number = numbers.setdefault(key, len(numbers))
         instances.append(Instance(number, entry.index, matrix, colors))
     instances.sort(key=lambda i: i.object)
     objects = sorted((e.index, n) for n, e in seen.items() if e.index >= 0)
     out = Scene(
         camera=camera,
-        meshes=tuple(m for _, m, _ in meshes.values()),
+        meshes=tuple(meshes[key][0] for key in numbers),
         instances=tuple(instances),
         planes=tuple(planes),
         background=background(scene),
@@ -120,17 +122,8 @@ def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
     The plane holds the object's X and Y axes, so under shear its normal is their cross product.
     """
     normal = np.cross(matrix[:3, 0], matrix[:3, 1])
-    if not normal.any():
-        normal = matrix[:3, 2]
-    if shading.color_type == "RANDOM":
-        color = random_color(obj.original)
-    elif shading.color_type == "SINGLE":
-        color = (*shading.single_color, 1.0)
-    elif shading.color_type in ("OBJECT", "VERTEX") or not obj.active_material:
-        color = obj.color if shading.color_type in ("OBJECT", "VERTEX") else (0.8, 0.8, 0.8, 1.0)
-    else:
-        color = obj.active_material.diffuse_color
-    return Plane(index, matrix[:3, 3], normal, np.array(color, np.float32))
+    colors = instance_colors(obj, shading.color_type, shading.single_color, [obj.active_material])
+    return Plane(index, matrix[:3, 3], normal, colors[0])
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
@@ -144,14 +137,15 @@ def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
 
 
 def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest:
-    scene, layer = depsgraph.scene, depsgraph.view_layer
-    diagnoses: dict[Any, dict] = {}
+    scene, layer = user_scene(depsgraph.scene), depsgraph.view_layer
+    diagnoses: dict[int, dict] = {}
     entries = []
     for name, e in seen.items():
         own = [meshes[k] for k in e.mesh_keys]
         if diagnosis:
-            for key, (_, mesh, _) in zip(e.mesh_keys, own, strict=True):
-                diagnoses.setdefault(key, diagnose(mesh))
+            for key, (mesh, _) in zip(e.mesh_keys, own, strict=True):
+                if key not in diagnoses:
+                    diagnoses[key] = diagnose(mesh)
         first = next(iter(e.mesh_keys), None)
         shown = e.index >= 0
         entries.append(
@@ -160,8 +154,8 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
                 type="INFINITE_PLANE" if e.planes else e.type,
                 exported=shown,
                 reason="" if shown else _no_triangles(e),
-                triangles=sum(len(m.triangles) for _, m, _ in own),
-                vertices=sum(len(m.vertices) for _, m, _ in own),
+                triangles=sum(len(m.triangles) for m, _ in own),
+                vertices=sum(len(m.vertices) for m, _ in own),
                 instances=e.instances + e.planes,
                 left_out=e.left_out,
                 empty_slots=e.empty_slots,
@@ -169,9 +163,9 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
             )
         )
     for obj in scene.objects:
-        if obj.name not in seen:
+        if obj.name_full not in seen:
             entries.append(
-                ObjectEntry(obj.name, obj.type, False, _hidden(obj, layer, depsgraph.mode))
+                ObjectEntry(obj.name_full, obj.type, False, _hidden(obj, layer, depsgraph.mode))
             )
     features = [u for e in seen.values() for u in e.features.values()]
     return Manifest(
@@ -182,7 +176,7 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
         evaluation=depsgraph.mode,
         camera=camera,
         objects=tuple(entries),
-        unmodelled=(*features, *of_scene(depsgraph.scene_eval)),
+        unmodelled=(*features, *of_scene(scene)),
     )
 
 

@@ -84,6 +84,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
     scene : Scene
         What was exported from it.
     """
+    sources = {o.name_full: o for o in tmp.objects}
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     collections: list[Any] = []
     objects: list[Any] = []
@@ -92,7 +93,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
         if marked:
             _without(tmp.collection, tmp.view_layers[layer].layer_collection, marked, collections)
         for plane in scene.planes:
-            source = tmp.objects.get(scene.objects[plane.object])
+            source = sources.get(scene.objects[plane.object])
             corners = polygon(scene.camera, plane)
             if len(corners):
                 objects.append(_stand_in(tmp, corners, source, plane.color))

@@ -1,8 +1,7 @@
 """Blender's own picture of a scene, as an array: the viewport's, Workbench's or Cycles'.
 
-Everything is set on a temporary copy of the user's scene and goes with it; the user's scene,
-Render Result and view stay as they are. What cannot live on a copy, the preference for the
-viewport's anti-aliasing and the mark that preferences were changed, is put back.
+Everything is set on a temporary copy of the user's scene. What cannot live on a copy, the
+preference for the viewport's anti-aliasing and the mark that preferences were changed, is put back.
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compare.comparison import SizeError
 from ..scene import Camera
 from . import cycles
 
@@ -31,42 +31,17 @@ def choose_source(judge: str) -> str:
     return judge.lower()
 
 
-@contextmanager
-def temporary_scene(scene: Any) -> Iterator[Any]:
-    """Give a copy of a scene (its objects are the user's own), and remove it in any case.
-
-    So goes the 'Render Result' that a render of the copy makes, if there was none before.
-    """
-    images = set(bpy.data.images)
-    copy = scene.copy()
-    try:
-        yield copy
-    finally:
-        # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
-        bpy.data.batch_remove([copy])
-        for image in set(bpy.data.images) - images:
-            if image.type == "RENDER_RESULT":
-                bpy.data.images.remove(image)
-
-
 def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
     """Set a temporary scene up for a picture that can be compared; return what was set.
 
     Like for like is flat light, no effect and no anti-aliasing, on a transparent film, raw; the
-    source of the colours stays the user's. In either way only the view layer's own picture is made:
-    no sequencer, compositor or multiview, one 32-bit EXR.
+    source of the colours stays the user's. In either way the picture is one 32-bit EXR.
     """
     render, display, view = scene.render, scene.display, scene.view_settings
     values = [
         (
             render,
             {
-                "use_sequencer": False,
-                "use_compositing": False,
-                "use_multiview": False,
-                "use_freestyle": False,
-                "use_motion_blur": False,
-                "use_stamp": False,
                 "use_crop_to_border": True,
                 "use_file_extension": True,
                 "use_overwrite": True,
@@ -155,7 +130,9 @@ def picture(
     Raises
     ------
     RuntimeError
-        If Blender made no picture, or one of another size.
+        If Blender made no picture.
+    SizeError
+        If it made one of another size.
     """
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")
@@ -165,7 +142,7 @@ def picture(
             scene.render.engine = "BLENDER_WORKBENCH" if source == "workbench" else "CYCLES"
             colors = source == "cycles" and like_for_like
             with cycles.constant_colors(scene, layer) if colors else nullcontext():
-                bpy.ops.render.render(scene=scene.name, layer=layer, write_still=True)
+                bpy.ops.render.render(scene=scene.name, write_still=True)
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({source}).")
@@ -174,7 +151,7 @@ def picture(
     if source == "viewport" and pixels.shape[:2] == (camera.height, camera.width):
         pixels = pixels[r.y0 : r.y1, r.x0 : r.x1]
     if pixels.shape[:2] != (r.height, r.width):
-        raise RuntimeError(
+        raise SizeError(
             f"Blender's picture has {pixels.shape[1]} x {pixels.shape[0]} pixels, the camera's "
             f"region {r.width} x {r.height}."
         )

@@ -88,15 +88,15 @@ def _edges(
 ) -> Iterator[None]:
     """See whether within the band around a pixel's centre there is what Blender shows.
 
-    Where it is seen in the centre itself, it was the picture's method that lost it (the literal
-    test does): then only another triangle is an edge's.
+    Where it is seen in the centre itself, the picture's method lost it: on an edge within the band,
+    where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
     """
     width, shown = band[wanted], picture[wanted]
     lost = ~differing(shading.colors(scene, centre), shown)
     for x, y in OFFSETS:
         hits = probe.trace(x * width, y * width)
-        same = ~differing(shading.colors(scene, hits), shown)
-        same &= ~lost | (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
+        other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
+        same = np.where(lost, other, ~differing(shading.colors(scene, hits), shown))
         settle(_set_out(same, wanted), Cause.EDGE, band * max(abs(x), abs(y)), band)
         yield
         if not settle.open.any():

@@ -1,7 +1,7 @@
 """The exported camera against Blender's own projection, over the whole matrix of settings.
 
-The judge is `Object.calc_matrix_camera`: random points of the view volume are put on the film by the
-tracer's camera and by Blender's matrices.
+The judge is `Object.calc_matrix_camera`: random points of the view volume are put on the film by
+the tracer's camera and by Blender's matrices.
 """
 
 from __future__ import annotations
@@ -64,7 +64,8 @@ def settings_matrix(build):
         data.type, data.sensor_fit, data.lens, data.ortho_scale = kind, fit, 41.0, 5.3
         data.sensor_width, data.sensor_height = 36, 22
         for size, percent, shift, aspect, border in product(
-                SIZES.values(), (100, 37), SHIFTS, ASPECTS, BORDERS):
+            SIZES.values(), (100, 37), SHIFTS, ASPECTS, BORDERS
+        ):
             render.resolution_x, render.resolution_y = size
             render.resolution_percentage = percent
             data.shift_x, data.shift_y = shift
@@ -86,16 +87,26 @@ def points(camera, rng) -> np.ndarray:
     depth = rng.uniform(camera.clip_start, 20, 64)
     if not camera.orthographic:
         x, y = x * depth, y * depth
-    return (camera.origin[:, None] + camera.right[:, None] * x + camera.up[:, None] * y
-            + camera.forward[:, None] * depth)
+    return (
+        camera.origin[:, None]
+        + camera.right[:, None] * x
+        + camera.up[:, None] * y
+        + camera.forward[:, None] * depth
+    )
 
 
 def film_of_blender(obj, width: int, height: int, world: np.ndarray) -> np.ndarray:
     """Return where Blender's own matrices put world points on the film, (2, n) pixels."""
     render = bpy.context.scene.render
-    clip_from_camera = np.array(obj.calc_matrix_camera(
-        bpy.context.evaluated_depsgraph_get(), x=width, y=height,
-        scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y))
+    clip_from_camera = np.array(
+        obj.calc_matrix_camera(
+            bpy.context.evaluated_depsgraph_get(),
+            x=width,
+            y=height,
+            scale_x=render.pixel_aspect_x,
+            scale_y=render.pixel_aspect_y,
+        )
+    )
     camera_from_world = np.linalg.inv(np.array(obj.matrix_world.normalized(), float))
     clip = clip_from_camera @ camera_from_world @ np.vstack((world, np.ones(world.shape[1])))
     return (clip[:2] / clip[3] + 1) / 2 * np.array([[width], [height]])
@@ -112,8 +123,9 @@ def test_projects_as_blender_does(kind, fit, place, settings_matrix):
         world = points(exported, rng)
         expected = film_of_blender(obj, exported.width, exported.height, world)
         found = np.array(film_of(exported, world)[:2])
-        allowed = ROUNDING * max(exported.width, exported.height) * (
-            1 + np.linalg.norm(exported.origin))
+        allowed = (
+            ROUNDING * max(exported.width, exported.height) * (1 + np.linalg.norm(exported.origin))
+        )
         np.testing.assert_allclose(found, expected, rtol=0, atol=allowed)
         tried += 1
     assert tried == len(SIZES) * 2 * len(SHIFTS) * len(ASPECTS) * len(BORDERS)
@@ -158,5 +170,6 @@ def test_a_lens_at_its_ends_still_projects_as_blender_does(build):
         exported = export_camera(scene)
         world = points(exported, np.random.default_rng(4))
         expected = film_of_blender(camera, 96, 54, world)
-        np.testing.assert_allclose(np.array(film_of(exported, world)[:2]), expected,
-                                   rtol=0, atol=96 * ROUNDING)
+        np.testing.assert_allclose(
+            np.array(film_of(exported, world)[:2]), expected, rtol=0, atol=96 * ROUNDING
+        )

@@ -1,4 +1,4 @@
-"""Blender as the judge: sample scenes and camera settings against Workbench, 0 unexplained pixels."""
+"""Blender as the judge: sample scenes and camera settings against Workbench, 0 unexplained."""
 
 from __future__ import annotations
 
@@ -8,10 +8,13 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.compare.causes import TOLERANCE
 from reference_tracer.images import to_display
 
-NAMES = sorted(path.stem for path in (Path(__file__).resolve().parents[2] / "sample_scenes").glob("*.blend"))
+from .scenes import HALF_FLOAT
+
+NAMES = sorted(
+    path.stem for path in (Path(__file__).resolve().parents[2] / "sample_scenes").glob("*.blend")
+)
 FILES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "traced.png"]
 WIDTH = 240  # pixels: every scene is made smaller, to keep the tests quick
 # Share of pixels that may differ at all: edges of one or two pixels, by the scenes' own look.
@@ -35,7 +38,8 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
     assert pixels["unexplained"] == 0
     assert pixels["by_cause"]["unexplained"] == 0
     assert pixels["explained"] == sum(
-        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "not_modelled"))
+        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "not_modelled")
+    )
     assert pixels["differ"] == pixels["explained"] + pixels["unexplained"]
     assert pixels["not_traced"] == 0
     assert pixels["total"] == pixels["agree"] + pixels["differ"] + pixels["not_decidable"]
@@ -73,9 +77,15 @@ def test_blenders_picture_is_its_own(opened, compare, workbench):
     picture = compare().picture
     scene = bpy.context.scene
     scene.render.film_transparent = True
-    drawn = workbench(light="FLAT", show_shadows=False, show_cavity=False, show_object_outline=False,
-                      show_specular_highlight=False, render_aa="OFF")
-    np.testing.assert_allclose(picture, drawn, rtol=0, atol=TOLERANCE)
+    drawn = workbench(
+        light="FLAT",
+        show_shadows=False,
+        show_cavity=False,
+        show_object_outline=False,
+        show_specular_highlight=False,
+        render_aa="OFF",
+    )
+    np.testing.assert_allclose(picture, drawn, rtol=0, atol=HALF_FLOAT)
 
 
 def shifted(build):
@@ -150,10 +160,27 @@ def percentage(build):
     build.corner_camera(lens=40)
 
 
-@pytest.mark.parametrize("setting", [
-    shifted, portrait, vertical_fit, pixel_aspect, tall_pixels, orthographic, border_with_crop,
-    border_without_crop, mirrored, scaled, parented, sheared, clipped, through_the_eye, percentage,
-], ids=lambda setting: setting.__name__)
+@pytest.mark.parametrize(
+    "setting",
+    [
+        shifted,
+        portrait,
+        vertical_fit,
+        pixel_aspect,
+        tall_pixels,
+        orthographic,
+        border_with_crop,
+        border_without_crop,
+        mirrored,
+        scaled,
+        parented,
+        sheared,
+        clipped,
+        through_the_eye,
+        percentage,
+    ],
+    ids=lambda setting: setting.__name__,
+)
 def test_camera_setting_has_no_unexplained_pixel(setting, build, compare):
     build.scene(160, 90)
     build.solids()

@@ -53,7 +53,9 @@ def test_modifiers_have_the_level_of_the_mode(build, export):
     modifier.subdivision_type, modifier.levels, modifier.render_levels = "SIMPLE", 1, 2
     found = {mode: run() for mode, run in export.modes.items()}
     assert {m: scene.triangle_count for m, (scene, _) in found.items()} == {
-        "VIEWPORT": 12 * 4, "RENDER": 12 * 16}
+        "VIEWPORT": 12 * 4,
+        "RENDER": 12 * 16,
+    }
     assert {m: manifest.evaluation for m, (_, manifest) in found.items()} == {m: m for m in MODES}
 
 
@@ -125,24 +127,37 @@ def test_curves_have_the_resolution_of_the_mode(build, export):
 @pytest.mark.parametrize("name", ["negative", "sheared", "zero", "rotated"])
 def test_world_vertices_are_blenders_in_float64(name, mode, build, export):
     build.camera()
-    cube = build.cube(location=(1.1, -2.2, 3.3), rotation=(0.3, 0.7, 1.9), scale={
-        "negative": (-1, 2, 0.5), "sheared": (1, 3, 1), "zero": (1, 1, 0), "rotated": (1, 1, 1)}[name])
+    cube = build.cube(
+        location=(1.1, -2.2, 3.3),
+        rotation=(0.3, 0.7, 1.9),
+        scale={
+            "negative": (-1, 2, 0.5),
+            "sheared": (1, 3, 1),
+            "zero": (1, 1, 0),
+            "rotated": (1, 1, 1),
+        }[name],
+    )
     if name == "sheared":
         cube.parent = build.empty("Parent", rotation=(0.2, 0.9, 0.4), scale=(0.3, 2, 1))
     bpy.context.view_layer.update()
     scene, _ = export.modes[mode]()
     # A few roundings of float64 on numbers of some metres.
-    np.testing.assert_allclose(exported_corners(scene, "Cube"), world_corners(cube), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(
+        exported_corners(scene, "Cube"), world_corners(cube), rtol=0, atol=1e-14
+    )
     assert scene.meshes[0].vertices.dtype == np.float32
     assert np.linalg.det(scene.instances[0].world_from_object[:3, :3]) == pytest.approx(
-        np.linalg.det(np.array(cube.matrix_world, float)[:3, :3]), abs=1e-12)
+        np.linalg.det(np.array(cube.matrix_world, float)[:3, :3]), abs=1e-12
+    )
 
 
 @pytest.mark.parametrize("mode", MODES)
 def test_n_gons_are_blenders_own_loop_triangles(mode, build, export):
     build.camera()
     angles = np.arange(10) * math.tau / 10
-    star = [(r * math.cos(a), r * math.sin(a), 0) for a, r in zip(angles, [2, 0.7] * 5, strict=True)]
+    star = [
+        (r * math.cos(a), r * math.sin(a), 0) for a, r in zip(angles, [2, 0.7] * 5, strict=True)
+    ]
     obj = build.mesh("Star", star, [range(10)])
     scene, _ = export.modes[mode]()
     np.testing.assert_array_equal(exported_corners(scene, "Star"), world_corners(obj))
@@ -170,8 +185,11 @@ def test_slots_empty_past_the_end_and_linked_to_the_object(mode, build, export, 
     assert colors == {"Cube": [[1, 0, 0, 1], grey], "Square": [[0, 0, 1, 1]], "Bare": [grey]}
     assert sorted(scene.meshes[0].slots) == [0] * 6 + [1] * 2 + [2] * 2 + [5] * 2
     found = entries(manifest)
-    assert (found["Cube"].empty_slots, found[square.name].empty_slots, found[bare.name].empty_slots) == (
-        1, 0, 0)
+    assert (
+        found["Cube"].empty_slots,
+        found[square.name].empty_slots,
+        found[bare.name].empty_slots,
+    ) == (1, 0, 0)
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -221,5 +239,9 @@ def test_the_manifest_counts_and_diagnoses(mode, build, export, entries):
     found = entries(export.modes[mode](*([True] if mode == "VIEWPORT" else []))[1])
     assert (found["Cube"].triangles, found["Cube"].vertices, found["Cube"].instances) == (12, 8, 1)
     assert found["Cube"].diagnosis == {
-        "closed": True, "consistent_winding": True, "degenerate_faces": 0, "duplicate_faces": 0}
+        "closed": True,
+        "consistent_winding": True,
+        "degenerate_faces": 0,
+        "duplicate_faces": 0,
+    }
     assert found["Square"].diagnosis["closed"] is False

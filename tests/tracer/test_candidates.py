@@ -27,7 +27,8 @@ def hostile_camera(make, rng):
         axes @ (np.eye(3) + rng.uniform(-0.5, 0.5, (3, 3)) * (1 - np.eye(3))),
         axes @ np.array([[1, 0.97, 0], [0, 0.25, 0], [0, 0, 1]]),
         np.diag(rng.choice([-1.0, 1.0], 3)),
-    )[rng.integers(4)]
+        axes @ np.array([[1, 1, 0], [0, 10.0 ** rng.uniform(-9, -2), 0], [0, 0, 1]]),
+    )[rng.integers(5)]
     eye = scale * rng.normal(size=3) * 10.0 ** rng.choice([-3, 0, 2, 5])
     width, height = (int(n) for n in rng.integers(4, 21, 2))
     half = (scale if orthographic else 1) * 10.0 ** rng.uniform(-3, 1.5)
@@ -143,7 +144,7 @@ def test_no_hit_is_culled(part, make):
     assert not lost
     hits, proposed, possible = counts
     assert hits > 50_000
-    assert proposed < 0.4 * possible  # a box that holds everything would be conservative, too
+    assert proposed < 0.5 * possible  # a box that holds everything would be conservative, too
 
 
 def test_boxes_of_ordinary_triangles_are_tight(make):

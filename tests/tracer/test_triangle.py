@@ -81,6 +81,23 @@ def test_literal_is_the_textbook_where_the_sum_is_1(chosen, dtype, near):
     assert (sums[hit] <= 1.01 * SUM_TOLERANCE[np.dtype(dtype)]).all()
 
 
+@pytest.mark.parametrize("dtype, thin", [(np.float64, 1e-8), (np.float32, 1e-3)])
+def test_the_sum_rejects_what_rounding_has_spoilt(rng, dtype, thin):
+    """In needles the three weights are so far off that their sum says it."""
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    corners = (turn @ np.array([[0.0, 0, 0], [1, 0, 0], [0.4, thin, 0]]).T).T[:, :, None]
+    s = rng.dirichlet((1, 1, 1), 4000).T
+    direction = turn @ np.array([[0.1], [0.2], [-1.0]])
+    rays, near = cast(
+        Rays((s[:, None] * corners).sum(axis=0) - direction, direction), corners, dtype
+    )
+    hit, _, found = textbook(rays, *near)
+    inside = ((found >= 0) & (found <= 1)).all(axis=0)
+    sums = np.abs(found[0] + found[1] + found[2] - 1)
+    assert np.array_equal(hit, inside & (sums <= SUM_TOLERANCE[np.dtype(dtype)]))
+    assert (inside & ~hit).sum() > 100
+
+
 def closed(dtype, rng, count=1500):
     """Return hits (rays, triangles) of rays from inside a sphere, for a method."""
     shape = trimesh.creation.icosphere(2)

@@ -1,0 +1,59 @@
+"""A copy of the user's scene, on which everything that a picture needs is set.
+
+Its objects are the user's own; its settings, view layers and top collection are its own, and go
+with it. The user's scene, view and Render Result stay as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+_copies: dict[str, str] = {}  # name of a temporary scene: name of the user's
+
+
+@contextmanager
+def temporary_scene(scene: Any, layer: str | None = None) -> Iterator[Any]:
+    """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
+
+    Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in it. The 'Render
+    Result' that a render of it makes goes, too, if there was none before.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    layer : str, optional
+        Name of the view layer; the scene's first by default.
+    """
+    images = set(bpy.data.images)
+    copy = scene.copy()
+    _copies[copy.name_full] = scene.name_full
+    try:
+        _isolate(copy, layer or scene.view_layers[0].name)
+        yield copy
+    finally:
+        del _copies[copy.name_full]
+        # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
+        bpy.data.batch_remove([copy])
+        for image in set(bpy.data.images) - images:
+            if image.type == "RENDER_RESULT":
+                bpy.data.images.remove(image)
+
+
+def user_scene(scene: Any) -> Any:
+    """Return the scene of the user's that a temporary one is a copy of; another is the user's."""
+    name = _copies.get(scene.name_full)
+    return scene if name is None else next(s for s in bpy.data.scenes if s.name_full == name)
+
+
+def _isolate(scene: Any, layer: str) -> None:
+    render = scene.render
+    render.use_sequencer = render.use_compositing = render.use_multiview = False
+    render.use_stamp = render.use_freestyle = render.use_motion_blur = False
+    # Rendering another layer than the first by its name crashes Blender (5.2).
+    for other in [v for v in scene.view_layers if v.name != layer]:
+        scene.view_layers.remove(other)
+    scene.view_layers[layer].use = True

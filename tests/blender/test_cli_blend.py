@@ -1,0 +1,141 @@
+"""`reftrace` with a .blend, as a user's shell runs it: one process each."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.scene_files import load_scene
+from reference_tracer.tracer.render import render
+
+SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
+
+
+def reftrace(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [sys.executable, "-m", "reference_tracer.cli", *map(os.fspath, argv)],
+        capture_output=True,
+        text=True,
+        timeout=300,
+        cwd=cwd,
+    )
+
+
+@pytest.fixture
+def small(build, tmp_path):
+    """A file with a small scene, whose name no shell likes."""
+    build.scene(64, 36)
+    build.solids()
+    build.corner_camera(lens=40)
+    path = tmp_path / "a scene, with 'spaces' & ümläuts.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    return path
+
+
+def test_compare(small, tmp_path):
+    done = reftrace("compare", small, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    assert "verdict: agree" in done.stdout
+    found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
+    assert found["scene"]["file"] == small.name
+    assert found["pixels"]["unexplained"] == 0
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [
+        "blender.png",
+        "comparison.json",
+        "difference.png",
+        "frame.npz",
+        "traced.png",
+    ]
+
+
+def test_compare_warns_by_its_exit_code(tmp_path):
+    done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", cwd=tmp_path)
+    assert done.returncode == 1, done.stderr
+    assert "not decidable" in done.stdout
+    assert (tmp_path / "out" / "comparison.json").is_file()  # beside where the shell is
+
+
+def test_export_and_trace_give_the_same_picture(small, tmp_path):
+    """From the .blend and from the .npz, bit for bit."""
+    exported, first, second = (tmp_path / n for n in ("scene.npz", "blend.exr", "npz.exr"))
+    done = reftrace("export", small, "--out", exported)
+    assert done.returncode == 0, done.stderr
+    assert "4 of 5 objects exported" in done.stdout
+    assert reftrace("trace", small, "--out", first).returncode == 0
+    assert reftrace("trace", exported, "--out", second).returncode == 0
+    assert first.read_bytes() == second.read_bytes()
+    scene = load_scene(exported)
+    assert (scene.camera.width, scene.camera.height) == (64, 36)
+    assert set(scene.objects) == {"Floor", "Red", "Green", "Blue"}
+    assert render(scene).color.any()
+
+
+def test_an_exported_scene_is_the_open_one(small, tmp_path, export):
+    assert reftrace("export", small, "--out", tmp_path / "scene.npz").returncode == 0
+    found, expected = load_scene(tmp_path / "scene.npz"), export.render()[0]
+    first, second = render(found), render(expected)
+    for name, values in first.passes().items():
+        np.testing.assert_array_equal(values, getattr(second, name), err_msg=name)
+
+
+def test_trace_uses_what_the_scene_stores(small, tmp_path):
+    bpy.context.scene.reference_tracer.method = "moller_trumbore"
+    bpy.ops.wm.save_mainfile()
+    done = reftrace("trace", small, "--out", tmp_path / "deeper" / "picture.png")
+    assert done.returncode == 0, done.stderr
+    assert "moller_trumbore" in done.stdout
+    assert (tmp_path / "deeper" / "picture.png").is_file()
+    done = reftrace("trace", small, "--out", tmp_path / "picture.png", "--method", "textbook")
+    assert "textbook" in done.stdout
+
+
+def test_trade(small):
+    done = reftrace("trade", small, "--width", "32")
+    assert done.returncode == 0, done.stderr
+    for word in ("textbook_literal", "textbook", "moller_trumbore", "float32", "float64"):
+        assert word in done.stdout
+
+
+def test_exports_a_scene_with_a_compositor(build, tmp_path):
+    build.scene(32, 18)
+    build.cube()
+    build.camera()
+    build.compositor()
+    path = tmp_path / "composed.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    done = reftrace("export", path, "--out", tmp_path / "scene.npz")
+    assert done.returncode == 0, done.stderr
+    assert load_scene(tmp_path / "scene.npz").triangle_count == 12
+
+
+@pytest.mark.parametrize("command", ["compare", "export", "trace"])
+def test_input_errors(command, build, tmp_path):
+    """Each in one line that names the file, without a traceback; one process for each."""
+    out = tmp_path / {"compare": "out", "export": "scene.npz", "trace": "picture.png"}[command]
+    broken = tmp_path / "broken.blend"
+    broken.write_bytes(b"BLENDER-v402 and then nothing that belongs there")
+    for source in (tmp_path / "missing.blend", broken):
+        done = reftrace(command, source, "--out", out)
+        assert done.returncode == 4
+        assert source.name in done.stderr
+        assert "Traceback" not in done.stderr
+        assert not out.exists() or command == "compare"
+
+
+@pytest.mark.parametrize("command", ["compare", "export", "trace"])
+def test_a_scene_that_cannot_be_traced(command, build, tmp_path):
+    build.scene(32, 18)
+    build.camera(type="PANO").name = "All Around"
+    path = tmp_path / "panorama.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    out = tmp_path / {"compare": "out", "export": "scene.npz", "trace": "picture.png"}[command]
+    done = reftrace(command, path, "--out", out)
+    assert done.returncode == 4
+    assert "Camera 'All Around' is of type pano" in done.stderr
+    assert "Traceback" not in done.stderr

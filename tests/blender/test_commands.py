@@ -1,0 +1,212 @@
+"""The command behind `blender FILE --command reference_tracer`: its exit codes and messages."""
+
+from __future__ import annotations
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import commands
+from reference_tracer.blender import compare as compare_module
+
+
+@pytest.fixture
+def saved(build, tmp_path):
+    """An open file with a small scene."""
+    scene = build.scene(64, 36)
+    build.solids()
+    build.corner_camera(lens=40)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    return scene
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out" / "deeper"
+
+
+def verdict(out) -> dict:
+    return json.loads((out / "comparison.json").read_text(encoding="utf-8"))
+
+
+def replaced_picture(monkeypatch, change):
+    real = compare_module.picture
+    monkeypatch.setattr(
+        compare_module, "picture", lambda *args, **options: change(real(*args, **options))
+    )
+
+
+def test_0_the_pictures_agree(saved, out, capsys):
+    assert commands.run(["compare", "--out", str(out)]) == 0
+    assert sorted(p.name for p in out.iterdir()) == [
+        "blender.png",
+        "comparison.json",
+        "difference.png",
+        "frame.npz",
+        "traced.png",
+    ]
+    printed = capsys.readouterr().out
+    assert "verdict: agree" in printed
+    assert "of 2,304 pixels agree with Blender's workbench picture" in printed
+    assert "4 of 5 objects exported" in printed
+    assert str(out) in printed
+    assert verdict(out)["verdict"] == "agree"
+    assert verdict(out)["scene"]["file"] == "scene.blend"
+
+
+def test_1_something_is_not_modelled(saved, out):
+    bpy.data.materials["Red"].diffuse_color[3] = 0.5
+    assert commands.run(["compare", "--out", str(out)]) == 1
+    found = verdict(out)
+    assert found["verdict"] == "warnings"
+    assert [u["feature"] for u in found["scene"]["unmodelled"]] == ["transparency"]
+    assert found["pixels"]["unexplained"] == 0 < found["pixels"]["by_cause"]["not_modelled"]
+
+
+def test_2_differences_that_no_cause_explains(saved, out, monkeypatch):
+    replaced_picture(monkeypatch, lambda picture: np.ascontiguousarray(picture[::-1]))
+    assert commands.run(["compare", "--out", str(out)]) == 2
+    assert verdict(out)["verdict"] == "differences"
+    assert verdict(out)["pixels"]["unexplained"] > 100
+
+
+def test_3_the_sizes_do_not_match(saved, out, monkeypatch, capsys):
+    replaced_picture(monkeypatch, lambda picture: picture[:-1])
+    assert commands.run(["compare", "--out", str(out)]) == 3
+    found = verdict(out)
+    assert found["verdict"] == "failed"
+    assert "64 x 35" in found["error"]["message"]
+    assert "64 x 35" in capsys.readouterr().err
+
+
+def test_3_also_where_blender_made_another_size(saved, out, monkeypatch, capsys):
+    """It is noticed where the picture is read."""
+    from reference_tracer.blender import viewport
+
+    real = viewport._read
+    monkeypatch.setattr(viewport, "_read", lambda path: real(path)[:, :-1])
+    assert commands.run(["compare", "--out", str(out)]) == 3
+    assert "63 x 36" in capsys.readouterr().err
+    assert verdict(out)["verdict"] == "failed"
+
+
+def test_4_no_camera(saved, out, capsys):
+    saved.camera = None
+    assert commands.run(["compare", "--out", str(out)]) == 4
+    assert "camera" in capsys.readouterr().err
+    found = verdict(out)
+    assert (found["verdict"], found["error"]["type"]) == ("failed", "SceneError")
+    assert "camera" in found["error"]["message"]
+
+
+def test_4_no_file_is_open(build, out, capsys):
+    build.camera()
+    assert not bpy.data.filepath
+    assert commands.run(["compare", "--out", str(out)]) == 4
+    assert "no file is open" in capsys.readouterr().err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize(
+    "argv",
+    [
+        [],
+        ["compare"],
+        ["nothing"],
+        ["compare", "--out"],
+        ["compare", "--out", "x", "--method", "magic"],
+        ["compare", "--out", "x", "--samples", "two"],
+        ["compare", "--out", "x", "--no-such-option"],
+        ["compare", "--out", "x", "--judge", "eevee"],
+        ["compare", "--out", "x", "more"],
+    ],
+    ids=str,
+)
+def test_4_an_option_that_is_wrong(argv, saved, capsys):
+    assert commands.run(argv) == 4
+    message = capsys.readouterr().err
+    assert "--help" in message
+
+
+@pytest.mark.parametrize("samples", ["0", "-1", "65"])
+def test_4_a_value_out_of_range(samples, saved, out, capsys):
+    assert commands.run(["compare", "--out", str(out), "--samples", samples]) == 4
+    assert f"samples is {samples}" in capsys.readouterr().err
+
+
+def test_4_a_folder_that_cannot_be_written(saved, tmp_path, capsys):
+    (tmp_path / "file").write_text("in the way")
+    assert commands.run(["compare", "--out", str(tmp_path / "file")]) == 4
+    assert "file" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, KeyError, MemoryError])
+def test_4_an_exception_of_its_own(kind, saved, out, monkeypatch, capsys):
+    def fail(*args, **options):
+        raise kind("on purpose")
+
+    monkeypatch.setattr(compare_module, "picture", fail)
+    assert commands.run(["compare", "--out", str(out)]) == 4
+    assert "on purpose" in capsys.readouterr().err
+    assert verdict(out)["error"]["type"] == kind.__name__
+
+
+@pytest.mark.parametrize("argv", [["--help"], ["-h"], ["compare", "--help"]], ids=str)
+def test_help(argv, saved, capsys):
+    assert commands.run(argv) == 0
+    text = capsys.readouterr().out
+    assert "exit codes:" in text
+    assert "blender FILE --command reference_tracer" in text
+
+
+@pytest.mark.parametrize(
+    ("options", "section", "key", "value"),
+    [
+        (["--method", "moller_trumbore"], "tracer", "method", "moller_trumbore"),
+        (["--precision", "float32"], "tracer", "precision", "float32"),
+        (["--samples", "2"], "tracer", "samples", 2),
+        (["--judge", "cycles"], "blender", "source", "cycles"),
+        (["--judge", "auto"], "blender", "source", "workbench"),
+    ],
+    ids=str,
+)
+def test_options_hold_before_what_the_scene_stores(options, section, key, value, saved, out):
+    saved.reference_tracer.method = "textbook_literal"
+    saved.reference_tracer.judge = "CYCLES" if "auto" in options else "WORKBENCH"
+    commands.run(["compare", "--out", str(out), *options])
+    assert verdict(out)[section][key] == value
+    assert saved.reference_tracer.method == "textbook_literal"
+
+
+def test_what_the_scene_stores_holds_without_options(saved, out):
+    saved.reference_tracer.method = "moller_trumbore"
+    saved.reference_tracer.precision = "float32"
+    saved.reference_tracer.shading = "AS_IS"
+    commands.run(["compare", "--out", str(out)])
+    found = verdict(out)
+    assert (found["tracer"]["method"], found["tracer"]["precision"]) == (
+        "moller_trumbore",
+        "float32",
+    )
+    assert found["blender"]["settings"]["like_for_like"] is False
+
+
+def test_a_folder_beside_the_file(saved, tmp_path):
+    assert commands.run(["compare", "--out", "//beside"]) == 0
+    assert (tmp_path / "beside" / "comparison.json").is_file()
+
+
+def test_the_operator_and_the_command_find_the_same(saved, out, tmp_path):
+    commands.run(["compare", "--out", str(out)])
+    bpy.ops.reference_tracer.compare(directory=str(tmp_path / "operator"))
+    first, second = verdict(out), verdict(tmp_path / "operator")
+    for found in (first, second):
+        del found["tracer"]["seconds"]
+    assert first == second
+
+
+def test_the_operator_fails_where_it_cannot_write(saved, tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(RuntimeError, match="file"):
+        bpy.ops.reference_tracer.compare(directory=str(tmp_path / "file"))

@@ -1,0 +1,169 @@
+"""Cycles as a second judge: its depth, normals and object indices, and its picture.
+
+Cycles samples each pixel within 0.005 px of its centre (the least filter width) and traces in
+float32. Pixels are compared where the 3 x 3 pixels around show one and the same triangle: there its
+sample cannot have met another.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.cycles import FILTER_WIDTH
+from reference_tracer.tracer.camera import pixel_size
+from reference_tracer.tracer.render import render
+
+SCENES = (
+    "exercise_perspective",
+    "exercise_orthographic",
+    "exercise_triangle",
+    "suzanne",
+    "shifted_room",
+)
+WIDTH = 128
+# Depth: where on the pixel the sample lies, half a filter's width across and up, times how fast
+# the depth changes there; besides float32's own error of a ray and a triangle, a few times 2^-24
+# of the farthest coordinate.
+ROUNDING = 32 * 2.0**-24
+# Normals: Cycles keeps them as float32, from float32 edges.
+NORMAL = 1e-4
+
+
+def cycles_passes(rendered) -> dict[str, np.ndarray]:
+    scene = bpy.context.scene
+    layer = bpy.context.view_layer
+    layer.use_pass_z = layer.use_pass_normal = layer.use_pass_object_index = True
+    scene.cycles.samples, scene.cycles.pixel_filter_type = 1, "BLACKMAN_HARRIS"
+    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 0.01
+    scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
+    return rendered("CYCLES")[layer.name]
+
+
+def interior(frame) -> np.ndarray:
+    """Return which pixels show, with the eight around them, one triangle of one instance."""
+    inside = frame.instance_index >= 0
+    for array in (frame.instance_index, frame.triangle_index):
+        padded = np.pad(array, 1, constant_values=-2)
+        height, width = array.shape
+        for y in range(3):
+            for x in range(3):
+                inside = inside & (padded[y : y + height, x : x + width] == array)
+    return inside
+
+
+def depth_slope(scene, frame) -> np.ndarray:
+    """Return how much the depth of each pixel's surface changes a pixel across and up, metres."""
+    camera = scene.camera
+    dx, dy = pixel_size(camera)
+    towards = frame.normal @ camera.forward
+    scale = 1.0 if camera.orthographic else frame.t
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if camera.orthographic:
+            return np.abs(frame.normal @ camera.right * dx) / np.abs(towards) + np.abs(
+                frame.normal @ camera.up * dy
+            ) / np.abs(towards)
+        rays = frame.position - camera.origin
+        along = np.abs((frame.normal * rays).sum(axis=-1)) / frame.t
+        return (
+            scale
+            * (np.abs(frame.normal @ camera.right) * dx + np.abs(frame.normal @ camera.up) * dy)
+            / along
+        )
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_depth_normal_and_object_index(name, opened, rendered, export):
+    opened(name, WIDTH)
+    scene = export.render()[0]
+    frame = render(scene)
+    for number, obj in enumerate(scene.objects):
+        bpy.data.objects[obj].pass_index = number + 1
+    passes = cycles_passes(rendered)
+    inside = interior(frame)
+    assert inside.sum() > 500
+    index = passes["Object Index" if "Object Index" in passes else "IndexOB"]
+    np.testing.assert_array_equal(index[inside][:, 0], frame.object_index[inside] + 1)
+
+    depth = passes["Depth"][inside][:, 0].astype(float)
+    farthest = np.abs(frame.position[inside]).max() + np.abs(scene.camera.origin).max()
+    allowed = FILTER_WIDTH / 2 * depth_slope(scene, frame)[inside] + ROUNDING * farthest
+    assert (np.abs(depth - frame.t[inside]) <= allowed).all()
+    assert np.median(allowed / frame.t[inside]) < 1e-4  # or it would hold nothing
+
+    # Cycles turns the normal to the viewer, and interpolates it on smooth faces.
+    flat = inside & flat_faces(scene, frame)
+    assert flat.sum() > 300
+    normal, ours = passes["Normal"][flat].astype(float), frame.normal[flat]
+    viewer = (
+        -scene.camera.forward
+        if scene.camera.orthographic
+        else scene.camera.origin - frame.position[flat]
+    )
+    ours = ours * np.sign((ours * viewer).sum(axis=-1))[:, None]
+    np.testing.assert_allclose(normal, ours, rtol=0, atol=NORMAL)
+
+    differing = (index[..., 0] != frame.object_index + 1) & ~inside
+    assert differing.mean() < 0.005  # at edges only
+
+
+def flat_faces(scene, frame) -> np.ndarray:
+    """Return which pixels show a face that is shaded flat."""
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    flat = np.zeros(len(scene.objects), bool)
+    for item in depsgraph.object_instances:
+        name = item.object.original.name
+        if name in scene.objects and item.object.type == "MESH":
+            polygons = item.object.data.polygons
+            smooth = np.zeros(len(polygons), bool)
+            polygons.foreach_get("use_smooth", smooth)
+            flat[scene.objects.index(name)] = not smooth.any()
+    return np.append(flat, False)[frame.object_index]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "exercise_perspective",
+        "exercise_orthographic",
+        "exercise_plane",
+        "suzanne",
+        "shifted_room",
+        "geometry_nodes",
+    ],
+)
+def test_cycles_picture_has_no_unexplained_pixel(name, opened, compare):
+    opened(name, WIDTH)
+    comparison = compare(judge="CYCLES")
+    assert comparison.blender["source"] == "cycles"
+    assert comparison.blender["sample_radius"] == FILTER_WIDTH / 2
+    pixels = comparison.pixels
+    assert pixels["unexplained"] == pixels["not_decidable"] == 0
+    assert pixels["differ"] <= 0.02 * pixels["total"]
+    assert comparison.verdict == "agree"
+
+
+@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "VERTEX"])
+def test_cycles_shows_the_same_colors(color_type, build, compare):
+    build.scene(color_type=color_type).display.shading.single_color = (0.3, 0.5, 0.7)
+    build.solids()
+    build.color_attribute(bpy.data.objects["Green"], "POINT")
+    for number, obj in enumerate(bpy.data.objects):
+        obj.color = (0.2 * number, 0.5, 1 - 0.2 * number, 1)
+    slots = bpy.data.objects["Red"].data
+    for material in (None, build.material("Second", 0.7, 0.6, 0.1)):
+        slots.materials.append(material)
+    for polygon in slots.polygons:
+        polygon.material_index = polygon.index % 4
+    build.corner_camera(lens=40)
+    comparison = compare(judge="CYCLES")
+    assert comparison.pixels["unexplained"] == 0
+    assert comparison.verdict == "agree"
+
+
+def test_cycles_cannot_show_random_colors_and_says_so(build, compare):
+    build.scene(color_type="RANDOM")
+    build.solids()
+    build.corner_camera()
+    with pytest.raises(ValueError, match=r"random colours.*Workbench"):
+        compare(judge="CYCLES")

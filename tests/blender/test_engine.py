@@ -1,0 +1,240 @@
+"""F12 with the engine: what Blender writes is what the tracer gave, bit for bit."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.engine import (
+    ENGINE,
+    NO_HIT_DEPTH,
+    PASSES,
+    ReferenceTracerEngine,
+)
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+AFTER_5 = bpy.app.version >= (5, 0, 0)
+
+
+@pytest.fixture
+def solids(build):
+    scene = build.scene()
+    scene.render.engine, scene.render.film_transparent = ENGINE, True
+    build.solids()
+    build.corner_camera()
+    return scene
+
+
+def expected(frame) -> dict[str, np.ndarray]:
+    """Return what each pass is to hold, from the frame, in words of this test."""
+    return {
+        "Combined": frame.color,
+        "Depth": np.where(np.isinf(frame.t), 1e10, frame.t),
+        "T": np.where(np.isinf(frame.t), 1e10, frame.t),
+        "Position": frame.position,
+        "Normal": frame.normal,
+        "Barycentrics": frame.barycentrics,
+        "Object Index": frame.object_index + 1,
+        "Triangle Index": frame.triangle_index + 1,
+    }
+
+
+def assert_same(passes, frame) -> None:
+    assert set(passes) == set(expected(frame)) == {name for name, *_ in PASSES}
+    for name, values in expected(frame).items():
+        values = values.astype(np.float32)
+        np.testing.assert_array_equal(
+            passes[name].squeeze(-1) if values.ndim == 2 else passes[name], values, err_msg=name
+        )
+
+
+def test_every_pass_is_the_frames(solids, rendered, export):
+    frame = render(export.render()[0])
+    assert {*np.unique(frame.object_index)} == {-1, 0, 1, 2, 3}
+    layers = rendered()
+    assert set(layers) == {"ViewLayer"}
+    assert_same(layers["ViewLayer"], frame)
+    assert NO_HIT_DEPTH == 1e10
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"method": "moller_trumbore"},
+        {"method": "textbook_literal"},
+        {"precision": "float32"},
+        {"samples": 3},
+    ],
+    ids=str,
+)
+def test_the_scenes_settings_are_used(settings, solids, rendered, export):
+    for name, value in settings.items():
+        setattr(solids.reference_tracer, name, value)
+    scene = export.render()[0]
+    frame = render(scene, Settings(**settings))
+    assert_same(rendered()["ViewLayer"], frame)
+    plain = render(scene)
+    assert any(
+        (getattr(plain, n) != getattr(frame, n)).any() for n in ("color", "t", "barycentrics")
+    )
+
+
+def test_the_background_is_the_worlds(solids, rendered):
+    solids.render.film_transparent = False
+    solids.world = bpy.data.worlds.new("World")
+    solids.world.color = (0.25, 0.5, 0.75)
+    combined = rendered()["ViewLayer"]["Combined"]
+    np.testing.assert_array_equal(combined[-1, -1], [0.25, 0.5, 0.75, 1])
+
+
+def set_border(scene, crop: bool) -> None:
+    render_settings = scene.render
+    render_settings.use_border, render_settings.use_crop_to_border = True, crop
+    render_settings.border_min_x, render_settings.border_max_x = 0.21, 0.83
+    render_settings.border_min_y, render_settings.border_max_y = 0.13, 0.67
+
+
+def test_border_with_crop(solids, rendered, export):
+    set_border(solids, crop=True)
+    frame = render(export.render()[0])
+    passes = rendered()["ViewLayer"]
+    assert passes["Combined"].shape[:2] == frame.t.shape != (54, 96)
+    assert_same(passes, frame)
+
+
+def test_border_without_crop(solids, rendered, export):
+    whole = render(export.render()[0])
+    set_border(solids, crop=False)
+    scene = export.render()[0]
+    r = scene.camera.region
+    passes = rendered()["ViewLayer"]
+    assert passes["Combined"].shape == (54, 96, 4)
+    inside = {name: values[r.y0 : r.y1, r.x0 : r.x1] for name, values in passes.items()}
+    assert_same(inside, render(scene))
+    np.testing.assert_array_equal(inside["Combined"], whole.color[r.y0 : r.y1, r.x0 : r.x1])
+    passes["Combined"][r.y0 : r.y1, r.x0 : r.x1] = 0
+    assert not passes["Combined"].any()
+
+
+def test_animation(solids, export, multilayer, tmp_path):
+    red = bpy.data.objects["Red"]
+    for number, x in ((1, -1.1), (2, 0.4)):
+        red.location.x = x
+        red.keyframe_insert("location", frame=number)
+    solids.frame_start, solids.frame_end = 1, 2
+    multilayer.set(solids, tmp_path / "frame_####")
+    assert bpy.ops.render.render(animation=True) == {"FINISHED"}
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["frame_0001.exr", "frame_0002.exr"]
+    pictures = []
+    for number in (1, 2):
+        solids.frame_set(number)
+        frame = render(export.render()[0])
+        pictures.append(frame.color)
+        assert_same(multilayer.read(tmp_path / f"frame_{number:04}.exr")["ViewLayer"], frame)
+    assert (pictures[0] != pictures[1]).any()
+
+
+def test_two_view_layers(solids, build, rendered, export):
+    build.collection("Extra", build.cube("Extra", 1, link=False, location=(0, 0, 1.5)), link=True)
+    other = solids.view_layers.new("Other")
+    solids.view_layers[0].layer_collection.children["Extra"].exclude = True
+    layers = rendered()
+    assert set(layers) == {"ViewLayer", "Other"}
+    for layer in solids.view_layers:
+        bpy.context.window.view_layer = layer
+        assert_same(layers[layer.name], render(export.viewport()[0]))
+    assert (layers["ViewLayer"]["Combined"] != layers[other.name]["Combined"]).any()
+
+
+def test_render_levels_and_visibility_are_the_renders(solids, build, rendered, export):
+    cube = bpy.data.objects["Red"]
+    modifier = cube.modifiers.new("Subdivision", "SUBSURF")
+    modifier.levels, modifier.render_levels = 0, 2
+    bpy.data.objects["Blue"].hide_render = True
+    scene = export.render()[0]
+    assert "Blue" not in scene.objects
+    assert len(scene.meshes[scene.instances[scene.objects.index("Red")].mesh].triangles) == 192
+    assert_same(rendered()["ViewLayer"], render(scene))
+
+
+def test_the_passes_are_declared_to_the_compositor(solids, build):
+    solids.view_layers[0].update_render_passes()
+    _, node = build.compositor()
+    # Blender's own name for Combined is Image, and Alpha is part of it.
+    shown = {output.name for output in node.outputs if output.enabled}
+    assert shown - {"Image", "Alpha"} == {name for name, *_ in PASSES} - {"Combined"}
+
+
+@pytest.mark.parametrize("name", ["Triangle Index", "Object Index", "Depth", "Normal"])
+def test_a_pass_goes_through_the_compositor(name, solids, build, export, tmp_path):
+    solids.view_layers[0].update_render_passes()
+    tree, node = build.compositor()
+    if AFTER_5:
+        tree.interface.new_socket("Image", in_out="OUTPUT", socket_type="NodeSocketColor")
+        output = tree.nodes.new("NodeGroupOutput")
+    else:
+        output = tree.nodes.new("CompositorNodeComposite")
+    tree.links.new(node.outputs[name], output.inputs[0])
+    image = solids.render.image_settings
+    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGB", "32"
+    solids.render.filepath = str(tmp_path / "composed.exr")
+    values = expected(render(export.viewport()[0]))[name].astype(np.float32)
+    bpy.ops.render.render(write_still=True)
+    loaded = bpy.data.images.load(solids.render.filepath)
+    pixels = np.array(loaded.pixels[:], np.float32).reshape(54, 96, 4)
+    if values.ndim == 2:
+        np.testing.assert_array_equal(pixels[..., 0], values)
+    else:
+        np.testing.assert_array_equal(pixels[..., :3], values)
+
+
+class CancelledEngine:
+    """What Blender gives an engine, with Esc pressed once so many questions were asked."""
+
+    def __init__(self, stop_at: float) -> None:
+        self.asked, self.stop_at, self.shown, self.shares = 0, stop_at, {}, []
+
+    def test_break(self) -> bool:
+        self.asked += 1
+        return self.asked > self.stop_at
+
+    def begin_result(self, x, y, width, height, layer):
+        self.size = width, height
+        passes = {name: SimpleNamespace(rect=self._rect(name)) for name, *_ in PASSES}
+        return SimpleNamespace(layers=[SimpleNamespace(passes=passes)])
+
+    def _rect(self, name):
+        return SimpleNamespace(foreach_set=lambda values: self.shown.update({name: values.copy()}))
+
+    def update_progress(self, share: float) -> None:
+        self.shares.append(share)
+
+    def update_stats(self, *texts: str) -> None:
+        pass
+
+    end_result = report = update_stats
+    _show = ReferenceTracerEngine._show
+
+
+def test_a_cancelled_render_keeps_the_rows_that_are_done(solids, capsys):
+    """Blender has no key to press in background: the engine is run as if one was."""
+    solids.render.resolution_x = solids.render.resolution_y = 480
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    engine = CancelledEngine(np.inf)
+    ReferenceTracerEngine._trace(engine, depsgraph)
+    whole = engine.shown["Combined"].reshape(480, 480, 4)
+    assert engine.shares == sorted(engine.shares)
+    assert engine.shares[-1] == 1
+    assert engine.asked > 3
+    cancelled = CancelledEngine(engine.asked // 2)
+    ReferenceTracerEngine._trace(cancelled, depsgraph)
+    combined = cancelled.shown["Combined"].reshape(480, 480, 4)
+    done = (combined == whole).all(axis=(1, 2)) & whole.any(axis=(1, 2))
+    empty = ~combined.any(axis=(1, 2))
+    assert 0 < done.sum() < 480
+    assert (done | empty).all()
+    assert cancelled.shares[-1] < 1
+    assert "Cancelled: " in capsys.readouterr().out

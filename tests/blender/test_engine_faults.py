@@ -1,0 +1,192 @@
+"""A render that fails says so to Blender: an error, no file, an exit code other than 0."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import bpy
+import pytest
+from reference_tracer.blender import engine
+from reference_tracer.blender.camera import export_camera
+from reference_tracer.scene import SceneError
+
+
+def no_camera(scene):
+    scene.camera = None
+
+
+def panoramic(scene):
+    scene.camera.data.type = "PANO"
+
+
+def not_a_camera(scene):
+    light = bpy.data.objects.new("Sun", bpy.data.lights.new("Sun", "SUN"))
+    scene.collection.objects.link(light)
+    scene.camera = light
+
+
+def clip_range(scene):
+    scene.camera.data.clip_start, scene.camera.data.clip_end = 5, 3
+
+
+def flat_camera(scene):
+    scene.camera.scale = (0, 1, 1)
+
+
+def no_pixels(scene):
+    scene.render.resolution_x, scene.render.resolution_percentage = 40, 1
+
+
+def empty_border(scene):
+    scene.render.use_border = True
+    scene.render.border_min_x = scene.render.border_max_x = 0.5
+
+
+def thin_border(scene):
+    """Not empty, but it holds no pixel."""
+    scene.render.use_border = True
+    scene.render.border_min_x, scene.render.border_max_x = 0.501, 0.505
+
+
+REFUSED = {  # what is wrong with the scene: what the message has to name
+    no_camera: "Scene 'Scene' has no camera",
+    panoramic: "Camera 'Camera' is of type pano",
+    not_a_camera: "'Sun', the active camera of scene 'Scene', is a light",
+    clip_range: "Camera 'Camera'.*clip start",
+    flat_camera: "Camera 'Camera'.*scale",
+    no_pixels: "scene 'Scene' has 0 x 0 pixels",
+    empty_border: "border",
+    thin_border: "border",
+}
+WITH_NAME = pytest.mark.parametrize("fault", REFUSED, ids=lambda fault: fault.__name__)
+
+
+@pytest.fixture
+def scene(build, tmp_path):
+    scene = build.scene()
+    build.cube()
+    build.camera()
+    scene.render.engine = engine.ENGINE
+    scene.render.filepath = str(tmp_path / "out" / "picture.png")
+    return scene
+
+
+@pytest.fixture
+def no_file(tmp_path):
+    yield
+    assert list((tmp_path / "out").glob("*")) == []
+
+
+@WITH_NAME
+def test_a_scene_that_cannot_be_traced_is_refused_by_name(fault, scene):
+    fault(scene)
+    bpy.context.view_layer.update()
+    with pytest.raises(SceneError, match=REFUSED[fault]):
+        export_camera(scene)
+
+
+@WITH_NAME
+def test_rendering_it_fails_and_writes_no_file(fault, scene, no_file):
+    fault(scene)
+    with pytest.raises(RuntimeError, match="Error: "):
+        bpy.ops.render.render(write_still=True)
+
+
+@WITH_NAME
+def test_comparing_it_names_what_is_wrong(fault, scene, compare):
+    """Also where Blender itself would have refused with less."""
+    fault(scene)
+    with pytest.raises(SceneError, match=REFUSED[fault]):
+        compare()
+    with pytest.raises(RuntimeError, match=REFUSED[fault]):
+        bpy.ops.reference_tracer.compare()
+
+
+@pytest.mark.parametrize(
+    "kind", [RuntimeError, KeyError, MemoryError, ZeroDivisionError, SceneError]
+)
+@pytest.mark.parametrize("where", ["export", "steps"])
+def test_an_exception_fails_the_render(where, kind, scene, no_file, monkeypatch):
+    def fail(*args, **options):
+        raise kind("on purpose")
+
+    monkeypatch.setattr(engine, where, fail)
+    with pytest.raises(RuntimeError, match="on purpose"):
+        bpy.ops.render.render(write_still=True)
+
+
+@pytest.mark.parametrize("kind", [RuntimeError, SceneError])
+def test_an_exception_midway_fails_the_render(kind, scene, no_file, monkeypatch):
+    real = engine.steps
+
+    def fail(*args, **options):
+        yield next(iter(real(*args, **options)))
+        raise kind("on purpose")
+
+    monkeypatch.setattr(engine, "steps", fail)
+    with pytest.raises(RuntimeError, match="on purpose"):
+        bpy.ops.render.render(write_still=True)
+
+
+def test_settings_that_are_out_of_range_fail_the_render(scene, no_file, monkeypatch):
+    monkeypatch.setattr("reference_tracer.blender.properties.Settings", fail_settings)
+    with pytest.raises(RuntimeError, match="samples is 99"):
+        bpy.ops.render.render(write_still=True)
+
+
+def fail_settings(**options):
+    raise ValueError("samples is 99; it must be between 1 and 64")
+
+
+@pytest.mark.parametrize("fault", [no_camera, panoramic], ids=lambda fault: fault.__name__)
+def test_an_animation_stops_at_the_first_frame(fault, scene, no_file):
+    fault(scene)
+    scene.frame_start, scene.frame_end = 1, 3
+    with pytest.raises(RuntimeError, match="Error: "):
+        bpy.ops.render.render(animation=True)
+
+
+def test_the_next_render_works(scene, tmp_path):
+    scene.camera.data.type = "PANO"
+    with pytest.raises(RuntimeError):
+        bpy.ops.render.render(write_still=True)
+    scene.camera.data.type = "PERSP"
+    assert bpy.ops.render.render(write_still=True) == {"FINISHED"}
+    assert (tmp_path / "out" / "picture.png").is_file()
+
+
+SCRIPT = """
+import bpy, reference_tracer
+reference_tracer.register()
+scene = bpy.context.scene
+scene.render.engine, scene.render.filepath = "REFERENCE_TRACER", {path!r}
+scene.render.resolution_x, scene.render.resolution_y = 32, 18
+{fault}
+bpy.ops.render.render(write_still=True)
+scene.render.engine = "CYCLES"  # 4.2 crashes at its end with an engine written in Python
+reference_tracer.unregister()
+"""
+
+
+@pytest.mark.parametrize(
+    ("fault", "message"),
+    [
+        ("", None),
+        ("scene.camera.data.type = 'PANO'", "is of type pano"),
+        ("scene.camera = None", "no camera"),
+        ("from reference_tracer.blender import engine; engine.export = None", "TypeError"),
+    ],
+    ids=["none", "panoramic", "no camera", "exporter"],
+)
+def test_a_script_ends_with_an_exit_code(fault, message, tmp_path):
+    path = tmp_path / "picture.png"
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT.format(path=str(path), fault=fault)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert path.exists() == (message is None)
+    assert (done.returncode == 0) == (message is None)
+    assert message is None or message in done.stderr

@@ -1,0 +1,252 @@
+"""A comparison leaves the user's scene, preferences, Render Result and data as they were."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import compare as compare_module
+from reference_tracer.blender.images import BLENDER, DIFFERENCE, TRACED
+
+OURS = {TRACED, BLENDER, DIFFERENCE}
+# What Blender counts or draws for itself, or what leads back to where one came from.
+_NOT_STATE = {
+    "rna_type",
+    "id_data",
+    "is_evaluated",
+    "session_uid",
+    "original",
+    "users",
+    "tag",
+    "bl_rna",
+    "stereo_3d_format",
+    "views",
+    "depsgraph",
+    "preview",
+    "is_dirty",
+    "use_extra_user",
+    "is_embedded_data",
+    "users_pass",
+    # found out by the first render of a process
+    "gpu_preferred_device",
+    "selected_studio_light",
+}
+
+
+def snapshot(thing, depth: int = 4):
+    """Return all RNA properties of a thing as plain values, those it owns recursively."""
+    out = {}
+    for prop in thing.bl_rna.properties:
+        name = prop.identifier
+        if name in _NOT_STATE:
+            continue
+        try:
+            value = getattr(thing, name)
+        except (AttributeError, RuntimeError):
+            continue
+        if prop.type == "POINTER":
+            if value is None or isinstance(value, bpy.types.ID):
+                out[name] = value and (value.name_full, value.as_pointer())
+            elif depth:
+                out[name] = snapshot(value, depth - 1)
+        elif prop.type == "COLLECTION":
+            out[name] = [item.name if hasattr(item, "name") else None for item in value]
+        elif getattr(prop, "array_length", 0):
+            out[name] = np.array(value).ravel().tolist()
+        else:
+            out[name] = value
+    return out
+
+
+def layer_flags(layer):
+    return (
+        layer.name,
+        layer.exclude,
+        layer.hide_viewport,
+        layer.holdout,
+        layer.indirect_only,
+        [layer_flags(child) for child in layer.children],
+    )
+
+
+def render_result():
+    image = bpy.data.images.get("Render Result")
+    return image and (tuple(image.size), image.as_pointer())
+
+
+def state():
+    context, preferences = bpy.context, bpy.context.preferences
+    scene = context.scene
+    names = {}
+    for kind in dir(bpy.data):
+        collection = getattr(bpy.data, kind)
+        if isinstance(collection, bpy.types.bpy_prop_collection):
+            names[kind] = sorted(
+                (block.name_full, block.users) for block in collection if block.name not in OURS
+            )
+    return {
+        "scene": snapshot(scene),
+        "layers": {
+            layer.name: (snapshot(layer, 1), layer_flags(layer.layer_collection))
+            for layer in scene.view_layers
+        },
+        "objects": {
+            obj.name_full: (
+                np.array(obj.matrix_world).tolist(),
+                obj.hide_viewport,
+                obj.hide_render,
+                obj.hide_get(),
+                obj.select_get(),
+                obj.as_pointer(),
+                [c.name for c in obj.users_collection],
+            )
+            for obj in scene.objects
+        },
+        "collections": {c.name: [o.name for o in c.objects] for c in bpy.data.collections},
+        "preferences": snapshot(preferences.system, 0) | {"is_dirty": preferences.is_dirty},
+        "names": names,
+        "active": (
+            context.scene.name,
+            context.view_layer.name,
+            context.view_layer.objects.active and context.view_layer.objects.active.name,
+        ),
+        "render result": render_result(),
+        "file": bpy.data.filepath,
+    }
+
+
+@pytest.fixture
+def user_scene(build, tmp_path):
+    """A scene with much that a comparison could upset: all of it other than what it sets."""
+    scene = build.scene()
+    build.solids()
+    build.corner_camera()
+    hidden = build.collection("Hidden", build.cube("In Hidden", link=False), link=True)
+    hidden.hide_render = True
+    plane = build.square("Ground", link=False, location=(0, 0, -1.5))
+    plane.reference_tracer.infinite_plane = True
+    inner = build.collection("Inner", plane)
+    outer = build.collection("Outer", link=True)
+    outer.children.link(inner)
+    build.cube("Eye", 0.3).hide_set(True)
+    other = scene.view_layers.new("Other")
+    other.layer_collection.children["Outer"].exclude = True
+    shading, render = scene.display.shading, scene.render
+    shading.light, shading.show_shadows, shading.show_cavity = "MATCAP", True, True
+    shading.show_object_outline, shading.show_xray = True, False
+    scene.display.render_aa, scene.display.viewport_aa = "16", "FXAA"
+    render.engine, render.film_transparent = "CYCLES", False
+    render.use_border = render.use_stamp = True
+    render.border_min_x, render.border_max_x = 0.1, 0.9
+    render.filepath, render.image_settings.file_format = "//somewhere_####", "JPEG"
+    scene.view_settings.exposure, scene.view_settings.gamma = 1.5, 0.8
+    scene.reference_tracer.method = "moller_trumbore"
+    bpy.context.preferences.system.viewport_aa = "16"
+    bpy.context.preferences.is_dirty = False
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "user.blend"))
+    return scene
+
+
+def differences(before, after, path=""):
+    """Return the paths of what differs, so that a failure can be read."""
+    if isinstance(before, dict) and isinstance(after, dict):
+        return [
+            d
+            for key in sorted({*before, *after})
+            for d in differences(before.get(key), after.get(key), f"{path}/{key}")
+        ]
+    same = before == after or (before != before and after != after)
+    return [] if same else [(path, before, after)]
+
+
+@pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
+@pytest.mark.parametrize("shading", ["LIKE_FOR_LIKE", "AS_IS"])
+def test_nothing_is_changed(shading, judge, user_scene):
+    user_scene.reference_tracer.judge, user_scene.reference_tracer.shading = judge, shading
+    before = state()
+    assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
+    assert differences(before, state()) == []
+    assert {i.name for i in bpy.data.images} == OURS
+
+
+def test_nothing_is_changed_when_files_are_written(user_scene, tmp_path):
+    before = state()
+    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path / "out")) == {"FINISHED"}
+    assert differences(before, state()) == []
+
+
+def test_a_second_comparison_adds_nothing(user_scene):
+    bpy.ops.reference_tracer.compare()
+    before = state()
+    bpy.ops.reference_tracer.compare()
+    assert differences(before, state()) == []
+    assert {i.name for i in bpy.data.images} == OURS
+
+
+@pytest.mark.parametrize("where", ["picture", "export_for_render", "prepare", "stand_ins"])
+@pytest.mark.parametrize("kind", [RuntimeError, KeyError, MemoryError])
+def test_nothing_is_changed_by_an_error(kind, where, user_scene, monkeypatch):
+    def fail(*args, **options):
+        raise kind("on purpose")
+
+    monkeypatch.setattr(compare_module, where, fail)
+    before = state()
+    with pytest.raises(RuntimeError, match="on purpose"):
+        bpy.ops.reference_tracer.compare()
+    assert differences(before, state()) == []
+    assert not {i.name for i in bpy.data.images}
+
+
+def test_nothing_is_changed_by_an_error_after_the_picture_was_drawn(user_scene, monkeypatch):
+    """While the planes' stand-ins are there."""
+    real = compare_module.picture
+
+    def fail(*args, **options):
+        real(*args, **options)
+        raise RuntimeError("on purpose")
+
+    monkeypatch.setattr(compare_module, "picture", fail)
+    before = state()
+    with pytest.raises(RuntimeError, match="on purpose"):
+        bpy.ops.reference_tracer.compare()
+    assert differences(before, state()) == []
+
+
+def test_nothing_is_changed_by_a_scene_that_cannot_be_traced(user_scene):
+    user_scene.camera = None
+    before = state()
+    with pytest.raises(RuntimeError, match="has no camera"):
+        bpy.ops.reference_tracer.compare()
+    assert differences(before, state()) == []
+
+
+def test_the_last_render_stays(user_scene, tmp_path):
+    """The user's own F12 picture, saved before and after: the same file."""
+    user_scene.render.engine = "BLENDER_WORKBENCH"
+    user_scene.render.image_settings.file_format = "PNG"
+    bpy.ops.render.render()
+    before = state()
+    result = bpy.data.images["Render Result"]
+    result.save_render(str(tmp_path / "before.png"), scene=user_scene)
+    assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
+    assert differences(before, state()) == []
+    result.save_render(str(tmp_path / "after.png"), scene=user_scene)
+    assert (tmp_path / "before.png").read_bytes() == (tmp_path / "after.png").read_bytes()
+
+
+def test_the_snapshot_sees_what_it_is_for(user_scene):
+    """Each of these would be found, were it not put back."""
+    before = state()
+    user_scene.display.render_aa = "OFF"
+    user_scene.view_settings.exposure = 0
+    user_scene.view_layers["Other"].layer_collection.children["Outer"].exclude = False
+    bpy.context.preferences.system.viewport_aa = "OFF"
+    bpy.data.meshes.new("Left Behind")
+    found = {path for path, _, _ in differences(before, state())}
+    assert {
+        "/scene/display/render_aa",
+        "/scene/view_settings/exposure",
+        "/layers/Other",
+        "/preferences/viewport_aa",
+        "/names/meshes",
+    } <= found

@@ -1,0 +1,184 @@
+"""Blender's own picture: how it is asked for, and what comes when it cannot be had.
+
+The viewport's own drawing needs a window; what is tested of it here is what leads up to it.
+"""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import viewport
+from reference_tracer.blender.camera import export_camera
+from reference_tracer.blender.temporary import temporary_scene
+
+from .scenes import HALF_FLOAT
+
+
+@pytest.fixture
+def scene(build):
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    return scene
+
+
+def pictured(scene, source="workbench", like_for_like=True):
+    camera = export_camera(scene)
+    layer = bpy.context.view_layer.name
+    with temporary_scene(scene) as copy:
+        viewport.prepare(copy, like_for_like)
+        return viewport.picture(copy, layer, source, camera, like_for_like)
+
+
+@pytest.mark.parametrize(
+    ("judge", "source"), [("AUTO", "workbench"), ("WORKBENCH", "workbench"), ("CYCLES", "cycles")]
+)
+def test_the_judge_in_background(judge, source):
+    assert bpy.app.background
+    assert viewport.choose_source(judge) == source
+    assert source in viewport.SAMPLE_RADIUS
+
+
+def test_row_0_is_the_bottom_row(scene, build):
+    for obj in list(bpy.data.objects):
+        if obj.type == "MESH":
+            bpy.data.objects.remove(obj)
+    scene.camera.matrix_basis.identity()
+    scene.camera.location = (0, 0, 5)
+    build.square("Low", 1, location=(0, -0.8, 0), material=build.material("Red", 1, 0, 0))
+    build.square("Right", 0.5, location=(1.2, 0, 0), material=build.material("Green", 0, 1, 0))
+    picture = pictured(scene)
+    rows, _ = np.nonzero(picture[..., 0] > 0.5)
+    _, columns = np.nonzero(picture[..., 1] > 0.5)
+    assert rows.mean() < 20
+    assert columns.mean() > 60
+
+
+def test_the_picture_is_float32_of_the_region(scene):
+    render = scene.render
+    render.use_border, render.use_crop_to_border = True, False
+    render.border_min_x, render.border_max_x = 0.25, 0.5
+    picture = pictured(scene)
+    assert picture.dtype == np.float32
+    assert picture.shape == (54, 24, 4)
+    assert picture.flags.c_contiguous
+
+
+def test_like_for_like_has_no_anti_aliasing_and_only_the_scenes_colours(scene):
+    """Each colour is that of a material, or nothing."""
+    scene.display.render_aa = "32"
+    colors = np.unique(pictured(scene)[..., :3].reshape(-1, 3), axis=0)
+    known = np.array([(0, 0, 0), *(m.diffuse_color[:3] for m in bpy.data.materials)])
+    for color in colors:
+        assert np.abs(known - color).max(axis=1).min() <= HALF_FLOAT
+
+
+def test_as_it_is_keeps_the_scenes_shading(scene):
+    scene.display.shading.light, scene.display.render_aa = "STUDIO", "8"
+    scene.render.film_transparent = True
+    as_it_is, like_for_like = pictured(scene, like_for_like=False), pictured(scene)
+    assert len(np.unique(as_it_is.reshape(-1, 4), axis=0)) > 50
+    assert (as_it_is != like_for_like).any()
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        ("render.use_stamp", True),
+        ("render.use_file_extension", False),
+        ("render.use_overwrite", False),
+        ("render.use_placeholder", True),
+        ("render.use_multiview", True),
+        ("render.use_motion_blur", True),
+        ("render.use_freestyle", True),
+        ("render.dither_intensity", 2.0),
+        ("render.use_simplify", True),
+        ("render.use_high_quality_normals", True),
+        ("view_settings.exposure", 3.0),
+        ("view_settings.view_transform", "Standard"),
+        ("view_settings.gamma", 2.0),
+        ("render.resolution_percentage", 100),
+        ("display.shading.show_cavity", True),
+        ("display.shading.show_xray", True),
+        ("display.shading.show_object_outline", True),
+        ("display.shading.background_type", "VIEWPORT"),
+        ("render.film_transparent", False),
+        ("render.filter_size", 5.0),
+        ("render.use_render_cache", True),
+        ("render.use_persistent_data", True),
+        ("render.image_settings.file_format", "JPEG"),
+        ("render.image_settings.color_mode", "BW"),
+        ("render.use_single_layer", True),
+        ("render.use_sequencer", True),
+        ("render.use_compositing", True),
+    ],
+    ids=lambda setting: setting[0],
+)
+def test_no_setting_of_the_scene_changes_the_picture(setting, scene):
+    before = pictured(scene)
+    *path, name = setting[0].split(".")
+    target = scene
+    for step in path:
+        target = getattr(target, step)
+    setattr(target, name, setting[1])
+    np.testing.assert_array_equal(pictured(scene), before)
+
+
+@pytest.mark.parametrize("extra", ["compositor", "sequencer"])
+def test_compositor_and_sequencer_are_not_in_the_picture(extra, scene, build):
+    before = pictured(scene)
+    getattr(build, extra)()
+    np.testing.assert_array_equal(pictured(scene), before)
+
+
+def test_a_picture_of_another_size_is_an_error(scene):
+    camera = export_camera(scene)
+    with temporary_scene(scene) as copy:
+        viewport.prepare(copy, True)
+        copy.render.resolution_x = 64
+        with pytest.raises(RuntimeError, match="64 x 54 pixels, the camera's region 96 x 54"):
+            viewport.picture(copy, bpy.context.view_layer.name, "workbench", camera, True)
+
+
+def test_the_viewport_needs_a_window_and_says_so(scene):
+    """And leaves the preference as it was, which it sets for the drawing."""
+    preferences = bpy.context.preferences
+    preferences.system.viewport_aa, preferences.is_dirty = "16", False
+    with pytest.raises(RuntimeError):
+        pictured(scene, "viewport")
+    assert (preferences.system.viewport_aa, preferences.is_dirty) == ("16", False)
+    assert len(bpy.data.scenes) == 1
+
+
+@pytest.mark.parametrize("dirty", [True, False])
+def test_the_preference_is_set_and_put_back(dirty):
+    preferences = bpy.context.preferences
+    preferences.system.viewport_aa, preferences.is_dirty = "8", dirty
+    with pytest.raises(KeyError), viewport._viewport_aa("OFF"):
+        assert preferences.system.viewport_aa == "OFF"
+        raise KeyError
+    assert (preferences.system.viewport_aa, preferences.is_dirty) == ("8", dirty)
+
+
+def test_the_temporary_scene_goes_with_an_error(scene):
+    with pytest.raises(KeyError), temporary_scene(scene) as copy:
+        assert copy.name != scene.name
+        raise KeyError
+    assert [s.name for s in bpy.data.scenes] == [scene.name]
+
+
+def test_the_shading_of_a_view_is_copied(scene):
+    source = scene.copy().display.shading
+    source.light, source.color_type, source.single_color = "FLAT", "SINGLE", (0.1, 0.2, 0.3)
+    source.background_type, source.show_cavity = "VIEWPORT", True
+    with temporary_scene(scene) as copy:
+        viewport.use_view_shading(copy, source)
+        own = copy.display.shading
+        assert (own.light, own.color_type, own.background_type, own.show_cavity) == (
+            "FLAT",
+            "SINGLE",
+            "VIEWPORT",
+            True,
+        )
+        assert tuple(own.single_color) == pytest.approx((0.1, 0.2, 0.3))

@@ -1,0 +1,181 @@
+"""Edges and depth ties: made on purpose, found; and no fault hides behind one.
+
+What stands in for Blender's picture here is made by the tracer itself, from a scene with a fault.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.compare import again
+from reference_tracer.compare.bounds import SNAPPING
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import find_causes
+from reference_tracer.scene import Mesh
+from reference_tracer.tracer import probe as probing
+from reference_tracer.tracer import render as rendering
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+WHITE = (1.0, 1.0, 1.0, 1.0)
+
+
+def test_a_shift_within_the_snapping_is_all_edges(stripes, explained, shifted, count):
+    picture = render(replace(stripes, camera=shifted(stripes.camera, 1 / 300, -1 / 300))).color
+    found = explained(stripes, picture)
+    assert count(found, Cause.EDGE) > 20
+    assert count(found, Cause.EDGE) + count(found, Cause.AGREE) == found.cause.size
+    edge = found.cause == Cause.EDGE
+    assert (found.allowed[edge] >= SNAPPING).all() and (found.allowed[edge] < 1.1 * SNAPPING).all()
+
+
+@pytest.mark.parametrize("shift", [(0.5, 0), (-0.5, 0.5), (0.05, 0.02)])
+def test_a_larger_shift_is_unexplained(stripes, shift, explained, shifted, count):
+    picture = render(replace(stripes, camera=shifted(stripes.camera, *shift))).color
+    found = explained(stripes, picture)
+    edges, unexplained = count(found, Cause.EDGE), count(found, Cause.UNEXPLAINED)
+    assert unexplained > 5 * edges and unexplained > 50
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("gap, cause", [(1e-5, Cause.DEPTH_TIE), (2e-2, Cause.UNEXPLAINED)])
+def test_surfaces_nearer_than_the_depth_buffer_resolves(make, orthographic, gap, cause, explained):
+    camera = make.camera(20, 15, orthographic=orthographic)
+    front, back = make.quad(-50, 50, -50, 50, -10), make.quad(-50, 50, -50, 50, -10 - gap)
+    scene = make.scene(camera, front, back)
+    swapped = render(replace(scene, instances=[scene.instances[1]])).color
+    found = explained(scene, swapped)
+    assert (found.cause == cause).all()
+    if cause == Cause.DEPTH_TIE:
+        assert np.allclose(found.figure, gap, rtol=1e-3)
+
+
+def test_a_tie_some_layers_behind(make, explained):
+    quads = [make.quad(-50, 70, -50, 90, -10 - k * 1e-6) for k in range(4)]
+    scene = make.scene(make.camera(8, 6), *quads)
+    last = render(replace(scene, instances=[scene.instances[3]])).color
+    assert (explained(scene, last).cause == Cause.DEPTH_TIE).all()
+
+
+def test_coincident_surfaces_tie(make, explained):
+    scene = make.scene(make.camera(8, 6), make.quad(-9, 9, -9, 9, -2), make.quad(-9, 9, -9, 9, -2))
+    found = explained(scene, render(replace(scene, instances=[scene.instances[1]])).color)
+    assert (found.cause == Cause.DEPTH_TIE).all() and not found.figure.any()
+
+
+def test_a_sample_radius_widens_the_band(stripes, explained, shifted, count):
+    picture = render(replace(stripes, camera=shifted(stripes.camera, 0.2, 0))).color
+    assert count(explained(stripes, picture), Cause.UNEXPLAINED) > 50
+    assert count(explained(stripes, picture, sample_radius=0.25), Cause.UNEXPLAINED) == 0
+
+
+@pytest.mark.parametrize("behind", [False, True])
+def test_a_sliver_that_no_sample_meets(make, behind, explained):
+    """Ten thousandths of a pixel wide: an edge where it is in front, a fault where it is hidden."""
+    camera = make.camera(8, 6, half=3, orthographic=True, eye=(4, 3, 0))
+    thin = Mesh([(4.50165, -9, -2), (4.50165, 99, -2), (4.50175, 45, -2)], [[0, 1, 2]])
+    scene = make.scene(camera, thin, make.quad(-9, 19, -9, 40, -1 if behind else -3))
+    picture = render(scene).color.copy()
+    picture[:, 4] = scene.instances[0].colors[0]
+    found = explained(scene, picture)
+    assert (found.cause[:, 4] == (Cause.UNEXPLAINED if behind else Cause.EDGE)).all()
+    if not behind:
+        assert np.allclose(found.figure[:, 4], 0.0017, rtol=0, atol=2e-4)
+
+
+def test_a_long_sliver_keeps_within_what_is_allowed(make, explained):
+    camera = make.camera(8, 6, half=3, orthographic=True, eye=(4, 3, 0))
+    thin = Mesh([(4.50365, -3e4, -2), (4.50365, 9e4, -2), (4.50375, 3e4, -2)], [[0, 1, 2]])
+    scene = make.scene(camera, thin, make.quad(-9, 9, -9, 9, -3))
+    picture = render(scene).color.copy()
+    picture[:, 4] = scene.instances[0].colors[0]
+    assert (explained(scene, picture).cause[:, 4] == Cause.EDGE).all()
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.2])
+def test_a_fine_mesh_hides_no_fault(make, radius, explained):
+    """Every centre is near some triangle's edge; that the mesh is missing stays a fault."""
+    small = radius == 0.0
+    ball = trimesh.creation.icosphere(6 if small else 5, radius=2.1 if small else 60.0)
+    camera = make.camera(
+        *((8, 6) if small else (40, 30)),
+        half=3 if small else 15,
+        orthographic=True,
+        eye=(0.1, 0.2, 100),
+    )
+    scene = make.scene(camera, make.mesh(ball), make.quad(-99, 99, -99, 99, -99))
+    inside = render(scene).object_index == 0
+    picture = render(replace(scene, instances=scene.instances[1:])).color
+    found = explained(scene, picture, sample_radius=radius)
+    assert inside.sum() >= 12
+    assert (found.cause[inside] == Cause.UNEXPLAINED).mean() > 0.9
+
+
+@pytest.mark.parametrize("precision", ["float64", "float32"])
+def test_what_the_literal_method_loses_is_no_edge(make, precision, explained, count):
+    """A third of a wall is lost; that is the tracer's doing, and must not pass as an edge."""
+    turn = trimesh.transformations.rotation_matrix(0.7, (1, 2, 3))
+    wall = trimesh.creation.box((40, 40, 0.1)).apply_transform(turn).apply_translation((0, 0, -9))
+    scene = make.scene(make.camera(30, 20), make.mesh(trimesh.Trimesh(wall.vertices, wall.faces)))
+    found = explained(scene, render(scene).color, settings=Settings("textbook_literal", precision))
+    lost = (found.cause != Cause.AGREE).sum()
+    assert lost > 0.05 * found.cause.size
+    assert count(found, Cause.UNEXPLAINED) > 0.9 * lost
+
+
+def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
+    """Smaller parts give smaller steps, and the same causes."""
+    tested, results, longest = [0], [], []
+
+    def counting(scene, settings, rays, some, hits, after=None):
+        tested[-1] += len(some.pixel)
+        test_pairs(scene, settings, rays, some, hits, after)
+
+    test_pairs = probing.test_pairs
+    monkeypatch.setattr(probing, "test_pairs", counting)
+    frame = render(room)
+    picture = render(replace(room, camera=shifted(room.camera, 0.3, 0.004))).color
+    picture[:, ::2] = WHITE
+    for few, rows in ((1 << 20, 1 << 20), (200, 32), (1 << 20, 3)):
+        monkeypatch.setattr(again, "FEW", few)
+        monkeypatch.setattr(rendering, "ROWS", rows)
+        tested[:] = [0]
+        work = find_causes(room, frame, picture)
+        try:
+            while True:
+                next(work)
+                tested.append(0)
+        except StopIteration as stop:
+            results.append(stop.value)
+        longest.append(max(tested))
+    assert longest[1] < longest[0] / 3 and longest[2] < longest[0] / 3
+    for other in results[1:]:
+        for name in ("cause", "figure", "allowed"):
+            assert np.array_equal(getattr(other, name), getattr(results[0], name), equal_nan=True)
+
+
+@pytest.mark.parametrize(
+    "first, second", [("textbook", "moller_trumbore"), ("moller_trumbore", "textbook")]
+)
+def test_edges_through_the_centres_are_edges(make, rng, explained, count, first, second):
+    """Where rounding alone decides, two right methods differ; no fault lies in that."""
+    edges = 0
+    for _ in range(12):
+        turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        camera = make.camera(16, 12, half=6, orthographic=True, axes=turn)
+        x = np.arange(-7.5, 7, 3)
+        low, high = (
+            np.stack((x, np.full(len(x), y), np.full(len(x), -5.0)), 1) for y in (-9.31, 10.17)
+        )
+        n, right = len(x), np.array([1, 0, 0])
+        points = np.concatenate((low, low + right, high, high + right)) @ turn.T
+        k = np.arange(n)[:, None]
+        faces = np.concatenate([k + np.array(c) * n for c in ((0, 1, 3), (0, 3, 2))])
+        scene = make.scene(camera, Mesh(points, faces))
+        found = explained(scene, render(scene, Settings(second)).color, settings=Settings(first))
+        assert count(found, Cause.AGREE) + count(found, Cause.EDGE) == found.cause.size
+        edges += count(found, Cause.EDGE)
+    assert edges > 20

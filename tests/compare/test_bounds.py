@@ -1,0 +1,136 @@
+"""The bounds on Blender's arithmetic, against that arithmetic done in float32."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.compare.bounds import SNAPPING, U, depth_resolution, pixel_error, view_error
+from reference_tracer.scene import Instance, Mesh, Plane, Scene
+from reference_tracer.tracer.camera import film_of
+from reference_tracer.tracer.vector import transform_points
+
+F = np.float32
+
+
+def times(matrix, points):
+    """Return matrix (4, 4) . points (4, n), every product and sum rounded to float32."""
+    m, p = matrix.astype(F), points.astype(F)
+    rows = [m[i, 0] * p[0] + m[i, 1] * p[1] + m[i, 2] * p[2] + m[i, 3] * p[3] for i in range(4)]
+    return np.stack(rows)
+
+
+def blenders_film(camera, world_from_object, local):
+    """Return film positions and depth as a rasteriser computes them, from a float32 pipeline."""
+    view = np.linalg.inv(camera.world_from_camera.astype(F))
+    w, n, f = camera.window, F(camera.clip_start), F(camera.clip_end)
+    projection = np.zeros((4, 4), F)
+    if camera.orthographic:
+        projection[0] = (2 / (w.right - w.left), 0, 0, -(w.right + w.left) / (w.right - w.left))
+        projection[1] = (0, 2 / (w.top - w.bottom), 0, -(w.top + w.bottom) / (w.top - w.bottom))
+        projection[2], projection[3] = (0, 0, -2 / (f - n), -(f + n) / (f - n)), (0, 0, 0, 1)
+    else:
+        projection[0] = (2 / (w.right - w.left), 0, (w.right + w.left) / (w.right - w.left), 0)
+        projection[1] = (0, 2 / (w.top - w.bottom), (w.top + w.bottom) / (w.top - w.bottom), 0)
+        projection[2] = (0, 0, -(f + n) / (f - n), -2 * f * n / (f - n))
+        projection[3] = (0, 0, -1, 0)
+    points = np.vstack((local, np.ones(local.shape[1])))
+    clip = times(projection, times(view, times(world_from_object, points)))
+    with np.errstate(divide="ignore", invalid="ignore"):  # behind the eye
+        x, y = (clip[:2] / clip[3] + F(1)) * F(0.5)
+    return x * F(camera.width), y * F(camera.height)
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("place", [0, 1, 1e2, 1e4, 1e6])
+def test_float32_stays_within_the_bound(make, orthographic, place, rng):
+    """Random objects, cameras and places: no vertex moves farther than the bound says."""
+    used = 0.0
+    for _ in range(40):
+        where = place * rng.normal(size=3)
+        eye = (where + rng.normal(size=3) * 5).astype(F)
+        camera = make.camera(
+            640,
+            360,
+            half=3.0 if orthographic else 0.4,
+            eye=eye,
+            target=where,
+            orthographic=orthographic,
+        )
+        camera = replace(camera, world_from_camera=camera.world_from_camera.astype(F))
+        matrix = np.eye(4)
+        matrix[:3, :3] = np.linalg.qr(rng.normal(size=(3, 3)))[0] * rng.uniform(0.2, 3, 3)
+        matrix[:3, 3] = where + rng.normal(size=3)
+        matrix = matrix.astype(F).astype(float)
+        local = rng.normal(size=(3, 300)).astype(F).astype(float)
+        world = transform_points(matrix, local)
+        x, y, depth = film_of(camera, world)
+        scene = Scene(
+            camera, (Mesh(local.T, [[0, 1, 2]]),), (Instance(0, 0, matrix),), objects=("A",)
+        )
+        bound = (
+            pixel_error(camera, depth, view_error(scene, world.T, np.zeros(300, int))) - SNAPPING
+        )
+        px, py = blenders_film(camera, matrix, local)
+        inside = (x > 0) & (x < 640) & (y > 0) & (y < 360) & (depth > camera.clip_start)
+        assert inside.any()
+        moved = np.maximum(np.abs(px - x), np.abs(py - y))[inside]
+        assert (moved <= bound[inside]).all()
+        used = max(used, float((moved / bound[inside]).max()))
+    assert used > 0.02  # not so wide that it would excuse anything
+
+
+def test_the_bound_grows_with_the_distance_from_the_origin(make):
+    bounds = []
+    for far in (0, 10, 1e3, 1e5, 1e7):
+        camera = make.camera(400, 300, eye=(far, 0, 0))
+        scene = make.scene(camera, make.quad(far - 1, far + 1, -1, 1, -5))
+        view = view_error(scene, np.array([[far, 0, -5.0]]), np.array([0]))
+        bounds.append(float(pixel_error(camera, np.array([5.0]), view)[0]))
+    assert (
+        SNAPPING < bounds[0] < 1.3 * SNAPPING and (np.diff(bounds) > 0).all() and bounds[-1] > 0.5
+    )
+
+
+def test_planes_have_a_place_too(make):
+    scene = make.scene(make.camera(), make.quad(-1, 1, -1, 1, -5))
+    scene = replace(scene, planes=(Plane(0, (1e6, 0, 0), (0, 0, 1)),))
+    near, far = view_error(scene, np.zeros((2, 3)), np.array([0, 1]))
+    assert far > 1e5 * U > near
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_depth_buffer_tells_apart_what_is_farther_than_the_resolution(make, orthographic, rng):
+    """A depth buffer of 24 bits, its values computed in float32."""
+    confused = 0
+    for _ in range(300):
+        near = 10.0 ** rng.uniform(-3, 0)
+        far = near * 10.0 ** rng.uniform(1, 5)
+        camera = make.camera(clip_start=near, clip_end=far, orthographic=orthographic)
+        depth = np.exp(rng.uniform(np.log(near), np.log(far), 200))
+        gap = depth_resolution(camera, depth, np.zeros(200))
+        first, second, close = (
+            buffer(camera, d, orthographic) for d in (depth, depth + gap, depth + 0.05 * gap)
+        )
+        inside = depth + gap < far
+        assert (second > first)[inside].all()
+        confused += int((close <= first)[inside].sum())
+    assert confused > 100  # the bound is not far from what such a buffer does
+
+
+def buffer(camera, depth, orthographic):
+    """Return depth buffer values, (n,) whole numbers."""
+    n, f, z = F(camera.clip_start), F(camera.clip_end), depth.astype(F)
+    if orthographic:
+        value = (F(2) / (f - n)) * z + -(f + n) / (f - n)
+    else:
+        value = ((f + n) / (f - n) * z + -(F(2) * f * n) / (f - n)) / z
+    return np.rint((value * F(0.5) + F(0.5)).astype(float) * (2**24 - 1))
+
+
+def test_errors_of_the_surfaces_add_to_the_resolution(make):
+    depth = np.array([2.0, 3.0])
+    camera = make.camera()
+    plain = depth_resolution(camera, depth, np.zeros(2))
+    assert np.allclose(depth_resolution(camera, depth, np.array([0.0, 0.5])) - plain, [0, 1])

@@ -1,0 +1,168 @@
+"""Counts, metrics and verdict of a comparison, and what of it JSON holds."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.comparison import (
+    EXIT_CODES,
+    SCHEMA,
+    SizeError,
+    compare,
+    trace_and_compare,
+)
+from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+BLENDER = {"version": "5.2.3", "source": "workbench", "sample_radius": 0.0, "settings": {}}
+PLAIN = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
+BOX = np.array([[-2.0, -2, -2.1], [0.1, 0.1, -2]])
+
+
+@pytest.fixture
+def scene(make):
+    """Return two squares before a background, one before the other."""
+    return make.scene(
+        make.camera(20, 16),
+        make.quad(-0.513, 0.4, -0.4, 0.411, -2),
+        make.quad(-9, 0.2, -9, 0.3, -3),
+    )
+
+
+def compared(scene, picture, manifest=PLAIN, frame=None):
+    frame = frame or render(scene)
+    return result_of(compare(scene, manifest, Settings(), frame, picture, BLENDER))
+
+
+def mixed(scene):
+    """Return a comparison of which one pixel in three is something else."""
+    picture = render(scene).color.copy()
+    picture.reshape(-1, 4)[::3] = 1
+    hair = Unmodelled("Hair", "hair", bounds=BOX)
+    return compared(scene, picture, replace(PLAIN, unmodelled=(hair,)))
+
+
+def test_counts_add_up(scene):
+    found = mixed(scene)
+    p = found.pixels
+    assert p["total"] == 320 == p["agree"] + p["differ"] + p["not_decidable"] + p["not_traced"]
+    assert p["differ"] == p["explained"] + p["unexplained"]
+    assert p["differ"] + p["not_decidable"] == sum(p["by_cause"].values())
+    assert p["by_cause"]["not_modelled"] > 10 and p["unexplained"] > 10
+    assert set(p["by_cause"]) == {
+        "edge",
+        "depth_tie",
+        "not_modelled",
+        "not_decidable",
+        "unexplained",
+    }
+    for name, n in p["by_cause"].items():
+        assert n == (found.causes.cause == Cause[name.upper()]).sum()
+
+
+def test_equal_pictures_agree(scene):
+    found = compared(scene, render(scene).color)
+    assert found.verdict == "agree" and EXIT_CODES[found.verdict] == 0
+    assert found.metrics == {
+        "rmse": 0,
+        "psnr": None,
+        "ssim": pytest.approx(1),
+        "largest_difference": {"value": 0, "pixel": [0, 0], "channel": 0},
+    }
+
+
+def test_verdicts(scene):
+    """Each from what leads to it; differences weigh more than warnings."""
+    picture = render(scene).color
+    glass = Unmodelled("Glass", "transparency", bounds=BOX)
+    torn = ObjectEntry("Torn", "MESH", True, left_out=1)
+    for manifest in (replace(PLAIN, unmodelled=(glass,)), replace(PLAIN, objects=(torn,))):
+        assert compared(scene, picture, manifest).verdict == "warnings"
+        assert compared(scene, picture[::-1].copy(), manifest).verdict == "differences"
+    assert mixed(scene).verdict == "differences"
+    assert [EXIT_CODES[v] for v in ("agree", "warnings", "differences")] == [0, 1, 2]
+
+
+def test_not_decidable_is_a_warning(make):
+    far = make.scene(
+        make.camera(8, 6, eye=(1e7, 1e7, 0)), make.quad(1e7 - 1, 1e7, 1e7 - 1, 1e7 + 1, -2)
+    )
+    found = compared(far, render(far).color)
+    assert found.verdict == "warnings" and found.pixels["not_decidable"] == 48
+
+
+def test_cancelled(scene):
+    frame = Frame.empty(scene.camera)
+    frame.cancelled = True
+    found = compared(scene, render(scene).color, frame=frame)
+    assert found.verdict == "cancelled" and EXIT_CODES["cancelled"] != 0
+    assert found.pixels["not_traced"] == found.pixels["total"]
+
+
+def test_metrics_find_the_largest_difference(scene):
+    picture = render(scene).color.copy()
+    picture[11, 7] += (0, 0.25, 0, 0)
+    found = compared(scene, picture).metrics
+    assert found["largest_difference"] == {
+        "value": pytest.approx(0.25),
+        "pixel": [7, 11],
+        "channel": 1,
+    }
+    assert found["rmse"] == pytest.approx(0.25 / np.sqrt(320 * 4))
+    assert found["psnr"] == pytest.approx(-20 * np.log10(found["rmse"]))
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e30])
+def test_json_is_strict_whatever_the_picture(scene, value):
+    picture = render(scene).color.copy()
+    picture[3, 4, 0] = value
+    found = compared(scene, picture)
+    again = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert again["verdict"] == "differences" and again["pixels"]["unexplained"] == 1
+
+
+def test_json_has_what_is_promised(scene):
+    found = mixed(scene)
+    held = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert held["schema"] == SCHEMA
+    assert set(held) == {"schema", "scene", "blender", "tracer", "pixels", "metrics", "verdict"}
+    assert held["blender"] == BLENDER and held["pixels"] == found.pixels
+    assert held["scene"]["unmodelled"][0]["object"] == "Hair"
+    tracer = held["tracer"]
+    assert (tracer["method"], tracer["precision"], tracer["samples"]) == ("textbook", "float64", 1)
+    assert tracer["triangles"] == 4 and tracer["pairs_tested"] > 0 and tracer["seconds"] >= 0
+    assert set(held["metrics"]) == {"rmse", "psnr", "ssim", "largest_difference"}
+
+
+def test_lines_say_the_verdict_and_every_cause(scene):
+    found = mixed(scene)
+    text = "\n".join(found.lines())
+    assert f"{found.pixels['agree']} of 320 pixels agree" in text
+    assert f"unexplained: {found.pixels['unexplained']}" in text
+    assert f"not modelled: {found.pixels['by_cause']['not_modelled']}" in text
+    assert "verdict: differences" in text and "workbench" in text
+    assert "PSNR infinite" in "\n".join(compared(scene, render(scene).color).lines())
+
+
+@pytest.mark.parametrize("shape", [(16, 21, 4), (20, 16, 4), (16, 20, 3)])
+def test_sizes_must_match(scene, shape):
+    with pytest.raises(SizeError, match=f"{shape[1]} x {shape[0]}.*20 x 16"):
+        compared(scene, np.zeros(shape, np.float32))
+
+
+def test_tracing_and_comparing_in_one(scene):
+    shares = []
+    picture = render(scene).color[::-1].copy()
+    work = trace_and_compare(scene, PLAIN, Settings(), picture, BLENDER)
+    found = result_of(work, shares.append)
+    assert (np.diff(shares) >= 0).all() and 0 <= shares[0] < 0.5 < shares[-1] <= 1
+    apart = compared(scene, picture)
+    assert np.array_equal(found.frame.color, apart.frame.color)
+    assert np.array_equal(found.causes.cause, apart.causes.cause)

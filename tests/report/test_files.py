@@ -1,0 +1,152 @@
+"""The folder that a comparison leaves: pictures the right way up, arrays whole, strict JSON."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.comparison import SCHEMA, compare
+from reference_tracer.images import save_png, to_display
+from reference_tracer.manifest import Manifest
+from reference_tracer.report.files import write, write_failure
+from reference_tracer.report.pictures import CAUSE_COLORS, difference
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+NAMES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "traced.png"]
+
+
+@pytest.fixture
+def compared(make):
+    """Return what compares a square at the lower left with what `change` makes of it."""
+    camera = make.camera(12, 9, half=4.5, orthographic=True, eye=(6, 4.5, 0))
+    scene = make.scene(camera, make.quad(0, 4, 0, 2, -2), background=(0, 0, 0, 1))
+    manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
+    blender = {"version": "5.2.3", "source": "workbench"}
+
+    def made(change):
+        frame = render(scene)
+        picture = frame.color.copy()
+        change(picture)
+        return result_of(compare(scene, manifest, Settings(), frame, picture, blender))
+
+    return made
+
+
+@pytest.fixture
+def comparison(compared):
+    """Return one of which Blender shows another square at the upper right."""
+
+    def change(picture):
+        picture[7:, 9:] = (0, 1, 0, 1)
+
+    return compared(change)
+
+
+@pytest.fixture
+def folder(comparison, tmp_path):
+    write(tmp_path / "new" / "out", comparison, save_png)
+    return tmp_path / "new" / "out"
+
+
+def png(folder, name):
+    """Return a picture with row 0 at the bottom."""
+    return np.asarray(Image.open(folder / name))[::-1]
+
+
+def test_everything_is_there(folder):
+    assert sorted(p.name for p in folder.iterdir()) == NAMES
+
+
+def test_pictures_are_the_right_way_up(folder, comparison):
+    traced, blender, causes = (
+        png(folder, n) for n in ("traced.png", "blender.png", "difference.png")
+    )
+    assert np.array_equal(traced, to_display(comparison.frame.color))
+    lit = traced[..., :3].any(axis=-1)
+    assert lit[:2, :4].all() and lit.sum() == 8
+    assert (blender[7:, 9:] == (0, 255, 0, 255)).all()
+    assert (causes[7:, 9:] == (255, 0, 0, 255)).all()  # unexplained
+    assert (causes[2:7, :, 0] == 0).all() and (causes[..., 3] == 255).all()
+    assert 0 < causes[0, 0, 0] < traced[0, 0, 0]  # what agrees is dimmed
+
+
+def test_arrays_are_whole(folder, comparison):
+    with np.load(folder / "frame.npz", allow_pickle=False) as stored:
+        held = dict(stored)
+    for name, values in comparison.frame.passes().items():
+        assert held[name].dtype == values.dtype and np.array_equal(held[name], values), name
+    assert np.array_equal(held["blender"], comparison.picture)
+    assert np.array_equal(held["cause"], comparison.causes.cause)
+    assert np.array_equal(held["cause_figure"], comparison.causes.figure, equal_nan=True)
+    assert np.array_equal(held["cause_allowed"], comparison.causes.allowed, equal_nan=True)
+
+
+def strict(folder):
+    def refuse(name):
+        pytest.fail(f"{name} is no JSON")
+
+    text = (folder / "comparison.json").read_text(encoding="utf-8")
+    return json.loads(text, parse_constant=refuse)
+
+
+def test_json(folder, comparison):
+    held = strict(folder)
+    assert held["schema"] == SCHEMA and held["verdict"] == "differences"
+    assert held["pixels"]["unexplained"] == 6 and held["pixels"]["total"] == 108
+    assert held["tracer"]["method"] == "textbook"
+
+
+def test_json_of_a_picture_that_is_not_finite(compared, tmp_path):
+    def change(picture):
+        picture[0, 0], picture[0, 1] = np.nan, np.inf
+
+    write(tmp_path, compared(change), save_png)
+    assert strict(tmp_path)["metrics"]["largest_difference"]["value"] > 0
+    assert sorted(p.name for p in tmp_path.iterdir()) == NAMES
+
+
+def test_writing_again_replaces(folder, compared):
+    write(folder, compared(lambda picture: None), save_png)
+    assert strict(folder)["verdict"] == "agree"
+    assert np.array_equal(png(folder, "blender.png"), png(folder, "traced.png"))
+    assert sorted(p.name for p in folder.iterdir()) == NAMES
+
+
+def test_a_failure_is_json_too(tmp_path):
+    write_failure(tmp_path / "out", SceneError("Camera 'Käm' is \"panoramic\"\nsecond line"))
+    held = strict(tmp_path / "out")
+    assert held == {
+        "schema": SCHEMA,
+        "verdict": "failed",
+        "error": {"type": "SceneError", "message": "Camera 'Käm' is \"panoramic\"\nsecond line"},
+    }
+
+
+def test_a_failure_leaves_no_older_pictures(folder):
+    """Else they would pass for those of the run that failed."""
+    write_failure(folder, SceneError("no camera"))
+    assert strict(folder)["verdict"] == "failed"
+    assert sorted(p.name for p in folder.iterdir()) == ["comparison.json"]
+
+
+def test_a_folder_that_cannot_be_written(comparison, tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(OSError, match="file"):
+        write(tmp_path / "file", comparison, save_png)
+
+
+def test_every_cause_has_a_colour_of_its_own(comparison):
+    assert set(CAUSE_COLORS) == set(Cause) - {Cause.AGREE}
+    shown = set()
+    for cause in CAUSE_COLORS:
+        comparison.causes.cause[...] = cause
+        picture = difference(comparison)
+        assert picture.shape == (9, 12, 4) and picture.dtype == np.float32
+        shown.add(tuple(np.round(picture[5, 5], 3)))
+    assert len(shown) == len(CAUSE_COLORS)
