@@ -60,14 +60,24 @@ def _emission(material: Any, scene: Any) -> None:
     elif shading.color_type == "OBJECT":
         tree.links.new(_attribute(tree, "OBJECT", "color").outputs["Color"], color)
     elif shading.color_type == "VERTEX":
-        without = (
-            _material_color(tree, scene)
-            if WITHOUT_ATTRIBUTE == "MATERIAL"
-            else _attribute(tree, "OBJECT", "color").outputs["Color"]
-        )
-        tree.links.new(_where_found(tree, tree.nodes.new("ShaderNodeVertexColor"), without), color)
+        tree.links.new(_vertex_color(tree, scene), color)
     else:
         tree.links.new(_material_color(tree, scene), color)
+
+
+def _vertex_color(tree: Any, scene: Any) -> Any:
+    """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
+    found = (
+        _material_color(tree, scene)
+        if WITHOUT_ATTRIBUTE == "MATERIAL"
+        else _attribute(tree, "OBJECT", "color").outputs["Color"]
+    )
+    # By name: Cycles itself would take the one that is active for renders.
+    for name in sorted({m.color_attributes.active_color_name for m in bpy.data.meshes} - {""}):
+        node = tree.nodes.new("ShaderNodeVertexColor")  # alpha 0 where a mesh has none of this name
+        node.layer_name = name
+        found = _where_found(tree, node, found)
+    return found
 
 
 def _material_color(tree: Any, scene: Any) -> Any:

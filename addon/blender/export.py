@@ -66,8 +66,12 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
     for item in depsgraph.object_instances:
         obj = item.object
         name = obj.original.name_full
-        entry = seen.setdefault(name, _Seen(obj.original.type))
         matrix = np.array(item.matrix_world, dtype=np.float64)
+        # The depsgraph hands out what only the eye of a collection hides.
+        owner = (item.parent if item.is_instance else obj).original
+        if viewport and not owner.visible_get(view_layer=depsgraph.view_layer):
+            continue
+        entry = seen.setdefault(name, _Seen(obj.original.type))
         if not item.show_self:
             continue
         finite = np.isfinite(matrix).all()

@@ -84,7 +84,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
     scene : Scene
         What was exported from it.
     """
-    sources = {o.name_full: o for o in tmp.objects}
+    sources = {o.name_full: o for o in bpy.data.objects}
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     collections: list[Any] = []
     objects: list[Any] = []

@@ -28,15 +28,22 @@ _DRAWN_OTHERWISE = {
 def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
     corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
-    hair = max(
-        (
-            p.settings.hair_length
-            for p in getattr(obj, "particle_systems", ())
-            if p.settings.type == "HAIR"
-        ),
-        default=0.0,
-    )
-    return np.stack((corners[:, :3].min(axis=0) - hair, corners[:, :3].max(axis=0) + hair))
+    reach = max(_reaches(obj), default=0.0)
+    return np.stack((corners[:, :3].min(axis=0) - reach, corners[:, :3].max(axis=0) + reach))
+
+
+def _reaches(obj: Any) -> Iterator[float]:
+    """Yield how far beyond its own box an object is drawn, in metres."""
+    for system in getattr(obj, "particle_systems", ()):
+        if system.settings.type == "HAIR":
+            yield system.settings.hair_length
+    if obj.type in ("GREASEPENCIL", "GPENCIL"):
+        for layer in obj.data.layers:
+            for frame in layer.frames:
+                if obj.type == "GPENCIL":  # up to 4.2: a width in thousandths
+                    yield from (s.line_width * obj.data.pixel_factor / 1000 for s in frame.strokes)
+                elif "radius" in frame.drawing.attributes:
+                    yield from (v.value for v in frame.drawing.attributes["radius"].data)
 
 
 def of_object(obj: Any, matrix: Any, shading: Any, viewport: bool) -> Iterator[Unmodelled]:

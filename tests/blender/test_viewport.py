@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import viewport
 from reference_tracer.blender.camera import export_camera
+from reference_tracer.compare.comparison import SizeError
 from reference_tracer.blender.temporary import temporary_scene
 
 from .scenes import HALF_FLOAT
@@ -137,7 +138,7 @@ def test_a_picture_of_another_size_is_an_error(scene):
     with temporary_scene(scene) as copy:
         viewport.prepare(copy, True)
         copy.render.resolution_x = 64
-        with pytest.raises(RuntimeError, match="64 x 54 pixels, the camera's region 96 x 54"):
+        with pytest.raises(SizeError, match="64 x 54 pixels, the camera's region 96 x 54"):
             viewport.picture(copy, bpy.context.view_layer.name, "workbench", camera, True)
 
 
