@@ -124,7 +124,7 @@ def _depth_ties(
     """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart."""
     seen = first.instance != NOTHING
     view = np.full(len(first.t), np.inf)
-    view[seen] = view_error(scene, probe.points(first)[seen], first.instance[seen])
+    view[seen] = view_error(scene, first.take(seen), probe.points(first)[seen])
     allowed = np.where(seen, depth_resolution(scene.camera, np.where(seen, first.t, 0), view), -1.0)
     hits, shown = first, picture[wanted]
     for _ in range(LAYERS):

@@ -11,14 +11,17 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
+from ..tracer.vector import transform_points
+from ..tracer.visibility import Hits
 
 U = 2.0**-24
 SNAPPING = 1 / 256  # pixels: rasterisers keep eight bits of a vertex' position below the pixel
 
 # A vertex goes through three float32 products: model, view, projection. Of each component the
-# model's has 4 roundings of terms whose absolute values sum up to S = |T| + 3 |p - T| at most (T
-# the object's position, p the point; 3 bounds the sum over a rotation's entries); the view's has
-# 4, and its matrix was inverted in float32 (8 more), of terms up to |p| + |o|.
+# model's has 4 roundings of terms whose absolute values sum up to |M| |v|; the view's has 4, and
+# its matrix was inverted in float32 (8 more), of terms up to |p| + |o|. (p is the vertex in world
+# space, v in its object's, o the camera; norms are sums of absolute values.) What a point of a
+# triangle is off by is what its corners are off by, weighed by its barycentrics.
 _MODEL, _VIEW = 4, 12
 # The projection rounds a film position a few times more, and so does the division by w.
 _FILM = 4
@@ -26,25 +29,46 @@ _FILM = 4
 _DEPTH_STEPS = 5
 
 
-def view_error(
-    scene: Scene, positions: NDArray, instances: NDArray[np.integer]
-) -> NDArray[np.float64]:
-    """Return how far float32 may move a point in camera space, (n,) metres.
+def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far float32 may move what n rays hit in camera space, (n,) metres.
 
     Parameters
     ----------
     scene : Scene
+    hits : Hits
+        Each of something. Of an infinite plane Blender draws a polygon whose corners are stored
+        around the camera, and their error is taken to grow with the distance from it.
     positions : (n, 3) float64
-        World space.
-    instances : (n,) int
-        Whose points they are; planes come after the instances.
+        Where they lie, in world space.
     """
-    origins = [i.world_from_object[:3, 3] for i in scene.instances]
-    origins += [p.point for p in scene.planes]
-    own = np.array(origins).reshape(-1, 3)[instances]
-    p = np.abs(positions).sum(axis=1)
-    model = np.abs(own).sum(axis=1) + 3 * np.linalg.norm(positions - own, axis=1)
-    return U * (_MODEL * model + _VIEW * (p + np.abs(scene.camera.origin).sum()))
+    eye = scene.camera.origin
+    far = np.abs(positions - eye).sum(axis=1)
+    error = _MODEL * (np.abs(eye).sum() + far) + _VIEW * (2 * np.abs(eye).sum() + far)
+    on_mesh = np.flatnonzero(hits.instance < len(scene.instances))
+    keys = np.stack((hits.instance[on_mesh], hits.triangle[on_mesh]))
+    # Pixels outnumber triangles, mostly: each triangle's corners are looked at once.
+    (instance, triangle), which = np.unique(keys, axis=1, return_inverse=True)
+    matrices = scene.instance_matrices[..., instance]
+    for corner in range(3):
+        v = _corners(scene, instance, triangle, corner)
+        p = np.abs(transform_points(matrices, v)).sum(axis=0)
+        model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
+        own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
+        share = hits.s[corner, on_mesh] * own[which.reshape(-1)]
+        error[on_mesh] = share if corner == 0 else error[on_mesh] + share
+    return U * error
+
+
+def _corners(
+    scene: Scene, instance: NDArray, triangle: NDArray, corner: int
+) -> NDArray[np.float64]:
+    """Return one corner of each triangle in its object's space, (3, n)."""
+    out = np.empty((3, len(triangle)))
+    meshes = scene.instance_meshes[instance]
+    for index in np.unique(meshes):
+        mesh, own = scene.meshes[index], meshes == index
+        out[:, own] = mesh.vertices[mesh.triangles[triangle[own], corner]].T
+    return out
 
 
 def pixel_error(

@@ -10,8 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 # Blender hands its viewport's colours over as half floats, 11 bits, and cuts off rather than
 # rounds: 1 reads 0.9995. Next to an edge a window copies them once more, and up to three units in
-# the last place are missing (measured in 4.3). Values are at most 1; four units are allowed.
+# the last place are missing (measured in 4.3). Four units of the value are allowed; below the least
+# normal half float, 2^-14, of that.
 TOLERANCE = 4 * 2.0**-11
+LEAST = 2.0**-14
 
 
 class Cause(IntEnum):
@@ -73,6 +75,10 @@ class Settler:
 def differing(first: NDArray, second: NDArray) -> NDArray[np.bool_]:
     """Return which pixels of two (..., c) pictures differ by more than TOLERANCE in a channel.
 
-    What is not a number differs from everything.
+    The tolerance is a share of the larger value. What is not finite differs from everything.
     """
-    return ~(np.abs(first.astype(np.float64) - second) <= TOLERANCE).all(axis=-1)
+    first, second = first.astype(np.float64), second.astype(np.float64)
+    with np.errstate(invalid="ignore"):
+        size = np.maximum(np.maximum(np.abs(first), np.abs(second)), LEAST)
+        same = (np.abs(first - second) <= TOLERANCE * size) & np.isfinite(size)
+        return ~same.all(axis=-1)

@@ -18,7 +18,7 @@ from ..tracer.camera import pixel_size, project
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import tiles
-from ..tracer.visibility import NOTHING
+from ..tracer.visibility import NOTHING, Hits
 from .again import look_again
 from .bounds import SNAPPING, pixel_error, view_error
 from .cause import Cause, Causes, Settler, differing
@@ -77,8 +77,8 @@ def find_causes(
 def sample_band(scene: Scene, frame: Frame) -> NDArray[np.float64]:
     """Return how far from each pixel's centre Blender's sample may lie, (h, w) pixels.
 
-    It is that of the surfaces in the 3 x 3 pixels around, the largest. Where there is none, Blender
-    may still show one that float32 moved there: then it is the largest of the picture.
+    It is the largest of the surfaces seen in the 3 x 3 pixels around, and of those farther off that
+    float32 may move as far as this.
     """
     return result_of(_sample_band(scene, frame, [slice(None)]))
 
@@ -88,18 +88,41 @@ def _sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDAr
     own = np.zeros(frame.t.shape)  # of the surface that the pixel itself shows
     for number, rows in enumerate(all_rows):
         seen = frame.instance_index[rows] != NOTHING
-        view = view_error(scene, frame.position[rows][seen], frame.instance_index[rows][seen])
-        own[rows][seen] = pixel_error(scene.camera, frame.t[rows][seen], view)
+        hits = Hits(
+            frame.t[rows][seen],
+            frame.instance_index[rows][seen],
+            frame.triangle_index[rows][seen],
+            frame.barycentrics[rows][seen].T,
+        )
+        view = view_error(scene, hits, frame.position[rows][seen])
+        own[rows][seen] = pixel_error(scene.camera, hits.t, view)
         yield number / len(all_rows)
-    largest = max(SNAPPING, float(own.max()))
-    band = own.copy()
-    for first, second in ((band[1:], own[:-1]), (band[:-1], own[1:])):
-        np.maximum(first, second, out=first)
-    own = band.copy()
-    for first, second in ((band[:, 1:], own[:, :-1]), (band[:, :-1], own[:, 1:])):
-        np.maximum(first, second, out=first)
-    band[band == 0] = largest
-    return band
+    band = np.full(own.shape, SNAPPING)
+    reach, most = 1, max(own.shape)
+    while True:
+        # Those that reach so far, but not to half of it: they were looked at before.
+        ring = (own > reach / 2 if reach > 1 else own > 0) & ((own <= reach) | (reach >= most))
+        if ring.any():
+            np.maximum(band, _largest_within(np.where(ring, own, 0.0), reach), out=band)
+        yield 1.0
+        if reach >= most:
+            return band
+        reach *= 2
+
+
+def _largest_within(values: NDArray[np.float64], reach: int) -> NDArray[np.float64]:
+    """Return the largest value at most `reach` rows and columns away."""
+    for axis in (0, 1):
+        values = np.moveaxis(values, axis, 0).copy()
+        done = 0  # so far away has been looked
+        while done < min(reach, len(values)):
+            step = min(max(done, 1), reach - done)
+            before = values.copy()
+            np.maximum(values[step:], before[:-step], out=values[step:])
+            np.maximum(values[:-step], before[step:], out=values[:-step])
+            done += step
+        values = np.moveaxis(values, 0, axis)
+    return values
 
 
 def covered(camera: Camera, bounds: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -57,6 +57,16 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
         assert found["verdict"] == "agree"
 
 
+@pytest.mark.parametrize(
+    ("name", "width"),
+    [("exercise_orthographic", 71), ("exercise_orthographic", 135), ("shifted_room", 80)],
+)
+def test_the_edge_of_a_solid_that_stands_on_another(name, width, opened, compare):
+    """Within a sample's error of the edge, the solid's underside lies as near as what it is on."""
+    opened(name, width)
+    assert compare().verdict == "agree"
+
+
 @pytest.mark.parametrize("name", ["exercise_plane", "text_and_curves"])
 def test_files_hold_what_was_compared(name, opened, compare, tmp_path, workbench):
     opened(name, 96)

@@ -171,7 +171,7 @@ class Original:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_every_fault_is_found_and_only_a_fault(name, opened):
-    opened(name, 80)
+    opened(name, 100)
     original = Original(bpy.context)
     assert original.comparison.verdict == "agree"
     found = {}

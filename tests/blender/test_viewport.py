@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from reference_tracer.blender import viewport
 from reference_tracer.blender.camera import export_camera
-from reference_tracer.compare.comparison import SizeError
 from reference_tracer.blender.temporary import temporary_scene
+from reference_tracer.compare.comparison import SizeError
 
 from .scenes import HALF_FLOAT
 

@@ -10,6 +10,7 @@ from reference_tracer.compare.bounds import SNAPPING, U, depth_resolution, pixel
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.vector import transform_points
+from reference_tracer.tracer.visibility import Hits
 
 F = np.float32
 
@@ -42,6 +43,12 @@ def blenders_film(camera, world_from_object, local):
     return x * F(camera.width), y * F(camera.height)
 
 
+def corner_hits(count):
+    """Hits of `count` corners in turn: of triangle k its three."""
+    index = np.arange(count)
+    return Hits(np.ones(count), 0 * index, index // 3, np.eye(3)[index % 3].T)
+
+
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("place", [0, 1, 1e2, 1e4, 1e6])
 def test_float32_stays_within_the_bound(make, orthographic, place, rng):
@@ -66,11 +73,10 @@ def test_float32_stays_within_the_bound(make, orthographic, place, rng):
         local = rng.normal(size=(3, 300)).astype(F).astype(float)
         world = transform_points(matrix, local)
         x, y, depth = film_of(camera, world)
-        scene = Scene(
-            camera, (Mesh(local.T, [[0, 1, 2]]),), (Instance(0, 0, matrix),), objects=("A",)
-        )
+        corners = np.arange(300).reshape(100, 3)
+        scene = Scene(camera, (Mesh(local.T, corners),), (Instance(0, 0, matrix),), objects=("A",))
         bound = (
-            pixel_error(camera, depth, view_error(scene, world.T, np.zeros(300, int))) - SNAPPING
+            pixel_error(camera, depth, view_error(scene, corner_hits(300), world.T)) - SNAPPING
         )
         px, py = blenders_film(camera, matrix, local)
         inside = (x > 0) & (x < 640) & (y > 0) & (y < 360) & (depth > camera.clip_start)
@@ -86,7 +92,7 @@ def test_the_bound_grows_with_the_distance_from_the_origin(make):
     for far in (0, 10, 1e3, 1e5, 1e7):
         camera = make.camera(400, 300, eye=(far, 0, 0))
         scene = make.scene(camera, make.quad(far - 1, far + 1, -1, 1, -5))
-        view = view_error(scene, np.array([[far, 0, -5.0]]), np.array([0]))
+        view = view_error(scene, corner_hits(1), np.array([[far - 1, -1, -5.0]]))
         bounds.append(float(pixel_error(camera, np.array([5.0]), view)[0]))
     assert (
         SNAPPING < bounds[0] < 1.3 * SNAPPING and (np.diff(bounds) > 0).all() and bounds[-1] > 0.5
@@ -96,8 +102,16 @@ def test_the_bound_grows_with_the_distance_from_the_origin(make):
 def test_planes_have_a_place_too(make):
     scene = make.scene(make.camera(), make.quad(-1, 1, -1, 1, -5))
     scene = replace(scene, planes=(Plane(0, (1e6, 0, 0), (0, 0, 1)),))
-    near, far = view_error(scene, np.zeros((2, 3)), np.array([0, 1]))
-    assert far > 1e5 * U > near
+    hits = Hits(np.full(2, 5.0), np.array([1, 1]), np.array([-1, -1]), np.zeros((3, 2)))
+    near, far = view_error(scene, hits, np.array([[0, 0, -5.0], [1e6, 0, 0]]))
+    assert far > 1e5 * U > near > 0
+
+
+def test_the_middle_of_a_triangle_carries_its_corners_errors(make):
+    """A triangle from 1 000 km away that passes close by is where its far corners put it."""
+    scene = make.scene(make.camera(), make.quad(-1e6, 1e6, -1e6, 1e6, -5))
+    hits = Hits(np.full(1, 5.0), np.array([0]), np.array([0]), np.array([[0.5], [0.0], [0.5]]))
+    assert view_error(scene, hits, np.array([[0.0, 0, -5]]))[0] > 1e6 * U
 
 
 @pytest.mark.parametrize("orthographic", [False, True])

@@ -10,15 +10,24 @@ WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def test_half_float_colours_agree(room, explained):
-    cut = render(room).color.astype(np.float16).astype(np.float32) - 2.0**-11
-    assert (explained(room, cut).cause == Cause.AGREE).all()
-    assert (explained(room, cut - 2 * TOLERANCE).cause != Cause.AGREE).all()
+    """Cut off at eleven bits, with two units in the last place missing; not with twice as many."""
+    traced = render(room).color
+    cut = traced.astype(np.float16).astype(np.float32)
+    assert (explained(room, cut * (1 - 2.0**-10)).cause == Cause.AGREE).all()
+    assert (explained(room, cut * (1 - 2 * TOLERANCE)).cause != Cause.AGREE).all()
+
+
+def test_dark_colours_are_told_apart():
+    """The tolerance is a share of the value: near black, too, one colour is not another."""
+    dark, darker = np.full((1, 1, 4), 0.0019), np.full((1, 1, 4), 0.0002)
+    assert differing(dark, darker).all()
+    assert not differing(dark * 1e3, dark * 1e3 * (1 - TOLERANCE / 2)).any()
 
 
 def test_differing_is_symmetric_and_strict(rng):
-    first = rng.random((5, 6, 4)).astype(np.float32)
-    second = first + rng.choice([0, 0.9 * TOLERANCE, 1.1 * TOLERANCE], first.shape)
-    expected = (np.abs(first - second) > TOLERANCE).any(axis=-1)
+    first = 3 * rng.random((5, 6, 4)).astype(np.float32)
+    second = first * (1 - rng.choice([0, 0.9 * TOLERANCE, 1.1 * TOLERANCE], first.shape))
+    expected = (np.abs(first - second) > TOLERANCE * first).any(axis=-1)
     assert 0 < expected.sum() < 30
     assert np.array_equal(differing(first, second), expected)
     assert np.array_equal(differing(second, first), expected)
