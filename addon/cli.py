@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import argparse
 import sys
+import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from .arguments import (
     add_settings,
     settings_from,
 )
+from .report import files
 from .scene import Camera, Scene, SceneError, ViewWindow, check_size
 from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, save_scene, scene_of_meshes
 from .tracer.render import render
@@ -37,7 +39,10 @@ def main(argv: list[str] | None = None) -> int:
         return options.run(options)
     except (SceneError, OSError, images.MissingLibraryError) as error:
         print(f"reftrace: {error}", file=sys.stderr)
-        return INPUT_ERROR
+    except Exception as error:  # Python's own exit code for it, 1, means warnings here
+        traceback.print_exc()
+        print(f"reftrace: {type(error).__name__}: {error}", file=sys.stderr)
+    return INPUT_ERROR
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -100,6 +105,7 @@ def _parser() -> argparse.ArgumentParser:
         sources,
     )
     _add_camera(sub, width=160, height=90)
+    sub.set_defaults(heard=("width",))
 
     sub = command(
         "export",
@@ -126,14 +132,12 @@ def _add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int =
         type=float,
         nargs=3,
         metavar=("X", "Y", "Z"),
-        default=(0, 0, 0),
         help="where it looks (default the origin); Z is up",
     )
     group.add_argument(
         "--angle",
         type=float,
         metavar="DEGREES",
-        default=50.0,
         help="vertical angle of view (default 50)",
     )
     group.add_argument(
@@ -142,16 +146,18 @@ def _add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int =
         metavar="METRES",
         help="height of the picture of an orthographic camera, in place of --angle",
     )
-    parser.set_defaults(default_size=(width, height))
+    parser.set_defaults(default_size=(width, height), heard=())
 
 
 def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | None:
-    if options.eye is None:
-        return None
     check_size(width, height)
-    if not 0 < options.angle < 180:
-        raise SceneError(f"--angle is {options.angle:g}; it must be between 0 and 180 degrees.")
-    eye, target = np.array(options.eye), np.array(options.target, float)
+    if options.eye is None:
+        _refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
+        return None
+    angle = 50.0 if options.angle is None else options.angle
+    if not 0 < angle < 180:
+        raise SceneError(f"--angle is {angle:g}; it must be between 0 and 180 degrees.")
+    eye, target = np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0))
     backward = eye - target
     up = np.array((0.0, 1.0, 0.0) if not backward[:2].any() else (0.0, 0.0, 1.0))
     right = np.cross(up, backward)
@@ -166,7 +172,7 @@ def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | No
         raise SceneError(
             f"--ortho-scale is {options.ortho_scale:g} (orthographic scale); it must be above 0."
         )
-    half = options.ortho_scale / 2 if orthographic else np.tan(np.radians(options.angle) / 2)
+    half = options.ortho_scale / 2 if orthographic else np.tan(np.radians(angle) / 2)
     distance = float(np.linalg.norm(backward))
     return Camera(
         matrix,
@@ -180,12 +186,22 @@ def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | No
     )
 
 
+def _refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
+    """Raise a SceneError for an option that would not be heard."""
+    for name in names:
+        if getattr(options, name, None) is not None:
+            raise SceneError(f"--{name.replace('_', '-')} {why}")
+
+
 def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
     """Return the scene of a file, with the settings that it stores."""
     path = options.scene
     if not path.is_file():
         raise SceneError(f"there is no file '{path}'")
     suffix = path.suffix.lower()
+    if suffix not in MESH_SUFFIXES:
+        own = {"width", "height", "eye", "target", "angle", "ortho_scale"} - set(options.heard)
+        _refuse(options, tuple(sorted(own)), f"is for meshes: '{path}' has its own camera")
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
@@ -230,13 +246,18 @@ def _open_blend(path: Path) -> Iterator[Any]:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    if options.scene.suffix.lower() != ".blend":
-        raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
-    with _open_blend(options.scene):
-        from .blender.commands import compare_open_file
+    try:
+        if options.scene.suffix.lower() != ".blend":
+            raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
+        with _open_blend(options.scene):
+            from .blender.commands import compare_open_file
 
-        with _progress() as progress:
-            return compare_open_file(options, progress)
+            with _progress() as progress:
+                return compare_open_file(options, progress)
+    except (SceneError, OSError) as error:
+        with suppress(OSError):
+            files.write_failure(options.out, error)
+        raise
 
 
 def _trace(options: argparse.Namespace) -> int:
@@ -282,6 +303,7 @@ def _export(options: argparse.Namespace) -> int:
         raise SceneError(f"'{options.out}' must end in .npz")
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
+    options.heard = ()
     scene, _ = _load(options)
     options.out.parent.mkdir(parents=True, exist_ok=True)
     save_scene(options.out, scene)

@@ -20,12 +20,13 @@ class ObjectEntry:
     type: str
     exported: bool
     reason: str = ""
-    triangles: int = 0
+    triangles: int = 0  # of its meshes
     vertices: int = 0
     instances: int = 0
+    traced_triangles: int = 0  # over all instances
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
-    diagnosis: dict[str, Any] | None = None  # see scene_files.diagnose
+    diagnosis: dict[str, Any] | None = None  # see scene_files.diagnose and merged
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +80,7 @@ class Manifest:
     def lines(self) -> list[str]:
         """Return the manifest as a person reads it, a fact a line."""
         exported = [e for e in self.objects if e.exported]
-        total = sum(e.triangles * e.instances for e in exported)
+        total = sum(e.traced_triangles for e in exported)
         out = [
             f"{len(exported)} of {len(self.objects)} objects exported, {total:,} triangles, "
             f"{self.evaluation.lower()} evaluation, camera '{self.camera}'"

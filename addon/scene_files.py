@@ -49,6 +49,18 @@ def diagnose(mesh: Mesh) -> dict[str, Any]:
     }
 
 
+def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:
+    """Return the diagnosis of several meshes as one: closed if all are, and so on."""
+    if not diagnoses:
+        return None
+    return {
+        key: all(d[key] for d in diagnoses)
+        if isinstance(value, bool)
+        else sum(d[key] for d in diagnoses)
+        for key, value in diagnoses[0].items()
+    }
+
+
 def save_scene(path: str | Path, scene: Scene) -> None:
     """Write a scene to a compressed .npz."""
     camera = asdict(scene.camera) | {"world_from_camera": scene.camera.world_from_camera.tolist()}

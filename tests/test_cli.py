@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import OpenEXR
 import pytest
@@ -158,12 +160,33 @@ def test_bad_input_is_named_and_nothing_is_written(case, ball, tmp_path, capsys,
     assert sorted(tmp_path.rglob("*")) == before
 
 
-@pytest.mark.parametrize("command", [["compare", "ball.ply"], ["export", "ball.ply"]])
+@pytest.mark.parametrize("command", ["compare", "export"])
 def test_only_a_blend_is_compared_or_exported(command, ball, tmp_path, capsys, monkeypatch):
+    """A comparison that fails says so in its folder, too."""
     monkeypatch.chdir(tmp_path)
-    assert main([*command, "--out", "out.npz"]) == INPUT_ERROR
+    assert main([command, "ball.ply", "--out", "out.npz"]) == INPUT_ERROR
     assert "ball.ply" in capsys.readouterr().err
-    assert [p.name for p in tmp_path.iterdir()] == ["ball.ply"]
+    written = [p for p in tmp_path.rglob("*") if p.is_file() and p != ball]
+    assert [p.name for p in written] == (["comparison.json"] if command == "compare" else [])
+    for path in written:
+        held = json.loads(path.read_text(encoding="utf-8"))
+        assert held["verdict"] == "failed" and "ball.ply" in held["error"]["message"]
+
+
+@pytest.mark.parametrize(
+    "options, word",
+    [
+        (["--width", "40"], "--width"),
+        (["--eye", "0", "0", "9"], "--eye"),
+        (["--angle", "9"], "--angle"),
+    ],
+)
+def test_options_that_would_not_be_heard_are_refused(options, word, make, tmp_path, capsys):
+    """A scene has a camera of its own."""
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
+    trace = ["trace", str(tmp_path / "s.npz"), "--out", str(tmp_path / "s.png"), *options]
+    assert main(trace) == INPUT_ERROR
+    assert word in capsys.readouterr().err and not (tmp_path / "s.png").exists()
 
 
 @pytest.mark.parametrize("command", ["", "compare", "trace", "trade", "export"])

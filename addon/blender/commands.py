@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import traceback
+from contextlib import suppress
 from typing import Any
 
 import bpy
@@ -19,6 +20,7 @@ from ..arguments import (
 )
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import SizeError
+from ..report import files
 from ..scene import SceneError
 from .compare import compare_to_folder
 
@@ -45,12 +47,10 @@ def run(argv: list[str]) -> int:
     except SystemExit as stop:
         return int(stop.code or 0)
     if not bpy.data.filepath:
-        print(
-            "reference_tracer: no file is open (is its name right?): name a .blend before "
-            "--command",
-            file=sys.stderr,
+        return failed(
+            SceneError("no file is open (is its name right?): name a .blend before --command"),
+            options.out,
         )
-        return INPUT_ERROR
     return compare_open_file(options)
 
 
@@ -72,17 +72,20 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
             judge=options.judge.upper() if options.judge else None,
             as_is=options.as_is or None,
         )
-    except SizeError as error:
-        print(f"reference_tracer: {error}", file=sys.stderr)
-        return SIZES_DIFFER
-    except (SceneError, OSError) as error:
-        print(f"reference_tracer: {error}", file=sys.stderr)
-        return INPUT_ERROR
-    except Exception:
-        traceback.print_exc()
-        return INPUT_ERROR
+    except Exception as error:
+        return failed(error, options.out)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     return VERDICT_CODES[comparison.verdict]
+
+
+def failed(error: Exception, directory: str) -> int:
+    """Say what went wrong, in words and in the folder's JSON; returns the exit code."""
+    if not isinstance(error, (SizeError, SceneError, OSError)):
+        traceback.print_exception(error)
+    print(f"reference_tracer: {error}", file=sys.stderr)
+    with suppress(OSError):  # where it is the folder that cannot be written
+        files.write_failure(bpy.path.abspath(directory), error)
+    return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 
 def register() -> None:

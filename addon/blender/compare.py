@@ -6,9 +6,8 @@ holds no reference to Blender's data, so that tracing may go on while the user w
 
 from __future__ import annotations
 
-import traceback
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -77,15 +76,18 @@ def gather(
     """
     scene, layer = context.scene, context.view_layer.name
     stored = scene.reference_tracer
-    settings = settings or stored.settings()
     like_for_like = stored.shading == "LIKE_FOR_LIKE" if as_is is None else not as_is
+    settings = settings or stored.settings()
+    if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
+        settings = replace(settings, samples=1)
     source = choose_source(judge or stored.judge)
     view_shading = None if like_for_like or source != "viewport" else _solid_shading(context)
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
-    with temporary_scene(scene, layer) as tmp:
+    with temporary_scene(scene, layer, source) as tmp:
         if view_shading:
             use_view_shading(tmp, view_shading)
         used = prepare(tmp, like_for_like)
+        used["shading_of"] = "3D view" if view_shading else "scene"
         if source == "viewport":
             with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
                 exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
@@ -110,19 +112,17 @@ def compare_to_folder(
     Raises what :func:`gather` and `compare.compare` raise, and OSError.
     """
     # A path as Blender writes it, // for beside the file, or as the shell does.
-    directory = bpy.path.abspath(directory)
+    folder = Path(bpy.path.abspath(directory))
+    folder.mkdir(parents=True, exist_ok=True)  # now, not after all the work
     try:
         comparison = result_of(gather(context, **choices).steps(), progress)
-        files.write(directory, comparison, images.save_png)
-        if progress:
-            progress(1.0)
-        return comparison
+        files.write(folder, comparison, images.save_png)
     except Exception as error:
-        try:
-            files.write_failure(Path(directory), error)
-        except OSError:
-            traceback.print_exc()  # the first error is the one to raise
+        files.write_failure(folder, error)
         raise
+    if progress:
+        progress(1.0)
+    return comparison
 
 
 def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
@@ -140,9 +140,9 @@ def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
 
 
 def _solid_shading(context: Any) -> Any:
-    """Return the shading of the window's first 3D view, if that is a solid one."""
-    if context.window:
-        for area in context.window.screen.areas:
-            if area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
-                return area.spaces.active.shading
+    """Return the solid shading of the 3D view the user is in, else of the window's first one."""
+    areas = [context.area, *(context.window.screen.areas if context.window else ())]
+    for area in areas:
+        if area and area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
+            return area.spaces.active.shading
     return None

@@ -15,7 +15,7 @@ import bpy
 from ..scene import GREY, SceneError
 from .colors import WITHOUT_ATTRIBUTE
 
-SLOTS = 16  # material slots that are told apart; a mesh with more shows the last of these
+SLOTS = 32  # material slots that are told apart: each is some nodes
 FILTER_WIDTH = 0.01  # pixels, the least there is: every sample lies near its pixel's centre
 
 
@@ -83,11 +83,20 @@ def _vertex_color(tree: Any, scene: Any) -> Any:
 def _material_color(tree: Any, scene: Any) -> Any:
     """Return a socket: the viewport colour of the material in the face's slot, grey where empty."""
     slot = _attribute(tree, "GEOMETRY", "material_index").outputs["Fac"]
-    count = max((len(o.material_slots) for o in scene.objects), default=0)
+    owners = [*bpy.data.objects, *bpy.data.meshes]  # instances may be of objects elsewhere
+    count = max(
+        (len(getattr(o, "material_slots", getattr(o, "materials", ()))) for o in owners), default=0
+    )
+    if count > SLOTS:
+        raise SceneError(
+            f"A mesh has {count} material slots, and Cycles can be asked for {SLOTS} viewport "
+            "colours: set the colour of the scene's solid shading to object, or compare with "
+            "Workbench."
+        )
     grey = tree.nodes.new("ShaderNodeRGB").outputs[0]
     grey.default_value = GREY
     color = grey
-    for index in reversed(range(min(max(count, 1), SLOTS))):
+    for index in reversed(range(max(count, 1))):
         found = grey  # first what geometry nodes gave to the mesh, then what the object shows
         for path in (
             f"data.materials[{index}].diffuse_color",
@@ -109,7 +118,10 @@ def _attribute(tree: Any, kind: str, name: str) -> Any:
 
 def _where_found(tree: Any, node: Any, otherwise: Any) -> Any:
     """Return the colour of an attribute node, or the other where its alpha says there is none."""
-    return _mix(tree, node.outputs["Alpha"], otherwise, node.outputs["Color"])
+    there = tree.nodes.new("ShaderNodeMath")
+    there.operation, there.inputs[1].default_value = "GREATER_THAN", 0.0
+    tree.links.new(node.outputs["Alpha"], there.inputs[0])
+    return _mix(tree, there.outputs[0], otherwise, node.outputs["Color"])
 
 
 def _mix(tree: Any, factor: Any, first: Any, second: Any) -> Any:

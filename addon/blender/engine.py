@@ -20,6 +20,7 @@ from ..manifest import Manifest
 from ..scene import Scene, SceneError
 from ..tracer.frame import Frame
 from ..tracer.render import steps
+from .animation import values_kept
 from .export import export
 
 ENGINE = "REFERENCE_TRACER"
@@ -136,7 +137,8 @@ def export_for_render(scene: Any) -> tuple[Scene, Manifest]:
     scene.render.engine = ENGINE
     _captured = []
     try:
-        bpy.ops.render.render(scene=scene.name)
+        with values_kept():
+            bpy.ops.render.render(scene=scene.name)
         return _captured[0]
     except RuntimeError as error:  # Blender turns our report into one
         raise SceneError(str(error).removeprefix("Error: ").strip()) from error

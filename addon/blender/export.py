@@ -15,11 +15,11 @@ import numpy as np
 
 from ..manifest import Manifest, ObjectEntry, Unmodelled
 from ..scene import Instance, Mesh, Plane, Scene
-from ..scene_files import diagnose
+from ..scene_files import diagnose, merged
 from .camera import export_camera
-from .colors import background, instance_colors
+from .colors import background, instance_colors, slot_materials
 from .meshes import export_mesh
-from .temporary import user_scene
+from .temporary import judge_of, user_scene
 from .unmodelled import of_object, of_scene
 
 _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
@@ -33,6 +33,7 @@ class _Seen:
     index: int = -1  # in Scene.objects, once it shows something
     mesh_keys: dict[int, None] = field(default_factory=dict)  # in the order in which they came
     instances: int = 0
+    triangles: int = 0  # over all instances
     left_out: int = 0
     planes: int = 0
     empty_slots: int = 0
@@ -56,7 +57,7 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
     """
     scene = depsgraph.scene_eval
     camera = export_camera(scene)
-    viewport = depsgraph.mode == "VIEWPORT"
+    viewport, judge = depsgraph.mode == "VIEWPORT", judge_of(depsgraph.scene)
     shading = scene.display.shading
     meshes: dict[int, tuple[Mesh, int]] = {}  # by address; with the triangles left out
     numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
@@ -75,6 +76,10 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
         if not item.show_self:
             continue
         finite = np.isfinite(matrix).all()
+        for u in of_object(
+            obj, item.matrix_world, shading, depsgraph.view_layer, depsgraph.mode, judge
+        ):
+            _widen(entry.features, u)
         if obj.original.reference_tracer.infinite_plane:
             if finite and matrix[:3, :2].any(axis=0).all():
                 _number(entry, seen)
@@ -83,8 +88,6 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
             else:
                 entry.left_out += 1
             continue
-        for u in of_object(obj, item.matrix_world, shading, viewport):
-            _widen(entry.features, u)
         if obj.type != "MESH" or (viewport and obj.display_type in ("WIRE", "BOUNDS")):
             continue
         key = obj.data.as_pointer()
@@ -97,8 +100,9 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
         _number(entry, seen)
         entry.mesh_keys.setdefault(key)
         entry.instances += 1
+        entry.triangles += len(mesh.triangles)
         if shading.color_type == "MATERIAL":
-            entry.empty_slots = max(entry.empty_slots, sum(m is None for m in obj.data.materials))
+            entry.empty_slots = max(entry.empty_slots, slot_materials(obj).count(None))
         colors = instance_colors(obj, shading.color_type, shading.single_color)
         number = numbers.setdefault(key, len(numbers))
         instances.append(Instance(number, entry.index, matrix, colors))
@@ -126,6 +130,8 @@ def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
     The plane holds the object's X and Y axes, so under shear its normal is their cross product.
     """
     normal = np.cross(matrix[:3, 0], matrix[:3, 1])
+    if (normal * matrix[:3, 2]).sum() < 0:  # mirrored
+        normal = -normal
     colors = instance_colors(obj, shading.color_type, shading.single_color, [obj.active_material])
     return Plane(index, matrix[:3, 3], normal, colors[0])
 
@@ -133,7 +139,7 @@ def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
     """Keep one entry a feature, its bounds around all the object's instances."""
     key = found.feature + found.detail
-    if key in features:
+    if key in features and found.bounds is not None and features[key].bounds is not None:
         both = np.stack((features[key].bounds, found.bounds))
         bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
         found = Unmodelled(found.object, found.feature, found.detail, bounds)
@@ -150,7 +156,6 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
             for key, (mesh, _) in zip(e.mesh_keys, own, strict=True):
                 if key not in diagnoses:
                     diagnoses[key] = diagnose(mesh)
-        first = next(iter(e.mesh_keys), None)
         shown = e.index >= 0
         entries.append(
             ObjectEntry(
@@ -163,7 +168,8 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
                 instances=e.instances + e.planes,
                 left_out=e.left_out,
                 empty_slots=e.empty_slots,
-                diagnosis=diagnoses.get(first),
+                diagnosis=merged([diagnoses[k] for k in e.mesh_keys if k in diagnoses]),
+                traced_triangles=e.triangles,
             )
         )
     for obj in scene.objects:

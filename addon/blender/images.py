@@ -11,13 +11,19 @@ from numpy.typing import NDArray
 
 TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
 
+MARK = "reference_tracer"  # a custom property of the images that a comparison may write into
+
 
 def show(name: str, color: NDArray[np.floating]) -> Any:
-    """Put linear RGBA (h, w, 4) into the image of this name, made where it is not there."""
+    """Put linear RGBA (h, w, 4) into our image of this name, made where it is not there."""
     height, width = color.shape[:2]
-    image = bpy.data.images.get(name)
-    if image is None or not image.is_float or image.source != "GENERATED":
+    image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
+    if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
+        del image[MARK]
+        image = None
+    if image is None:
         image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+        image[MARK] = name
     elif tuple(image.size) != (width, height):
         image.scale(width, height)
     image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())

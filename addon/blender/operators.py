@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import traceback
-from typing import Any
+from typing import Any, ClassVar
 
 import bpy
 from bpy.props import StringProperty
@@ -29,12 +29,21 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
     )
     bl_options = {"UNDO"}  # the three images are one step
 
+    running: ClassVar[bool] = False  # in some window
+
     directory: StringProperty(  # type: ignore[valid-type]
         name="Folder",
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
         description="Where to write the pictures and comparison.json; nothing is written if empty",
     )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow one at a time."""
+        if cls.running:
+            cls.poll_message_set("It is running already: Esc cancels it")
+        return not cls.running
 
     def execute(self, context: Any) -> set[str]:
         """Run through, as a script wants it."""
@@ -61,6 +70,7 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = time.monotonic()
+        type(self).running = True
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Any, event: Any) -> set[str]:
@@ -86,7 +96,7 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
             self._clean_up(context)
             return self._fail(error)
         self._show_progress(context, share)
-        return {"RUNNING_MODAL"}
+        return {"PASS_THROUGH"}  # the timers of others are theirs
 
     def cancel(self, context: Any) -> None:
         """Stop when Blender itself ends the operator, as at quitting or loading a file."""
@@ -101,6 +111,7 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
         )
 
     def _clean_up(self, context: Any) -> None:
+        type(self).running = False
         self._work.close()
         context.window_manager.event_timer_remove(self._timer)
         context.window_manager.progress_end()
@@ -125,10 +136,12 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
 
 def register() -> None:
     """Register the operator."""
+    bpy.app.handlers.load_pre.append(results.forget)
     bpy.utils.register_class(REFERENCE_TRACER_OT_compare)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     results.forget()
+    bpy.app.handlers.load_pre.remove(results.forget)
     bpy.utils.unregister_class(REFERENCE_TRACER_OT_compare)

@@ -84,7 +84,6 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
     scene : Scene
         What was exported from it.
     """
-    sources = {o.name_full: o for o in bpy.data.objects}
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     collections: list[Any] = []
     objects: list[Any] = []
@@ -93,31 +92,34 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
         if marked:
             _without(tmp.collection, tmp.view_layers[layer].layer_collection, marked, collections)
         for plane in scene.planes:
-            source = sources.get(scene.objects[plane.object])
             corners = polygon(scene.camera, plane)
             if len(corners):
-                objects.append(_stand_in(tmp, corners, source, plane.color))
+                objects.append(_stand_in(tmp, corners, scene.camera.origin, plane.color))
                 if tmp.display.shading.color_type == "RANDOM":
                     plane = replace(plane, color=np.array(random_color(objects[-1]), np.float32))
             planes.append(plane)
         yield replace(scene, planes=tuple(planes))
     finally:
         for obj in objects:
+            bpy.data.materials.remove(obj.data.materials[0])
             bpy.data.meshes.remove(obj.data)  # takes the object with it
         for collection in collections:
             bpy.data.collections.remove(collection)
 
 
 def _stand_in(
-    tmp: Any, corners: NDArray[np.float64], source: Any, color: NDArray[np.float32]
+    tmp: Any, corners: NDArray[np.float64], eye: NDArray[np.float64], color: NDArray[np.float32]
 ) -> Any:
-    # Vertices are float32: relative to the polygon's own middle they keep the most digits.
-    middle = corners.mean(axis=0)
+    # Vertices are float32, and keep the more digits the nearer to the object's own origin they lie:
+    # those that the camera sees largest.
+    nearest = corners[np.argmin(((corners - eye) ** 2).sum(axis=1))]
+    material = bpy.data.materials.new("Infinite Plane")
+    material.diffuse_color = (*color[:3], 1.0)
     mesh = bpy.data.meshes.new("Infinite Plane")
-    mesh.from_pydata((corners - middle).tolist(), [], [list(range(len(corners)))])
-    mesh.materials.append(source.active_material if source else None)
+    mesh.from_pydata((corners - nearest).tolist(), [], [list(range(len(corners)))])
+    mesh.materials.append(material)
     obj = bpy.data.objects.new("Infinite Plane", mesh)
-    obj.location, obj.color = middle, color
+    obj.location, obj.color = nearest, (*color[:3], 1.0)
     tmp.collection.objects.link(obj)
     return obj
 

@@ -48,7 +48,8 @@ def latest(scene: Any) -> Result | None:
     return None
 
 
-def forget() -> None:
-    """Drop the latest comparison."""
+@bpy.app.handlers.persistent
+def forget(*_: Any) -> None:
+    """Drop the latest comparison, as when another file is opened."""
     global _latest
     _latest = None

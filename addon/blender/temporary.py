@@ -12,11 +12,13 @@ from typing import Any
 
 import bpy
 
-_copies: dict[str, str] = {}  # name of a temporary scene: name of the user's
+_copies: dict[str, tuple[str, str | None]] = {}  # name of a temporary scene: the user's, judge
 
 
 @contextmanager
-def temporary_scene(scene: Any, layer: str | None = None) -> Iterator[Any]:
+def temporary_scene(
+    scene: Any, layer: str | None = None, judge: str | None = None
+) -> Iterator[Any]:
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
     Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in it. The 'Render
@@ -27,10 +29,12 @@ def temporary_scene(scene: Any, layer: str | None = None) -> Iterator[Any]:
     scene : bpy.types.Scene
     layer : str, optional
         Name of the view layer; the scene's first by default.
+    judge : {'viewport', 'workbench', 'cycles'}, optional
+        Whose picture it is for.
     """
     images = set(bpy.data.images)
     copy = scene.copy()
-    _copies[copy.name_full] = scene.name_full
+    _copies[copy.name_full] = scene.name_full, judge
     try:
         _isolate(copy, layer or scene.view_layers[0].name)
         yield copy
@@ -45,8 +49,13 @@ def temporary_scene(scene: Any, layer: str | None = None) -> Iterator[Any]:
 
 def user_scene(scene: Any) -> Any:
     """Return the scene of the user's that a temporary one is a copy of; another is the user's."""
-    name = _copies.get(scene.name_full)
-    return scene if name is None else next(s for s in bpy.data.scenes if s.name_full == name)
+    name, _ = _copies.get(scene.name_full, (scene.name_full, None))
+    return next(s for s in bpy.data.scenes if s.name_full == name)
+
+
+def judge_of(scene: Any) -> str | None:
+    """Return whose picture a temporary scene is for; None for a scene of the user's."""
+    return _copies.get(scene.name_full, (None, None))[1]
 
 
 def _isolate(scene: Any, layer: str) -> None:

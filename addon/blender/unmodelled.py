@@ -24,6 +24,20 @@ _DRAWN_OTHERWISE = {
     "VOLUME": "volume",
 }
 
+# Who draws what: elsewhere a feature is named, but explains no pixel. Cycles shows constant colours
+# without transparency (see `cycles.py`).
+_RASTERISERS = frozenset({"viewport", "workbench"})
+_CYCLES = frozenset({"cycles"})
+_DRAWN_BY = {
+    "transparency": _RASTERISERS,
+    "texture": _RASTERISERS,
+    "in-front drawing": _RASTERISERS,
+    "display type": frozenset(),
+    "holdout": _CYCLES,
+    "not visible to the camera": _CYCLES,
+    "indirect only": _CYCLES,
+}
+
 
 def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
@@ -46,14 +60,31 @@ def _reaches(obj: Any) -> Iterator[float]:
                     yield from (v.value for v in frame.drawing.attributes["radius"].data)
 
 
-def of_object(obj: Any, matrix: Any, shading: Any, viewport: bool) -> Iterator[Unmodelled]:
-    """Yield what is not modelled of one evaluated object as it appears with `matrix`."""
+def of_object(
+    obj: Any, matrix: Any, shading: Any, layer: Any, mode: str, judge: str | None
+) -> Iterator[Unmodelled]:
+    """Yield what is not modelled of one evaluated object as it appears with `matrix`.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        Evaluated.
+    matrix : mathutils.Matrix
+        world_from_object.
+    shading : bpy.types.View3DShading
+    layer : bpy.types.ViewLayer
+    mode : {'VIEWPORT', 'RENDER'}
+    judge : {'viewport', 'workbench', 'cycles'} or None
+        Whose picture is compared: only what it draws has bounds. None for any.
+    """
     bounds = None
 
     def found(feature: str, detail: str = "") -> Unmodelled:
         nonlocal bounds
+        if judge and judge not in _DRAWN_BY.get(feature, (judge,)):
+            return Unmodelled(obj.original.name_full, feature, detail)
         bounds = world_bounds(obj, matrix) if bounds is None else bounds
-        return Unmodelled(obj.original.name, feature, detail, bounds)
+        return Unmodelled(obj.original.name_full, feature, detail, bounds)
 
     if obj.type in _DRAWN_OTHERWISE:
         yield found(_DRAWN_OTHERWISE[obj.type], "Blender draws it, but not as triangles")
@@ -81,9 +112,14 @@ def of_object(obj: Any, matrix: Any, shading: Any, viewport: bool) -> Iterator[U
         yield found("colour attribute", "it has some, but none is the active one")
     if obj.show_in_front:
         yield found("in-front drawing")
-    if obj.is_holdout:
+    original = obj.original
+    if obj.is_holdout or original.holdout_get(view_layer=layer):
         yield found("holdout")
-    if viewport and obj.display_type in ("WIRE", "BOUNDS"):
+    if original.indirect_only_get(view_layer=layer):
+        yield found("indirect only", "its collection is seen by indirect rays alone")
+    if not original.visible_camera:
+        yield found("not visible to the camera")
+    if mode == "VIEWPORT" and obj.display_type in ("WIRE", "BOUNDS"):
         yield found("display type", f"{obj.display_type.lower()}: the viewport draws no surface")
     for system in obj.particle_systems:
         if system.settings.type == "HAIR" and system.settings.render_type == "PATH":

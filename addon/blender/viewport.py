@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..compare.comparison import SizeError
 from ..scene import Camera
 from . import cycles
+from .animation import values_kept
 
 # Where each samples a pixel: at most this far from its centre, in pixels.
 SAMPLE_RADIUS = {"viewport": 0.0, "workbench": 0.0, "cycles": cycles.FILTER_WIDTH / 2}
@@ -142,7 +143,8 @@ def picture(
             scene.render.engine = "BLENDER_WORKBENCH" if source == "workbench" else "CYCLES"
             colors = source == "cycles" and like_for_like
             with cycles.constant_colors(scene, layer) if colors else nullcontext():
-                bpy.ops.render.render(scene=scene.name, write_still=True)
+                with values_kept():
+                    bpy.ops.render.render(scene=scene.name, write_still=True)
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({source}).")

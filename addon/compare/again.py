@@ -92,11 +92,11 @@ def _edges(
     where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
     """
     width, shown = band[wanted], picture[wanted]
-    lost = ~differing(shading.colors(scene, centre), shown)
+    lost = ~_differing(scene, centre, shown)
     for x, y in OFFSETS:
         hits = probe.trace(x * width, y * width)
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
-        same = np.where(lost, other, ~differing(shading.colors(scene, hits), shown))
+        same = np.where(lost, other, ~_differing(scene, hits, shown))
         settle(_set_out(same, wanted), Cause.EDGE, band * max(abs(x), abs(y)), band)
         yield
         if not settle.open.any():
@@ -106,13 +106,16 @@ def _edges(
 def _coverings(scene, probe: Probe, wanted, picture, band, centre: Hits, settle: Settler) -> None:
     """Find what no sample does: a triangle that comes that near, before any surely covered one."""
     width, shown = band[wanted], picture[wanted]
-    lost = ~differing(shading.colors(scene, centre), shown)
+    lost = ~_differing(scene, centre, shown)
     may = coverage(probe, width)
-    visible = (may.hits.t <= may.sure[may.pixel]) & ~lost[may.pixel]
-    same = visible & ~differing(shading.colors(scene, may.hits), shown[may.pixel])
+    behind = may.behind + _resolution(scene, probe, may.sure)[may.pixel]
+    visible = (may.hits.t <= behind) & ~lost[may.pixel]
+    same = visible & ~_differing(scene, may.hits, shown[may.pixel])
     nearest = np.full(len(width), np.inf)
     np.minimum.at(nearest, may.pixel[same], may.distance[same])
-    nothing = np.isinf(may.sure) & ~differing(np.broadcast_to(scene.background, shown.shape), shown)
+    nothing = np.isinf(may.sure.t) & ~differing(
+        np.broadcast_to(scene.background, shown.shape), shown
+    )
     nothing &= ~lost
     nearest[nothing] = np.minimum(nearest, width)[nothing]
     settle(_set_out(nearest < np.inf, wanted), Cause.EDGE, _set_out(nearest, wanted), band)
@@ -122,16 +125,13 @@ def _depth_ties(
     scene, probe: Probe, wanted, picture, first: Hits, settle: Settler
 ) -> Iterator[None]:
     """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart."""
-    seen = first.instance != NOTHING
-    view = np.full(len(first.t), np.inf)
-    view[seen] = view_error(scene, first.take(seen), probe.points(first)[seen])
-    allowed = np.where(seen, depth_resolution(scene.camera, np.where(seen, first.t, 0), view), -1.0)
+    allowed = np.where(first.instance != NOTHING, _resolution(scene, probe, first), -1.0)
     hits, shown = first, picture[wanted]
     for _ in range(LAYERS):
         hits = probe.trace(after=hits)
         with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
             gap = hits.t - first.t
-            same = (gap <= allowed) & ~differing(shading.colors(scene, hits), shown)
+            same = (gap <= allowed) & ~_differing(scene, hits, shown)
         settle(
             _set_out(same, wanted),
             Cause.DEPTH_TIE,
@@ -141,6 +141,21 @@ def _depth_ties(
         yield
         if not settle.open.any():
             return
+
+
+def _resolution(scene: Scene, probe: Probe, hits: Hits) -> NDArray[np.float64]:
+    """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
+    seen, out = hits.instance != NOTHING, np.zeros(len(hits.t))
+    found = hits.take(seen)
+    view = view_error(scene, found, probe.points(hits)[seen])
+    out[seen] = depth_resolution(scene.camera, found.t, view)
+    return out
+
+
+def _differing(scene: Scene, hits: Hits, shown: NDArray) -> NDArray[np.bool_]:
+    """Return which of n hits differ from what Blender shows, (n, 4)."""
+    colors = shading.colors(scene, hits)
+    return differing(colors, shown, shading.interpolated(scene, hits.instance))
 
 
 def _set_out(values: NDArray, where: NDArray[np.bool_]) -> NDArray:

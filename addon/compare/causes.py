@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..manifest import Unmodelled
 from ..scene import Camera, Scene
+from ..tracer import shading
 from ..tracer.camera import pixel_size, project
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, result_of, scaled
@@ -59,7 +60,8 @@ def find_causes(
     band += sample_radius
     for rows in all_rows:
         part = settle.rows(rows)
-        part.open[:] = differing(frame.color[rows], picture[rows])
+        ramp = shading.interpolated(scene, frame.instance_index[rows])
+        part.open[:] = differing(frame.color[rows], picture[rows], ramp)
         part(~frame.rows_done[rows, None], Cause.NOT_TRACED)
         # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
         part(band[rows] > DECIDABLE, Cause.NOT_DECIDABLE, band[rows], DECIDABLE)

@@ -12,18 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..tracer import plane, shading
 from ..tracer.camera import camera_rays, film_of
 from ..tracer.probe import Probe
 from ..tracer.triangle import METHODS
-from ..tracer.visibility import Hits, Pairs, test_pairs, test_planes, within_clip
+from ..tracer.visibility import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
 # rim; in a large triangle less, so that it stays within the band.
 INWARD = 2.0**-20
 
-# A triangle is only taken to have been missed near its edge where it is larger than this, in
-# widths of the band. Else every triangle of a fine mesh would be near its edge, and a fault could
-# hide behind that.
+# A triangle is only taken to have been missed near its edge where it is higher than this, in widths
+# of the band. Else every triangle of a fine mesh, or of a fan of needles, would be near its edge,
+# and a fault could hide behind that. (That a sliver was missed is seen by the samples around it.)
 LARGE = 16
 
 
@@ -32,14 +33,15 @@ class Coverage:
     """What k triangles that may cover one of n pixels would show there.
 
     `hits` are theirs, each where the triangle comes nearest to the centre, at `distance` (k,)
-    pixels; `pixel` (k,) says of which pixel. `sure` (n,) is the depth of the nearest surface that
-    Blender's sample cannot miss; inf for none.
+    pixels; `pixel` (k,) says of which pixel. `sure` are the n nearest hits that Blender's sample
+    cannot miss.
     """
 
     pixel: NDArray[np.integer]
     distance: NDArray[np.float64]
     hits: Hits
-    sure: NDArray[np.float64]
+    sure: Hits
+    behind: NDArray[np.float64]  # (k,) depth of the sure surface where each of `hits` is
 
 
 def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
@@ -55,8 +57,10 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
         nearest, rim = nearest_to_origin(*corners)
         own = band[some.pixel]
         longest = np.max([np.hypot(*(corners[i] - corners[i - 1])) for i in range(3)], axis=0)
+        (ux, uy), (vx, vy) = corners[1] - corners[0], corners[2] - corners[0]
         with np.errstate(invalid="ignore"):
-            certain = np.flatnonzero((rim > own) | (longest < LARGE * own) | np.isnan(rim))
+            thin = np.abs(ux * vy - uy * vx) < LARGE * own * longest  # its least height is
+            certain = np.flatnonzero((rim > own) | thin | np.isnan(rim))
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
         test_pairs(scene, settings, centres, _take(some, certain), sure)
         inward = sum(corners)[:, near] / 3 - nearest[:, near]
@@ -70,6 +74,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
             (
                 pixel[hit],
                 np.abs(nearest[:, near]).max(axis=0)[hit],
+                np.stack((x, y))[:, hit],
                 t[hit],
                 some.instance[near][hit],
                 some.triangle[near][hit],
@@ -77,11 +82,17 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
             )
         )
     if not found:
-        return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure.t)
-    pixel, distance, t, instance, triangle, s = (
+        return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure, np.zeros(0))
+    pixel, distance, offset, t, instance, triangle, s = (
         np.concatenate(c, axis=-1) for c in zip(*found, strict=True)
     )
-    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure.t)
+    # A surface seen at a slant is nearer on one side of the pixel than on the other.
+    own = sure.take(pixel)
+    rays = camera_rays(scene.camera, probe.px[pixel] + offset[0], probe.py[pixel] + offset[1])
+    points, normals = probe.points(sure)[pixel].T, shading.normals(scene, own).T
+    behind = np.where(own.instance != NOTHING, plane.intersect(rays, points, normals), np.inf)
+    behind = np.where(np.isnan(behind), own.t, behind)
+    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure, behind)
 
 
 def _take(some: Pairs, index: NDArray[np.integer]) -> Pairs:

@@ -37,6 +37,12 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     return out
 
 
+def interpolated(scene: Scene, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Return of which instances, planes and NOTHING (...) the colour is one between corners."""
+    of = [scene.meshes[i].corner_colors is not None for i in scene.instance_meshes]
+    return np.array([*of, *(False for _ in scene.planes), False])[instance]
+
+
 def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     """Return the geometric unit normal in world space, (n, 3); zero where nothing is hit.
 

@@ -206,6 +206,6 @@ def test_the_background_as_it_is(world, film, kind, build, compare):
     np.testing.assert_allclose(
         comparison.picture[0, 0], comparison.frame.color[0, 0], atol=HALF_FLOAT
     )
-    assert comparison.frame.color[0, 0, 3] == (film == "opaque")
+    assert comparison.frame.color[0, 0, 3] == comparison.picture[0, 0, 3]
     assert_same_colors(comparison, distinct=1)
     np.testing.assert_array_equal(background(scene), comparison.scene.background)

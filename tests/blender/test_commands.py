@@ -105,7 +105,8 @@ def test_4_no_file_is_open(build, out, capsys):
     assert not bpy.data.filepath
     assert commands.run(["compare", "--out", str(out)]) == 4
     assert "no file is open" in capsys.readouterr().err
-    assert not out.exists()
+    assert [p.name for p in out.iterdir()] == ["comparison.json"]
+    assert verdict(out)["verdict"] == "failed"
 
 
 @pytest.mark.parametrize(
@@ -165,7 +166,8 @@ def test_help(argv, saved, capsys):
     [
         (["--method", "moller_trumbore"], "tracer", "method", "moller_trumbore"),
         (["--precision", "float32"], "tracer", "precision", "float32"),
-        (["--samples", "2"], "tracer", "samples", 2),
+        (["--samples", "2", "--as-is"], "tracer", "samples", 2),
+        (["--samples", "2"], "tracer", "samples", 1),  # like for like has Blender's one
         (["--judge", "cycles"], "blender", "source", "cycles"),
         (["--judge", "auto"], "blender", "source", "workbench"),
     ],

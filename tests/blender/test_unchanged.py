@@ -9,6 +9,8 @@ from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.images import BLENDER, DIFFERENCE, TRACED
 
 OURS = {TRACED, BLENDER, DIFFERENCE}
+# 4.2 itself counts a scene's collections once more for every copy of it that comes and goes.
+COUNTS_USERS = bpy.app.version >= (4, 3, 0)
 # What Blender counts or draws for itself, or what leads back to where one came from.
 _NOT_STATE = {
     "rna_type",
@@ -27,6 +29,8 @@ _NOT_STATE = {
     "use_extra_user",
     "is_embedded_data",
     "users_pass",
+    # reading its brush crashes 4.2
+    "uv_sculpt",
     # found out by the first render of a process
     "gpu_preferred_device",
     "selected_studio_light",
@@ -82,7 +86,9 @@ def state():
         collection = getattr(bpy.data, kind)
         if isinstance(collection, bpy.types.bpy_prop_collection):
             names[kind] = sorted(
-                (block.name_full, block.users) for block in collection if block.name not in OURS
+                (block.name_full, block.users if COUNTS_USERS else 0)
+                for block in collection
+                if block.name not in OURS
             )
     return {
         "scene": snapshot(scene),

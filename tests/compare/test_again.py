@@ -179,3 +179,20 @@ def test_edges_through_the_centres_are_edges(make, rng, explained, count, first,
         assert count(found, Cause.AGREE) + count(found, Cause.EDGE) == found.cause.size
         edges += count(found, Cause.EDGE)
     assert edges > 20
+
+
+@pytest.mark.parametrize("needles, radius", [(20_000, 0.0), (200, 0.3)])
+def test_a_fan_of_needles_hides_no_fault(make, explained, needles, radius):
+    """Long triangles, but thin ones: every centre is near an edge, as in a fine mesh."""
+    angle = np.linspace(0, 2 * np.pi, needles, endpoint=False)
+    rim = np.stack((6 * np.cos(angle), 6 * np.sin(angle), np.full(needles, -5.0)), axis=1)
+    k = np.arange(needles)
+    disc = Mesh(
+        np.vstack((rim, [(0, 0, -5)])), np.stack((k, (k + 1) % needles, 0 * k + needles), axis=1)
+    )
+    camera = make.camera(20, 16, half=8, orthographic=True, eye=(0.1, 0.2, 0))
+    scene = make.scene(camera, disc, make.quad(-99, 120, -99, 130, -9))
+    inside = render(scene).object_index == 0
+    picture = render(replace(scene, instances=scene.instances[1:])).color
+    found = explained(scene, picture, sample_radius=radius)
+    assert (found.cause[inside] == Cause.UNEXPLAINED).mean() > 0.8

@@ -75,9 +75,7 @@ def test_float32_stays_within_the_bound(make, orthographic, place, rng):
         x, y, depth = film_of(camera, world)
         corners = np.arange(300).reshape(100, 3)
         scene = Scene(camera, (Mesh(local.T, corners),), (Instance(0, 0, matrix),), objects=("A",))
-        bound = (
-            pixel_error(camera, depth, view_error(scene, corner_hits(300), world.T)) - SNAPPING
-        )
+        bound = pixel_error(camera, depth, view_error(scene, corner_hits(300), world.T)) - SNAPPING
         px, py = blenders_film(camera, matrix, local)
         inside = (x > 0) & (x < 640) & (y > 0) & (y < 360) & (depth > camera.clip_start)
         assert inside.any()

@@ -83,7 +83,7 @@ def test_a_sliver_between_all_samples_is_found(make, pixels, offset, found, meth
     assert sorted(may.pixel.tolist()) == ([4 + 8 * y for y in range(6)] if found else [])
     assert np.allclose(may.distance, abs(offset), rtol=0, atol=1e-4 + 99 * 2.0**-20)
     assert (may.hits.t == pytest.approx(2)) and (may.hits.instance == 0).all()
-    assert np.isinf(may.sure).all()
+    assert np.isinf(may.sure.t).all()
 
 
 @pytest.mark.parametrize("length", [1e2, 1e4, 1e6])
@@ -97,13 +97,13 @@ def test_no_distance_is_beyond_the_band(make, pixels, length):
 def test_what_is_surely_covered(make, pixels):
     """The nearest surface with the centre farther inside than the band."""
     near, far = make.quad(2.498, 9, -9, 20, -1), make.quad(-20, 40, -30, 40, -3)
-    sure = asked(make.scene(pixels, near, far)).sure.reshape(6, 8)
+    sure = asked(make.scene(pixels, near, far)).sure.t.reshape(6, 8)
     assert np.allclose(sure[:, :2], 3) and np.allclose(sure[:, 3:], 1)
     assert np.allclose(sure[:, 2], 3)  # its edge runs 0.002 pixels beside the centre
 
 
 def test_planes_are_sure(make, pixels):
-    assert np.allclose(asked(make.scene(pixels, planes=[((0, 0, -2), (0, 0, 1))])).sure, 2)
+    assert np.allclose(asked(make.scene(pixels, planes=[((0, 0, -2), (0, 0, 1))])).sure.t, 2)
 
 
 def test_a_fine_mesh_is_sure(make, pixels):
@@ -112,7 +112,7 @@ def test_a_fine_mesh_is_sure(make, pixels):
     points = np.stack((x.ravel(), y.ravel(), np.full(x.size, -2.0)), axis=1)
     corner = (np.arange(97)[:, None] * 98 + np.arange(97)).ravel()
     faces = np.concatenate((corner[:, None] + (0, 1, 98), corner[:, None] + (1, 99, 98)))
-    sure = asked(make.scene(pixels, Mesh(points, faces))).sure.reshape(6, 8)
+    sure = asked(make.scene(pixels, Mesh(points, faces))).sure.t.reshape(6, 8)
     assert sure[2, 4] == pytest.approx(2)
     assert np.isinf(np.delete(sure.ravel(), 2 * 8 + 4)).all()
 
@@ -120,4 +120,4 @@ def test_a_fine_mesh_is_sure(make, pixels):
 def test_nothing_there(make, pixels):
     may = asked(make.scene(pixels))
     assert len(may.pixel) == len(may.distance) == len(may.hits.t) == 0
-    assert np.isinf(may.sure).all() and len(may.sure) == 48
+    assert np.isinf(may.sure.t).all() and len(may.sure.t) == 48

@@ -99,7 +99,7 @@ def test_command_refuses_a_file_that_is_not_there(blender, folder):
     )
     assert done.returncode == 4, done.stdout + done.stderr
     assert "no file is open" in done.stderr
-    assert list(path.iterdir()) == []
+    assert [p.name for p in path.iterdir()] == ["comparison.json"]
 
 
 def test_command_says_how_it_is_used(blender):

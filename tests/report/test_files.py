@@ -111,6 +111,14 @@ def test_json_of_a_picture_that_is_not_finite(compared, tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == NAMES
 
 
+def test_what_json_cannot_hold_is_an_error(comparison, tmp_path):
+    """Rather than a file that other readers refuse."""
+    comparison.blender["gamma"] = float("nan")
+    with pytest.raises(ValueError, match="JSON"):
+        write(tmp_path, comparison, save_png)
+    assert not (tmp_path / "comparison.json").exists()
+
+
 def test_writing_again_replaces(folder, compared):
     write(folder, compared(lambda picture: None), save_png)
     assert strict(folder)["verdict"] == "agree"

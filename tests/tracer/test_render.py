@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -127,6 +128,18 @@ def test_float32_and_methods_reach_the_picture(make):
     )
     frames = [render(scene, Settings(m, p)) for m in Method for p in Precision]
     assert len({f.t.tobytes() for f in frames}) == len(frames)
+
+
+def test_many_samples_take_no_more_memory(make):
+    """Of thousands of samples a pixel, not all are held at once."""
+    scene = make.scene(make.camera(64, 32), make.quad(-9, 0, -9, 9, -2))
+    peaks = []
+    for samples in (2, 16):
+        tracemalloc.start()
+        render(scene, Settings(samples=samples))
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.5 * peaks[0]
 
 
 @pytest.mark.parametrize("background", [(0, 0, 0, 0), (0.1, 0.2, 0.3, 1), (0.1, 0.1, 0.1, 0.5)])
