@@ -75,7 +75,7 @@ def save_scene(path: str | Path, scene: Scene) -> None:
         "instances": [{"mesh": i.mesh, "object": i.object} for i in scene.instances],
         "planes": [{"object": p.object} for p in scene.planes],
     }
-    arrays: dict[str, np.ndarray] = {"scene": np.array(json.dumps(head))}
+    arrays: dict[str, np.ndarray] = {"scene": np.array(json.dumps(head, default=np.generic.item))}
     for k, mesh in enumerate(scene.meshes):
         for name in ("vertices", "triangles", "slots", "corner_colors"):
             if getattr(mesh, name) is not None:

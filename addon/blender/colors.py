@@ -18,6 +18,9 @@ WITHOUT_ATTRIBUTE = "MATERIAL" if bpy.app.version >= (5, 0, 0) else "OBJECT"
 
 _SATURATION, _VALUE = 0.5, 0.8  # of Blender's random colours
 
+# Whether the shading's own background colour is drawn where it is set: not in 4.2, 4.3, 4.5, 5.0.
+OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
+
 
 def instance_colors(
     obj: Any, color_type: str, single: Any, materials: list[Any] | None = None
@@ -62,13 +65,13 @@ def slot_materials(obj: Any) -> list[Any]:
 def background(scene: Any) -> NDArray[np.float32]:
     """Return what a pixel that sees nothing shows in a render of this scene, (4,) linear RGBA.
 
-    A transparent film shows nothing; otherwise the shading's own background colour where it is
-    set to that, else the world's, as Workbench has it.
+    As Workbench has it: nothing with a transparent film or without a world; else the shading's own
+    colour where it is set to that and this Blender draws it, else the world's.
     """
     if scene.render.film_transparent:
         return np.zeros(4, np.float32)
     shading = scene.display.shading
-    if shading.background_type == "VIEWPORT":
+    if shading.background_type == "VIEWPORT" and OWN_BACKGROUND:
         return np.array((*shading.background_color, 1.0), np.float32)
     if scene.world is None:
         return np.zeros(4, np.float32)

@@ -22,6 +22,7 @@ from ..tracer.frame import Frame
 from ..tracer.render import steps
 from .animation import values_kept
 from .export import export
+from .temporary import is_temporary
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message
@@ -58,7 +59,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def render(self, depsgraph: Any) -> None:
         """Render one view layer of one frame."""
         try:
-            if _captured is not None:
+            if _captured is not None and is_temporary(depsgraph.scene):
                 _captured.append(export(depsgraph, diagnosis=True))
                 return
             self._trace(depsgraph)

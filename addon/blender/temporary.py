@@ -53,6 +53,11 @@ def user_scene(scene: Any) -> Any:
     return next(s for s in bpy.data.scenes if s.name_full == name)
 
 
+def is_temporary(scene: Any) -> bool:
+    """Return whether a scene is such a copy."""
+    return scene.name_full in _copies
+
+
 def judge_of(scene: Any) -> str | None:
     """Return whose picture a temporary scene is for; None for a scene of the user's."""
     return _copies.get(scene.name_full, (None, None))[1]

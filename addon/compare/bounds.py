@@ -1,7 +1,7 @@
 """How far Blender's own arithmetic may move what a pixel shows: float32, snapping, depth buffer.
 
-These are bounds on *Blender's* side; the tracer's own errors are far below them. u = 2^-24 is the
-rounding unit of float32.
+These are bounds on *Blender's* side; the tracer's own errors in float64 are far below them.
+u = 2^-24 is the rounding unit of float32.
 """
 
 from __future__ import annotations

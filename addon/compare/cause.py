@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 # Blender hands its viewport's colours over as half floats, 11 bits, and cuts off rather than
-# rounds: 1 reads 0.9995. Next to an edge a window copies them once more, and up to three units in
-# the last place are missing (measured in 4.3). Four units of the value are allowed; below the least
-# normal half float, 2^-14, of that.
+# rounds: 1 reads 0.9995. Next to an edge it copies them once more, and up to three units in the
+# last place are missing (measured in 4.3). Four units of the value are allowed; near black, where
+# those copies are off by more (3.5e-6 at 9.1e-4, measured in 4.2 to 5.0), of LEAST.
 TOLERANCE = 4 * 2.0**-11
-LEAST = 2.0**-14
+LEAST = 2.0**-8
 
 # A rasteriser interpolates a colour attribute between corners that it has rounded to 1/256 pixel,
 # by an approximate 1/w: a ramp over a few pixels is off by as much as this (measured 0.0013).

@@ -1,8 +1,9 @@
 """Which triangles can cover which pixels: culling only, never deciding.
 
 In come a scene and a camera; out go (pixel, triangle) pairs, which the ray/triangle test decides.
-A pair may be proposed in vain, but one that hits is never left out: the box of pixels around a
-projected triangle is widened by a bound on every rounding error that could move it (`_SAFETY`).
+A pair may be proposed in vain, but one whose ray truly hits is never left out: the box of pixels
+around a projected triangle is widened by a bound on every rounding error that could move it
+(`_SAFETY`). What a test in float32 says to hit far beside an edge-on sliver, by noise, may be.
 """
 
 from __future__ import annotations
@@ -88,7 +89,7 @@ def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> World
 def pixel_bounds(
     camera: Camera, corners: NDArray[np.floating], reach: float = 0.0
 ) -> NDArray[np.int32]:
-    """Return a box of pixels outside which no ray of the camera can hit the triangle.
+    """Return a box of pixels outside which no ray of the camera truly hits the triangle.
 
     Parameters
     ----------

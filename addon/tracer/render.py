@@ -80,12 +80,14 @@ def _trace(made: Plan, tile: Region, offsets: list, frame: Frame) -> Work[None]:
     """Trace a tile through its pixels' centres and, for its colour, at these offsets from them."""
     share = 1 / (1 + len(offsets))
     centre = yield from scaled(trace_tile(made, tile, statistics=frame.statistics), 0.0, share)
-    colors = [shading.colors(made.scene, centre)]
+    color = (
+        np.zeros((tile.width * tile.height, 4)) if offsets else shading.colors(made.scene, centre)
+    )
     for number, (dx, dy) in enumerate(offsets, start=1):
         tracing = trace_tile(made, tile, dx, dy, frame.statistics)
         hits = yield from scaled(tracing, number * share, share)
-        colors.append(shading.colors(made.scene, hits))
-    _write(made, frame, tile, centre, np.mean(colors[1:] or colors, axis=0, dtype=np.float64))
+        color += shading.colors(made.scene, hits) / len(offsets)
+    _write(made, frame, tile, centre, color)
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:

@@ -15,11 +15,11 @@ Two errata:
 1. n_s2 vanishes on the edge p1 p2, and n_s3 on the edge p3 p1. So s2 as printed weighs p3 and s3
    weighs p2, the opposite of x = s1 p1 + s2 p2 + s3 p3. Constant shading never shows it;
    interpolation would. The functions here return them in the order of the corners.
-2. For a point of the plane the three always sum to 1, so in exact arithmetic the last condition
-   says nothing. In floating point, `sum == 1` fails for about every second hit by a rounding error
-   (measured: 49 % in float32, 52 % in float64). `textbook_literal` keeps it, for its picture;
-   `textbook` allows the sum SUM_TOLERANCE, so that the condition rejects what it can be meant to:
-   a point x that rounding has put too far off the plane to be trusted.
+2. The three always sum to 1: x cancels out of n_s1 + n_s2 + n_s3, so in exact arithmetic the last
+   condition says nothing, not even that x lies in the plane. In floating point, `sum == 1` fails
+   for about every second hit by a rounding error (measured: 49 % in float32, 52 % in float64).
+   `textbook_literal` keeps it, for its picture; `textbook` allows the sum SUM_TOLERANCE, so that it
+   rejects only needles whose weights have lost their digits by cancelling.
 Neither rule treats the edge between two triangles as belonging to exactly one of them.
 """
 
@@ -36,8 +36,8 @@ from .vector import Vectors, cross, dot
 
 Intersection = tuple[NDArray[np.bool_], NDArray[np.floating], Vectors]
 
-# How far s1 + s2 + s3 may be from 1, dimensionless. Ordinary rays stay within a few hundred ulp
-# of 1 (ulp: 1e-7 and 2e-16); larger values would let in points that are visibly off the plane.
+# How far s1 + s2 + s3 may be from 1, dimensionless. Ordinary rays stay within a few ulp of 1 (ulp:
+# 1e-7 and 2e-16); weights whose sum is farther off have lost most of their digits.
 SUM_TOLERANCE = {np.dtype(np.float32): 1e-6, np.dtype(np.float64): 1e-9}
 
 

@@ -227,7 +227,7 @@ def compare():
 def compare_escape():
     """Esc midway: stopped at once, and everything as before."""
     scene = window().scene
-    scene.reference_tracer.samples = 16
+    scene.render.resolution_percentage = 400
     yield 1
     before = settings(), data_blocks()
     press_compare()
