@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 # Blender hands its viewport's colours over as half floats, 11 bits, and cuts off rather than
-# rounds: 1 reads 0.9995. Next to an edge it copies them once more, and up to three units in the
-# last place are missing (measured in 4.3). Four units of the value are allowed; near black, where
-# those copies are off by more (3.5e-6 at 9.1e-4, measured in 4.2 to 5.0), of LEAST.
-TOLERANCE = 4 * 2.0**-11
-LEAST = 2.0**-8
+# rounds: 1 reads 0.9995. Next to an edge a window copies them once more, and up to 3 units in the
+# last place are missing (measured in 4.3). So many units of the larger value are allowed.
+UNITS = 4
+
+# What is black next to an edge has been seen as 9.1e-5 (in the same copy; 3.5e-6 in 4.2 to 5.0).
+LEAST = 2.0**-13
 
 # A rasteriser interpolates a colour attribute between corners that it has rounded to 1/256 pixel,
 # by an approximate 1/w: a ramp over a few pixels is off by as much as this (measured 0.0013).
@@ -79,14 +80,16 @@ class Settler:
 def differing(
     first: NDArray, second: NDArray, interpolated: NDArray[np.bool_] | bool = False
 ) -> NDArray[np.bool_]:
-    """Return which pixels of two (..., c) pictures differ by more than TOLERANCE in a channel.
+    """Return which pixels of two (..., c) pictures differ by more than Blender's own rounding.
 
-    The tolerance is a share of the larger value, and where a colour is `interpolated` (...) it is
-    INTERPOLATED more. What is not finite differs from everything.
+    UNITS of a half float's last place are allowed, but at least LEAST; where a colour is
+    `interpolated` (...), INTERPOLATED more. What is not finite differs from everything.
     """
     first, second = first.astype(np.float64), second.astype(np.float64)
     more = INTERPOLATED * np.asarray(interpolated, dtype=np.float64)[..., None]
+    size = np.maximum(np.abs(first), np.abs(second))
     with np.errstate(invalid="ignore"):
-        size = np.maximum(np.maximum(np.abs(first), np.abs(second)), LEAST)
-        same = (np.abs(first - second) <= TOLERANCE * size + more) & np.isfinite(size)
+        unit = np.spacing(np.minimum(size, 2.0**15).astype(np.float16))  # the last binade
+        allowed = np.maximum(UNITS * unit.astype(np.float64), LEAST) + more
+        same = (np.abs(first - second) <= allowed) & np.isfinite(size)
         return ~same.all(axis=-1)
