@@ -84,7 +84,7 @@ def _parser() -> argparse.ArgumentParser:
         "trace",
         _trace,
         "trace a scene or a mesh into a picture",
-        "reftrace trace bunny.ply --out bunny.png --width 800",
+        "reftrace trace mesh.ply --out mesh.png --width 800",
         sources,
     )
     sub.add_argument(

@@ -34,13 +34,15 @@ class Unmodelled:
     """A feature of the scene that the tracer does not model.
 
     `bounds` is the world-space box, (2, 3) float64 metres, inside which the feature can change
-    Blender's picture; None where it changes nothing that is compared, or cannot be placed.
+    Blender's picture; None where it changes nothing that is compared, or cannot be placed. What can
+    change it anywhere is `everywhere`.
     """
 
     object: str
     feature: str
     detail: str = ""
     bounds: NDArray[np.float64] | None = None
+    everywhere: bool = False
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():
@@ -71,6 +73,7 @@ class Manifest:
                 "object": u.object,
                 "feature": u.feature,
                 "detail": u.detail,
+                "everywhere": u.everywhere,
                 "bounds": None if u.bounds is None else np.asarray(u.bounds).tolist(),
             }
             for u in self.unmodelled
@@ -85,6 +88,8 @@ class Manifest:
             f"{len(exported)} of {len(self.objects)} objects exported, {total:,} triangles, "
             f"{self.evaluation.lower()} evaluation, camera '{self.camera}'"
         ]
+        if not exported:
+            out.append("  note: nothing is exported, so the picture is empty")
         for e in exported:
             if e.left_out:
                 out.append(f"  {e.name}: {e.left_out} triangles left out (not finite)")

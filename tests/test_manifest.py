@@ -90,6 +90,7 @@ def test_json_holds_everything(manifest):
         "object": "Cam.001",
         "feature": "depth of field",
         "detail": "",
+        "everywhere": False,
         "bounds": None,
     }
     assert again["notes"] == ["the sequencer is not part of it"]
@@ -106,6 +107,7 @@ def test_json_is_strict_whatever_the_bounds(manifest):
 def test_an_empty_scene_has_a_manifest():
     empty = Manifest("", "Scene", "ViewLayer", 1, "FILE", "Camera")
     assert empty.lines() == [
-        "0 of 0 objects exported, 0 triangles, file evaluation, camera 'Camera'"
+        "0 of 0 objects exported, 0 triangles, file evaluation, camera 'Camera'",
+        "  note: nothing is exported, so the picture is empty",
     ]
     assert empty.to_dict()["objects"] == []

@@ -27,6 +27,7 @@ from .engine import export_for_render
 from .export import export
 from .planes import stand_ins
 from .temporary import temporary_scene
+from .unmodelled import of_shading
 from .viewport import (
     SAMPLE_RADIUS,
     choose_source,
@@ -93,6 +94,9 @@ def gather(
                 exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
         else:
             exported, manifest = export_for_render(tmp)
+        if not like_for_like:
+            own = [replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, source)]
+            manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
         with stand_ins(tmp, layer, exported) as exported:
             drawn = picture(tmp, layer, source, exported.camera, like_for_like)
     blender = {
@@ -113,7 +117,10 @@ def compare_to_folder(
     """
     # A path as Blender writes it, // for beside the file, or as the shell does.
     folder = Path(bpy.path.abspath(directory))
-    folder.mkdir(parents=True, exist_ok=True)  # now, not after all the work
+    try:
+        folder.mkdir(parents=True, exist_ok=True)  # now, not after all the work
+    except FileExistsError as error:
+        raise OSError(f"'{folder}' is a file: name a folder for what is found") from error
     try:
         comparison = result_of(gather(context, **choices).steps(), progress)
         files.write(folder, comparison, images.save_png)

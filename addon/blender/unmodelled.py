@@ -163,3 +163,26 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
         yield found("backface culling", "both sides of a surface are traced")
     if scene.world and scene.world.mist_settings.use_mist:
         yield found("mist")
+
+
+def of_shading(scene: Any, source: str) -> Iterator[Unmodelled]:
+    """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it."""
+    display, shading = scene.display, scene.display.shading
+    if source == "cycles":
+        yield Unmodelled(f"scene '{scene.name}'", "materials and light", "of Cycles", None, True)
+        return
+    samples = display.viewport_aa if source == "viewport" else display.render_aa
+    for feature, shown in (
+        (f"{shading.light.lower()} light", shading.light != "FLAT"),
+        ("specular highlights", shading.light == "STUDIO" and shading.show_specular_highlight),
+        ("shadows", shading.show_shadows),
+        ("cavity", shading.show_cavity),
+        ("object outline", shading.show_object_outline),
+        ("x-ray", shading.show_xray),
+        ("backface culling", shading.show_backface_culling),
+        ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof),
+        ("anti-aliasing", samples != "OFF"),
+    ):
+        if shown:
+            detail = "Blender's picture is made with it"
+            yield Unmodelled(f"scene '{scene.name}'", feature, detail, None, True)

@@ -68,10 +68,14 @@ def find_causes(
         yield 0.1
     yield from scaled(look_again(scene, picture, band, settle), 0.1, 0.9)
     for number, feature in enumerate(unmodelled):
-        if feature.bounds is not None and settle.open.any():
+        if not settle.open.any():
+            break
+        if feature.everywhere:
+            settle(settle.open, Cause.NOT_MODELLED, float(number))
+        elif feature.bounds is not None:
             inside = settle.open & covered(scene.camera, feature.bounds)
             settle(inside, Cause.NOT_MODELLED, float(number))
-            yield 1.0
+        yield 1.0
     settle(settle.open, Cause.UNEXPLAINED)
     return out
 

@@ -21,6 +21,9 @@ from .causes import find_causes
 SCHEMA = "reference_tracer.comparison/1"
 
 # What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
+EXAMPLES = 10  # pixels named of each cause
+_SHOWN = (Cause.UNEXPLAINED, Cause.NOT_MODELLED, Cause.DEPTH_TIE, Cause.EDGE)
+
 _TRACING = 0.7  # of the work, roughly
 _CAUSES = 0.8  # of what is left
 
@@ -87,7 +90,11 @@ class Comparison:
         out = [
             f"{p['agree']:,} of {p['total']:,} pixels agree with Blender's "
             f"{self.blender['source']} picture, {p['differ']:,} differ",
-            *(f"  {name.replace('_', ' ')}: {n:,}" for name, n in p["by_cause"].items() if n),
+            *(
+                f"  {name.replace('_', ' ')}: {n:,}{_at(p['examples'].get(name, ()))}"
+                for name, n in p["by_cause"].items()
+                if n
+            ),
             f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
             f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
             f"traced {self.frame.statistics.triangles:,} triangles in "
@@ -130,7 +137,8 @@ def compare(
 def count_pixels(causes: Causes) -> dict[str, Any]:
     """Count pixels by what is said of them.
 
-    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained.
+    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
+    `examples` are some pixels of each cause, [x, y] of the region from its lower left.
     """
     count = {c: int((causes.cause == c).sum()) for c in Cause}
     explained = count[Cause.EDGE] + count[Cause.DEPTH_TIE] + count[Cause.NOT_MODELLED]
@@ -145,7 +153,19 @@ def count_pixels(causes: Causes) -> dict[str, Any]:
         "by_cause": {
             c.name.lower(): count[c] for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
         },
+        "examples": {c.name.lower(): _positions(causes.cause == c) for c in _SHOWN if count[c]},
     }
+
+
+def _at(pixels: list[list[int]]) -> str:
+    """Say where the first of some pixels are."""
+    return f", as at {', '.join(f'({x}, {y})' for x, y in pixels[:3])}" if pixels else ""
+
+
+def _positions(where: NDArray[np.bool_]) -> list[list[int]]:
+    """Return the first pixels of some as [x, y], x from the left and y from the bottom."""
+    width = where.shape[1]
+    return [[int(i % width), int(i // width)] for i in np.flatnonzero(where)[:EXAMPLES]]
 
 
 def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:

@@ -10,9 +10,9 @@ from ..compare.comparison import Comparison
 
 # Linear RGB. Pixels that agree show the traced picture, dimmed and grey.
 CAUSE_COLORS = {
-    Cause.EDGE: (1.0, 0.6, 0.0),
+    Cause.EDGE: (1.0, 0.3, 0.0),
     Cause.DEPTH_TIE: (0.0, 0.7, 1.0),
-    Cause.NOT_MODELLED: (0.8, 0.1, 0.9),
+    Cause.NOT_MODELLED: (0.3, 0.08, 0.9),
     Cause.NOT_DECIDABLE: (0.25, 0.3, 0.6),
     Cause.UNEXPLAINED: (1.0, 0.0, 0.0),
     Cause.NOT_TRACED: (0.0, 0.0, 0.0),

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.compare.cause import Cause, differing
-from reference_tracer.compare.causes import covered, find_causes
+from reference_tracer.compare.causes import covered, find_causes, sample_band
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering
@@ -204,3 +204,17 @@ def test_a_border_has_the_causes_of_the_whole(room, explained):
     for name in ("cause", "figure", "allowed"):
         cut = getattr(whole, name)[7:40, 12:51]
         assert np.array_equal(getattr(found, name)[1:-1, 1:-1], cut, equal_nan=True)
+
+
+def test_a_near_surface_does_not_excuse_the_background(make):
+    """It may be off by many pixels itself; what is farther from it than that is still judged."""
+    eye = (1000.0, 0.0, 0.0)
+    camera = make.camera(200, 150, eye=eye, clip_start=0.001)
+    near = make.quad(1000 - 0.012, 1000 - 0.011, -0.0005, 0.0005, -0.03)
+    far = make.quad(1001, 1002, -1, 1, -8)
+    scene, without = make.scene(camera, near, far), make.scene(camera, near)
+    found = result_of(find_causes(without, render(without), render(scene).color))
+    band = sample_band(without, render(without))
+    assert band.max() > 2 and (found.cause == Cause.NOT_DECIDABLE).any()
+    seen = render(scene).object_index == 1
+    assert seen.sum() > 100 and (found.cause[seen] == Cause.UNEXPLAINED).all()

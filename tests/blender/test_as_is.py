@@ -1,0 +1,46 @@
+"""As it is: what Blender's own shading adds is named, and explains what it changes."""
+
+from __future__ import annotations
+
+import pytest
+
+
+@pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
+def test_light_and_anti_aliasing_are_named(build, compare, judge):
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    scene.display.shading.light = "STUDIO"
+    comparison = compare(as_is=True, judge=judge)
+    named = {u.feature for u in comparison.manifest.unmodelled if u.everywhere}
+    expected = (
+        {"studio light", "anti-aliasing"} if judge == "WORKBENCH" else {"materials and light"}
+    )
+    assert expected <= named
+    assert comparison.pixels["unexplained"] == 0
+    assert comparison.pixels["by_cause"]["not_modelled"] > 100
+    assert comparison.verdict == "warnings"
+
+
+def test_like_for_like_takes_one_sample(build, compare):
+    """Blender's picture has one: edges of a smoother one would look like faults."""
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    scene.reference_tracer.samples = 4
+    comparison = compare()
+    assert comparison.settings.samples == 1
+    assert comparison.verdict == "agree"
+
+
+def test_examples_say_where(build, compare):
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    scene.display.shading.light = "STUDIO"
+    comparison = compare(as_is=True)
+    places = comparison.pixels["examples"]["not_modelled"]
+    assert len(places) == 10
+    for x, y in places:
+        assert comparison.causes.cause[y, x] != 0
+    assert f"({places[0][0]}, {places[0][1]})" in "\n".join(comparison.lines())
