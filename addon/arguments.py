@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import NoReturn
 
-from .scene import SceneError
+import numpy as np
+
+from .scene import Camera, SceneError, ViewWindow, check_size
 from .tracer.settings import Method, Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
@@ -79,3 +81,84 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
         return Settings(**vars(stored) | chosen)
     except ValueError as error:
         raise SceneError(str(error)) from error
+
+
+def add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int = 540) -> None:
+    """Add a camera for files that have none; `default_size` is its picture's."""
+    group = parser.add_argument_group(
+        "camera of a mesh (by default one that frames it; a scene has its own)"
+    )
+    group.add_argument("--width", type=int, metavar="PIXELS", help=f"default {width}")
+    group.add_argument("--height", type=int, metavar="PIXELS", help=f"default {height}")
+    group.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"), help="its position")
+    group.add_argument(
+        "--target",
+        type=float,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="where it looks (default the origin); Z is up",
+    )
+    group.add_argument(
+        "--angle",
+        type=float,
+        metavar="DEGREES",
+        help="vertical angle of view (default 50)",
+    )
+    group.add_argument(
+        "--ortho-scale",
+        type=float,
+        metavar="METRES",
+        help="height of the picture of an orthographic camera, in place of --angle",
+    )
+    parser.set_defaults(default_size=(width, height), heard=())
+
+
+def camera_from(options: argparse.Namespace, width: int, height: int) -> Camera | None:
+    """Return the camera that the options place, None for none.
+
+    Raises
+    ------
+    SceneError
+        If they place one that sees nothing, or say how it looks but not where it stands.
+    """
+    check_size(width, height)
+    if options.eye is None:
+        refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
+        return None
+    angle = 50.0 if options.angle is None else options.angle
+    if not 0 < angle < 180:
+        raise SceneError(f"--angle is {angle:g}; it must be between 0 and 180 degrees.")
+    eye, target = np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0))
+    backward = eye - target
+    up = np.array((0.0, 1.0, 0.0) if not backward[:2].any() else (0.0, 0.0, 1.0))
+    right = np.cross(up, backward)
+    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
+    lengths = np.linalg.norm(axes, axis=0)
+    if not lengths.all():
+        raise SceneError("--eye and --target are the same point: move one of them.")
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
+    orthographic = options.ortho_scale is not None
+    if orthographic and not options.ortho_scale > 0:
+        raise SceneError(
+            f"--ortho-scale is {options.ortho_scale:g} (orthographic scale); it must be above 0."
+        )
+    half = options.ortho_scale / 2 if orthographic else np.tan(np.radians(angle) / 2)
+    distance = float(np.linalg.norm(backward))
+    return Camera(
+        matrix,
+        ViewWindow(-half * width / height, half * width / height, -half, half),
+        width,
+        height,
+        orthographic=orthographic,
+        clip_start=distance * 1e-3,
+        clip_end=distance * 1e3,
+        name="--eye",
+    )
+
+
+def refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
+    """Raise a SceneError for an option that would not be heard."""
+    for name in names:
+        if getattr(options, name, None) is not None:
+            raise SceneError(f"--{name.replace('_', '-')} {why}")

@@ -14,19 +14,20 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from . import __version__, images
 from .arguments import (
     EXIT_CODES,
     INPUT_ERROR,
     Parser,
+    add_camera,
     add_judge,
     add_settings,
+    camera_from,
+    refuse,
     settings_from,
 )
 from .report import files
-from .scene import Camera, Scene, SceneError, ViewWindow, check_size
+from .scene import Scene, SceneError
 from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, save_scene, scene_of_meshes
 from .tracer.render import render
 from .tracer.settings import Settings
@@ -95,7 +96,7 @@ def _parser() -> argparse.ArgumentParser:
         help="picture.png (what a screen shows) or picture.exr (every output)",
     )
     add_settings(sub)
-    _add_camera(sub)
+    add_camera(sub)
 
     sub = command(
         "trade",
@@ -104,7 +105,7 @@ def _parser() -> argparse.ArgumentParser:
         "reftrace trade sample_scenes/suzanne.blend --width 160",
         sources,
     )
-    _add_camera(sub, width=160, height=90)
+    add_camera(sub, width=160, height=90)
     sub.set_defaults(heard=("width",))
 
     sub = command(
@@ -120,79 +121,6 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int = 540) -> None:
-    group = parser.add_argument_group(
-        "camera of a mesh (by default one that frames it; a scene has its own)"
-    )
-    group.add_argument("--width", type=int, metavar="PIXELS", help=f"default {width}")
-    group.add_argument("--height", type=int, metavar="PIXELS", help=f"default {height}")
-    group.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"), help="its position")
-    group.add_argument(
-        "--target",
-        type=float,
-        nargs=3,
-        metavar=("X", "Y", "Z"),
-        help="where it looks (default the origin); Z is up",
-    )
-    group.add_argument(
-        "--angle",
-        type=float,
-        metavar="DEGREES",
-        help="vertical angle of view (default 50)",
-    )
-    group.add_argument(
-        "--ortho-scale",
-        type=float,
-        metavar="METRES",
-        help="height of the picture of an orthographic camera, in place of --angle",
-    )
-    parser.set_defaults(default_size=(width, height), heard=())
-
-
-def _camera(options: argparse.Namespace, width: int, height: int) -> Camera | None:
-    check_size(width, height)
-    if options.eye is None:
-        _refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
-        return None
-    angle = 50.0 if options.angle is None else options.angle
-    if not 0 < angle < 180:
-        raise SceneError(f"--angle is {angle:g}; it must be between 0 and 180 degrees.")
-    eye, target = np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0))
-    backward = eye - target
-    up = np.array((0.0, 1.0, 0.0) if not backward[:2].any() else (0.0, 0.0, 1.0))
-    right = np.cross(up, backward)
-    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
-    lengths = np.linalg.norm(axes, axis=0)
-    if not lengths.all():
-        raise SceneError("--eye and --target are the same point: move one of them.")
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
-    orthographic = options.ortho_scale is not None
-    if orthographic and not options.ortho_scale > 0:
-        raise SceneError(
-            f"--ortho-scale is {options.ortho_scale:g} (orthographic scale); it must be above 0."
-        )
-    half = options.ortho_scale / 2 if orthographic else np.tan(np.radians(angle) / 2)
-    distance = float(np.linalg.norm(backward))
-    return Camera(
-        matrix,
-        ViewWindow(-half * width / height, half * width / height, -half, half),
-        width,
-        height,
-        orthographic=orthographic,
-        clip_start=distance * 1e-3,
-        clip_end=distance * 1e3,
-        name="--eye",
-    )
-
-
-def _refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
-    """Raise a SceneError for an option that would not be heard."""
-    for name in names:
-        if getattr(options, name, None) is not None:
-            raise SceneError(f"--{name.replace('_', '-')} {why}")
-
-
 def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
     """Return the scene of a file, with the settings that it stores."""
     path = options.scene
@@ -201,7 +129,7 @@ def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
     suffix = path.suffix.lower()
     if suffix not in MESH_SUFFIXES:
         own = {"width", "height", "eye", "target", "angle", "ortho_scale"} - set(options.heard)
-        _refuse(options, tuple(sorted(own)), f"is for meshes: '{path}' has its own camera")
+        refuse(options, tuple(sorted(own)), f"is for meshes: '{path}' has its own camera")
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
@@ -210,7 +138,9 @@ def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
             for name, default in zip(("width", "height"), options.default_size, strict=True)
         )
         meshes = load_meshes(path)
-        return scene_of_meshes(meshes, _camera(options, width, height), width, height), Settings()
+        return scene_of_meshes(
+            meshes, camera_from(options, width, height), width, height
+        ), Settings()
     if suffix == ".blend":
         with _open_blend(path) as blender:
             from .blender.compare import export_open_file
