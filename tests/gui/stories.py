@@ -262,9 +262,12 @@ def compare_error():
 
 
 def scenes():
-    """Every sample scene against the real viewport."""
-    for path in sorted(Path("/project/sample_scenes").glob("*.blend")):
-        bpy.ops.wm.open_mainfile(filepath=str(path))
+    """Every sample scene, and the scene that Blender starts with, against the real viewport."""
+    for path in (*sorted(Path("/project/sample_scenes").glob("*.blend")), Path("default_cube")):
+        if path.suffix:
+            bpy.ops.wm.open_mainfile(filepath=str(path))
+        else:
+            bpy.ops.wm.read_homefile(use_factory_startup=True)
         yield 0.5
         press_compare()
         yield from until(compared, 120)

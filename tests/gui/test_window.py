@@ -49,7 +49,7 @@ def test_escape_stops_f12(blender):
 
 def test_every_sample_scene_agrees_with_the_viewport(blender):
     noted = blender.story("scenes")
-    assert len(noted) == 11
+    assert len(noted) == 12 and noted["default_cube"]["verdict"] == "agree"
     assert {name: c["pixels"]["unexplained"] for name, c in noted.items()} == dict.fromkeys(
         noted, 0
     )
