@@ -134,14 +134,21 @@ class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
         return {"CANCELLED"}
 
 
+@bpy.app.handlers.persistent
+def _file_closes(*_: Any) -> None:
+    """Forget what was of the file that goes: its comparison, and one that was under way."""
+    results.forget()
+    REFERENCE_TRACER_OT_compare.running = False
+
+
 def register() -> None:
     """Register the operator."""
-    bpy.app.handlers.load_pre.append(results.forget)
+    bpy.app.handlers.load_pre.append(_file_closes)
     bpy.utils.register_class(REFERENCE_TRACER_OT_compare)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     results.forget()
-    bpy.app.handlers.load_pre.remove(results.forget)
+    bpy.app.handlers.load_pre.remove(_file_closes)
     bpy.utils.unregister_class(REFERENCE_TRACER_OT_compare)

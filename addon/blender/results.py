@@ -48,8 +48,7 @@ def latest(scene: Any) -> Result | None:
     return None
 
 
-@bpy.app.handlers.persistent
-def forget(*_: Any) -> None:
+def forget() -> None:
     """Drop the latest comparison, as when another file is opened."""
     global _latest
     _latest = None

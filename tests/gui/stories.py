@@ -248,6 +248,21 @@ def compare_escape():
     noted["compared"] = compared()
 
 
+def compare_another_file():
+    """Another file is opened midway: that comparison ends, and the next one works."""
+    window().scene.render.resolution_percentage = 400
+    yield 1
+    press_compare()
+    yield 1
+    noted["running"] = [o.bl_idname for o in window().modal_operators]
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
+    yield 1
+    noted["left"] = [o.bl_idname for o in window().modal_operators]
+    press_compare()
+    yield from until(compared)
+    noted["comparison"] = module().latest(window().scene).comparison.to_dict()
+
+
 def compare_error():
     """A scene that cannot be traced: an error, and everything as before."""
     window().scene.camera.data.type = "PANO"
@@ -276,7 +291,16 @@ def scenes():
 
 STORIES = {
     s.__name__: s
-    for s in (f12, f12_escape, f12_error, compare, compare_escape, compare_error, scenes)
+    for s in (
+        f12,
+        f12_escape,
+        f12_error,
+        compare,
+        compare_escape,
+        compare_another_file,
+        compare_error,
+        scenes,
+    )
 }
 
 

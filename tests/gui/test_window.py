@@ -30,6 +30,13 @@ def test_escape_stops_a_comparison_and_changes_nothing(blender):
     assert not noted["compared"]
 
 
+def test_another_file_ends_a_comparison(blender):
+    noted = blender.story("compare_another_file")
+    assert noted["running"] and not noted["left"]
+    assert noted["comparison"]["scene"]["file"] == "exercise_triangle.blend"
+    assert noted["comparison"]["verdict"] == "agree"
+
+
 def test_error_is_reported_and_changes_nothing(blender):
     noted = blender.story("compare_error")
     assert "panoramic" in noted["message"] or "pano" in noted["message"]
