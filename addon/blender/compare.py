@@ -30,6 +30,7 @@ from .temporary import temporary_scene
 from .unmodelled import of_shading
 from .viewport import (
     SAMPLE_RADIUS,
+    anti_aliasing,
     choose_source,
     picture,
     prepare,
@@ -89,13 +90,16 @@ def gather(
             use_view_shading(tmp, view_shading)
         used = prepare(tmp, like_for_like)
         used["shading_of"] = "3D view" if view_shading else "scene"
+        used["anti_aliasing"] = smooth = anti_aliasing(tmp, source, like_for_like)
         if source == "viewport":
             with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
                 exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
         else:
             exported, manifest = export_for_render(tmp)
         if not like_for_like:
-            own = [replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, source)]
+            own = [
+                replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, source, smooth)
+            ]
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
         with stand_ins(tmp, layer, exported) as exported:
             drawn = picture(tmp, layer, source, exported.camera, like_for_like)

@@ -165,13 +165,12 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
         yield found("mist")
 
 
-def of_shading(scene: Any, source: str) -> Iterator[Unmodelled]:
+def of_shading(scene: Any, source: str, anti_aliasing: str) -> Iterator[Unmodelled]:
     """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it."""
-    display, shading = scene.display, scene.display.shading
+    shading = scene.display.shading
     if source == "cycles":
         yield Unmodelled(f"scene '{scene.name}'", "materials and light", "of Cycles", None, True)
         return
-    samples = display.viewport_aa if source == "viewport" else display.render_aa
     for feature, shown in (
         (f"{shading.light.lower()} light", shading.light != "FLAT"),
         ("specular highlights", shading.light == "STUDIO" and shading.show_specular_highlight),
@@ -181,7 +180,7 @@ def of_shading(scene: Any, source: str) -> Iterator[Unmodelled]:
         ("x-ray", shading.show_xray),
         ("backface culling", shading.show_backface_culling),
         ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof),
-        ("anti-aliasing", samples != "OFF"),
+        ("anti-aliasing", anti_aliasing != "OFF"),
     ):
         if shown:
             detail = "Blender's picture is made with it"

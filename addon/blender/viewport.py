@@ -92,8 +92,19 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
         "color_type": shading.color_type,
         "film_transparent": render.film_transparent,
         "view_transform": view.view_transform,
-        "anti_aliasing": display.render_aa,
     }
+
+
+def anti_aliasing(scene: Any, source: str, like_for_like: bool) -> str:
+    """Return what smooths the edges of the picture that :func:`picture` makes; 'OFF' for nothing.
+
+    In a window that is the user's preference, whatever the scene says.
+    """
+    if like_for_like:
+        return "OFF"
+    if source == "viewport":
+        return bpy.context.preferences.system.viewport_aa
+    return scene.display.render_aa
 
 
 def use_view_shading(scene: Any, shading: Any) -> None:
@@ -163,23 +174,21 @@ def picture(
 def _draw_viewport(scene: Any, layer: str, like_for_like: bool) -> None:
     # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
     override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer])
-    with _viewport_aa(None if not like_for_like else "OFF"), override:
+    with _viewport_aa("OFF") if like_for_like else nullcontext(), override:
         bpy.ops.render.opengl(view_context=False, write_still=True)
 
 
 @contextmanager
-def _viewport_aa(value: str | None) -> Iterator[None]:
+def _viewport_aa(value: str) -> Iterator[None]:
     """Set the preference that alone decides on a window's anti-aliasing, and put it back."""
     preferences = bpy.context.preferences
     before, dirty = preferences.system.viewport_aa, preferences.is_dirty
-    if value is not None:
-        preferences.system.viewport_aa = value
+    preferences.system.viewport_aa = value
     try:
         yield
     finally:
-        if value is not None:
-            preferences.system.viewport_aa = before
-            preferences.is_dirty = dirty
+        preferences.system.viewport_aa = before
+        preferences.is_dirty = dirty
 
 
 def _read(path: Path) -> NDArray[np.float32]:

@@ -224,6 +224,17 @@ def compare():
     noted["after_undo"] = [i.name for i in bpy.data.images if i.name.startswith("Reference Tracer")]
 
 
+def compare_as_is():
+    """The user's own shading: what smooths a window's edges is a preference, not the scene's."""
+    window().scene.reference_tracer.shading = "AS_IS"
+    window().scene.display.viewport_aa = "OFF"
+    yield 1
+    press_compare()
+    yield from until(compared)
+    noted["comparison"] = module().latest(window().scene).comparison.to_dict()
+    noted["preference"] = bpy.context.preferences.system.viewport_aa
+
+
 def compare_escape():
     """Esc midway: stopped at once, and everything as before."""
     scene = window().scene
@@ -296,6 +307,7 @@ STORIES = {
         f12_escape,
         f12_error,
         compare,
+        compare_as_is,
         compare_escape,
         compare_another_file,
         compare_error,

@@ -23,6 +23,15 @@ def test_button_leaves_three_images_and_nothing_else(blender):
     assert noted["after_undo"] == []  # one step
 
 
+def test_as_it_is_names_what_the_window_adds(blender):
+    noted = blender.story("compare_as_is")
+    comparison = noted["comparison"]
+    assert comparison["blender"]["settings"]["anti_aliasing"] == noted["preference"] != "OFF"
+    assert "anti-aliasing" in {u["feature"] for u in comparison["scene"]["unmodelled"]}
+    assert comparison["pixels"]["unexplained"] == 0
+    assert comparison["verdict"] == "warnings"
+
+
 def test_escape_stops_a_comparison_and_changes_nothing(blender):
     noted = blender.story("compare_escape")
     assert any("compare" in name.lower() for name in noted["running"])
