@@ -60,15 +60,15 @@ def _emission(material: Any, scene: Any) -> None:
     elif shading.color_type == "OBJECT":
         tree.links.new(_attribute(tree, "OBJECT", "color").outputs["Color"], color)
     elif shading.color_type == "VERTEX":
-        tree.links.new(_vertex_color(tree, scene), color)
+        tree.links.new(_vertex_color(tree), color)
     else:
-        tree.links.new(_material_color(tree, scene), color)
+        tree.links.new(_material_color(tree), color)
 
 
-def _vertex_color(tree: Any, scene: Any) -> Any:
+def _vertex_color(tree: Any) -> Any:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
     found = (
-        _material_color(tree, scene)
+        _material_color(tree)
         if WITHOUT_ATTRIBUTE == "MATERIAL"
         else _attribute(tree, "OBJECT", "color").outputs["Color"]
     )
@@ -80,7 +80,7 @@ def _vertex_color(tree: Any, scene: Any) -> Any:
     return found
 
 
-def _material_color(tree: Any, scene: Any) -> Any:
+def _material_color(tree: Any) -> Any:
     """Return a socket: the viewport colour of the material in the face's slot, grey where empty."""
     slot = _attribute(tree, "GEOMETRY", "material_index").outputs["Fac"]
     owners = [*bpy.data.objects, *bpy.data.meshes]  # instances may be of objects elsewhere
