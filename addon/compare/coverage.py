@@ -62,7 +62,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
             thin = np.abs(ux * vy - uy * vx) < LARGE * own * longest  # its least height is
             certain = np.flatnonzero((rim > own) | thin | np.isnan(rim))
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
-        test_pairs(scene, settings, centres, _take(some, certain), sure)
+        test_pairs(scene, settings, centres, some.take(certain), sure)
         inward = sum(corners)[:, near] / 3 - nearest[:, near]
         share = np.minimum(INWARD, own[near] / 64 / np.maximum(np.hypot(*inward), 1e-300))
         x, y = nearest[:, near] + share * inward
@@ -92,13 +92,8 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
     points, normals = probe.points(sure)[pixel].T, shading.normals(scene, own).T
     behind = np.where(own.instance != NOTHING, plane.intersect(rays, points, normals), np.inf)
     behind = np.where(np.isnan(behind), own.t, behind)
-    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure, behind)
-
-
-def _take(some: Pairs, index: NDArray[np.integer]) -> Pairs:
-    return Pairs(
-        some.pixel[index], some.corners[..., index], some.instance[index], some.triangle[index]
-    )
+    seen = Hits(t, instance, triangle, s, np.zeros(len(t), np.uint8))
+    return Coverage(pixel, distance, seen, sure, behind)
 
 
 def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:

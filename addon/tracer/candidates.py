@@ -8,8 +8,9 @@ around a projected triangle is widened by a bound on every rounding error that c
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,6 +46,52 @@ class WorldTriangles:
     corners: NDArray[np.floating]
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
+
+    def take(self, index: NDArray) -> WorldTriangles:
+        """Return the triangles at `index`."""
+        return WorldTriangles(self.corners[..., index], self.instance[index], self.triangle[index])
+
+    @staticmethod
+    def none() -> WorldTriangles:
+        """Return no triangles."""
+        return WorldTriangles(np.zeros((3, 3, 0)), np.zeros(0, np.int32), np.zeros(0, np.int32))
+
+    @staticmethod
+    def joined(parts: Sequence[WorldTriangles]) -> WorldTriangles:
+        """Return the triangles of several batches as one."""
+        fields = zip(*(vars(part).values() for part in parts), strict=True)
+        return WorldTriangles(*(np.concatenate(f, axis=-1) for f in fields))
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """p pairs of a pixel and a triangle that may cover it.
+
+    `pixel` (p,) indexes the rays; `row` (p,) the batch's `triangles`.
+    """
+
+    pixel: NDArray[np.integer]
+    row: NDArray[np.integer]
+    triangles: WorldTriangles
+
+    @cached_property
+    def corners(self) -> NDArray[np.floating]:
+        """Corner, component, pair: (3, 3, p), world space."""
+        return np.stack([corner.take(self.row, axis=1) for corner in self.triangles.corners])
+
+    @property
+    def instance(self) -> NDArray[np.int32]:
+        """Whose each triangle is, (p,)."""
+        return self.triangles.instance[self.row]
+
+    @property
+    def triangle(self) -> NDArray[np.int32]:
+        """Which of its mesh each triangle is, (p,)."""
+        return self.triangles.triangle[self.row]
+
+    def take(self, index: NDArray) -> Pairs:
+        """Return the pairs at `index`."""
+        return Pairs(self.pixel[index], self.row[index], self.triangles)
 
 
 def batches(scene: Scene) -> Iterator[Batch]:
@@ -167,6 +214,19 @@ def _everywhere(region: Region, count: int) -> NDArray[np.int32]:
     return np.repeat(box[:, None], count, axis=1)
 
 
+def within(bounds: NDArray[np.int32], tile: Region) -> NDArray[np.int32]:
+    """Return the parts of boxes, (4, m) as of :func:`pixel_bounds`, that lie in a tile."""
+    x0, x1, y0, y1 = bounds
+    return np.stack(
+        (
+            np.maximum(x0, tile.x0),
+            np.minimum(x1, tile.x1),
+            np.maximum(y0, tile.y0),
+            np.minimum(y1, tile.y1),
+        )
+    )
+
+
 def pairs(
     bounds: NDArray[np.int32], tile: Region, limit: int
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
@@ -175,9 +235,8 @@ def pairs(
     Parameters
     ----------
     bounds : (4, m) int32
-        From :func:`pixel_bounds`.
+        As of :func:`pixel_bounds`, :func:`within` the tile.
     tile : Region
-        Only pixels of it are proposed.
 
     Yields
     ------
@@ -186,8 +245,7 @@ def pairs(
     triangle : (p,) int
         Column of `bounds`.
     """
-    x0, x1 = np.maximum(bounds[0], tile.x0), np.minimum(bounds[1], tile.x1)
-    y0, y1 = np.maximum(bounds[2], tile.y0), np.minimum(bounds[3], tile.y1)
+    x0, x1, y0, y1 = bounds
     some = np.flatnonzero((x0 < x1) & (y0 < y1))
     if not len(some):
         return

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera
-from .visibility import NOTHING, Statistics
+from .certainty import Certainty
+from .hits import NOTHING, Name, Statistics
 
 
 @dataclass(eq=False)
@@ -27,7 +28,10 @@ class Frame:
     object_index: NDArray[np.int32]  # (h, w) index into Scene.objects; NOTHING: no hit
     instance_index: NDArray[np.int32]  # (h, w) instances, then planes; NOTHING: no hit
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
+    certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
     rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
+    # All that an ambiguous pixel's ray may be said to see, by the pixel's index, row by row.
+    ties: dict[int, frozenset[Name]] = field(default_factory=dict)
     cancelled: bool = False
     statistics: Statistics = field(default_factory=Statistics)
 
@@ -41,6 +45,7 @@ class Frame:
             np.full((h, w), np.inf),
             *(np.zeros((h, w, 3)) for _ in range(3)),
             *indices,
+            np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
             np.zeros(h, bool),
         )
 
@@ -51,6 +56,31 @@ class Frame:
         Directions are not normalised, so it is t itself, for both kinds of camera.
         """
         return self.t
+
+    def t_interval(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return two floats, (h, w) each, between which the exact t of a certified pixel lies.
+
+        As t is rounded correctly, they are its neighbours. -inf to inf where nothing is certified.
+        """
+        known = self.certainty != Certainty.NOT_CERTIFIED
+        return (
+            np.where(known, np.nextafter(self.t, -np.inf), -np.inf),
+            np.where(known, np.nextafter(self.t, np.inf), np.inf),
+        )
+
+    def wrong_against(self, certified: Frame) -> NDArray[np.bool_]:
+        """Return which pixels, (h, w), see another surface than a certified frame of the scene.
+
+        Where that is ambiguous, all that a ray moved infinitesimally may see is right.
+        """
+        wrong = (self.instance_index != certified.instance_index) | (
+            self.triangle_index != certified.triangle_index
+        )
+        for pixel in np.flatnonzero(wrong).tolist():
+            if may := certified.ties.get(pixel):
+                name = int(self.instance_index.flat[pixel]), int(self.triangle_index.flat[pixel])
+                wrong.flat[pixel] = name not in may
+        return wrong
 
     def passes(self) -> dict[str, NDArray]:
         """Return every output by name, in the order in which they are declared."""
@@ -64,6 +94,7 @@ class Frame:
             "object_index",
             "instance_index",
             "triangle_index",
+            "certainty",
             "rows_done",
         )
         return {name: getattr(self, name) for name in names}

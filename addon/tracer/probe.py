@@ -5,7 +5,7 @@ The comparison asks with them what a pixel would show had Blender's arithmetic m
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,7 @@ class Probe:
         chunks = []
         for share, some in candidates(plan, tile, wanted):
             if some is not None and len(some.pixel):
-                chunks.append(Pairs(number[some.pixel], some.corners, some.instance, some.triangle))
+                chunks.append(replace(some, pixel=number[some.pixel]))
             yield share
         px, py = film_positions(tile, 0.0, 0.0)
         return cls(plan, px[wanted], py[wanted], chunks)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +16,12 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import shading
 from .camera import camera_rays
+from .certainty import AssumptionError, check_assumptions
 from .frame import Frame
+from .hits import Hits
 from .progress import Work, scaled
-from .settings import Settings
-from .visibility import Hits, Plan, film_positions, plan, trace_tile
+from .settings import Method, Precision, Settings
+from .visibility import Plan, film_positions, plan, trace_tile
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
@@ -47,6 +50,11 @@ def render(
     Returns
     -------
     Frame
+
+    Raises
+    ------
+    AssumptionError
+        If the method is `certified`, and this process's arithmetic allows no proof.
     """
     frame = Frame.empty(scene.camera)
     for share in steps(scene, settings or Settings(), frame):
@@ -64,16 +72,33 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     The caller stops by not asking for more, and then sets `frame.cancelled`.
     """
     began = time.perf_counter()
+    settings = _resolved(settings, frame)
     frame.statistics.triangles = scene.triangle_count
     offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
     reach = max((abs(o) for offset in offsets for o in offset), default=0.0)
     made = yield from plan(scene, settings, reach)
+    frame.statistics.refused = made.refused
     all_tiles = tiles(scene.camera)
     for number, tile in enumerate(all_tiles):
         tracing = _trace(made, tile, offsets, frame)
         yield from scaled(tracing, _WHOLE * number / len(all_tiles), _WHOLE / len(all_tiles))
         frame.statistics.seconds = time.perf_counter() - began
     yield 1.0
+
+
+def _resolved(settings: Settings, frame: Frame) -> Settings:
+    """Return settings with a method that is one: `auto` is certified, where that is possible."""
+    if not settings.method.is_plain:
+        try:
+            check_assumptions()
+            settings = replace(settings, method=Method.CERTIFIED)
+        except AssumptionError as error:
+            if settings.method != Method.AUTO:
+                raise
+            settings = replace(settings, method=Method.WATERTIGHT, precision=Precision.FLOAT64)
+            frame.statistics.notes.append(f"traced by watertight in float64, as {error}")
+    frame.statistics.method = settings.method.value
+    return settings
 
 
 def _trace(made: Plan, tile: Region, offsets: list, frame: Frame) -> Work[None]:
@@ -117,6 +142,9 @@ def _write(plan: Plan, frame: Frame, tile: Region, hits: Hits, color: NDArray) -
         (frame.object_index, shading.objects(scene, hits)),
         (frame.instance_index, hits.instance),
         (frame.triangle_index, hits.triangle),
+        (frame.certainty, hits.certainty),
     ):
         target[rows] = np.asarray(value).reshape(target[rows].shape)
+    first = rows.start * tile.width
+    frame.ties.update((first + pixel, names) for pixel, names in hits.ties.items())
     frame.rows_done[rows] = True

@@ -9,11 +9,24 @@ import numpy as np
 
 
 class Method(StrEnum):
-    """How a ray meets a triangle; `triangle.py` has the formulas."""
+    """How a ray meets a triangle, in the order of how far the answer can be trusted.
+
+    The formulas of the plain methods are in `triangle.py`. `certified` proves every pixel
+    (`certified.py`); `auto` does, too, where the machine's arithmetic allows a proof, and is
+    `watertight` in float64 where it does not.
+    """
 
     TEXTBOOK_LITERAL = "textbook_literal"
     TEXTBOOK = "textbook"
     MOLLER_TRUMBORE = "moller_trumbore"
+    WATERTIGHT = "watertight"
+    CERTIFIED = "certified"
+    AUTO = "auto"
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether it is floating point alone, in either precision, without a proof."""
+        return self not in (Method.CERTIFIED, Method.AUTO)
 
 
 class Precision(StrEnum):
@@ -45,10 +58,11 @@ class Settings:
     Raises
     ------
     ValueError
-        If a value is not one of those, naming those that are.
+        If a value is not one of those, naming those that are; or if float32 is asked for where
+        the proof needs float64.
     """
 
-    method: Method | str = Method.TEXTBOOK
+    method: Method | str = Method.AUTO
     precision: Precision | str = Precision.FLOAT64
     samples: int = 1
     memory: int = 256 << 20
@@ -61,6 +75,11 @@ class Settings:
             except ValueError:
                 names = ", ".join(k.value for k in kind)
                 raise ValueError(f"{name} is {value!r}; it must be one of {names}") from None
+        if self.precision != Precision.FLOAT64 and not self.method.is_plain:
+            raise ValueError(
+                f"precision is {self.precision.value}; {self.method.value} is proven for float64 "
+                f"only: choose float64, or one of {', '.join(m for m in Method if m.is_plain)}"
+            )
         if not 1 <= self.samples <= 64:
             raise ValueError(f"samples is {self.samples}; it must be between 1 and 64")
         if self.memory < 16 << 20:

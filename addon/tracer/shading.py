@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from ..scene import Mesh, Scene
 from .camera import Rays
+from .hits import NOTHING, Hits
 from .vector import cross, dot, transform_points
-from .visibility import NOTHING, Hits
 
 
 def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:

@@ -1,4 +1,4 @@
-"""Ray and triangle: the textbook's test, the same taken literally, and Möller–Trumbore.
+"""Ray and triangle: the textbook's test, the same taken literally, Möller–Trumbore, watertight.
 
 Each function takes n rays and n triangles, pair by pair, and returns
     hit : (n,) bool      whether the ray's line meets the triangle
@@ -25,7 +25,7 @@ Neither rule treats the edge between two triangles as belonging to exactly one o
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -89,8 +89,44 @@ def moller_trumbore(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Inters
         return hit, t, np.stack((1 - s2 - s3, s2, s3))
 
 
+def watertight(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
+    """Shear the ray onto an axis, and take the signs of three 2D edge functions.
+
+    Source: Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013. Two
+    triangles compute the edge that they share from the same rounded numbers, so that no ray slips
+    between them; it may meet both. In float32, edge functions that come out as zero are computed
+    again in float64, as the paper does.
+    """
+    d = np.broadcast_to(rays.directions, np.broadcast_shapes(rays.directions.shape, p1.shape))
+    z = np.abs(d).argmax(axis=0)
+    order = np.stack(((z + 1) % 3, (z + 2) % 3, z))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        dx, dy, dz = np.take_along_axis(d, order, axis=0)
+        shear_x, shear_y = dx / dz, dy / dz
+        sheared = []
+        for corner in (p1, p2, p3):
+            x, y, depth = np.take_along_axis(corner - rays.origins, order, axis=0)
+            sheared.append((x - shear_x * depth, y - shear_y * depth, depth))
+        weights = _edge_functions(sheared)
+        if weights.dtype == np.float32 and (again := (weights == 0).any(axis=0)).any():
+            finer = [[v[again].astype(np.float64) for v in corner] for corner in sheared]
+            weights = weights.astype(np.float64)
+            weights[:, again] = _edge_functions(finer)
+        area = weights[0] + weights[1] + weights[2]
+        hit = ((weights >= 0).all(axis=0) | (weights <= 0).all(axis=0)) & (area != 0)
+        t = dot(weights, np.stack([corner[2] for corner in sheared])) / (area * dz)
+        return hit, t.astype(d.dtype), (weights / area).astype(d.dtype)
+
+
+def _edge_functions(sheared: Sequence[Sequence[NDArray]]) -> Vectors:
+    """Return twice the areas of the triangles that the ray makes with each edge, (3, n)."""
+    (ax, ay, _), (bx, by, _), (cx, cy, _) = sheared
+    return np.stack((cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax))
+
+
 METHODS: dict[Method, Callable[[Rays, Vectors, Vectors, Vectors], Intersection]] = {
     Method.TEXTBOOK_LITERAL: textbook_literal,
     Method.TEXTBOOK: textbook,
     Method.MOLLER_TRUMBORE: moller_trumbore,
+    Method.WATERTIGHT: watertight,
 }

@@ -2,6 +2,7 @@
 
 In come rays and candidates; out go `Hits`: for each ray the nearest t within the clip range, and
 whose it is. Exactly equal t go to the lower (instance, triangle); planes come after instances.
+`certified.py` does the same with proof.
 """
 
 from __future__ import annotations
@@ -15,54 +16,16 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays
-from .candidates import Batch, batches, pairs, pixel_bounds, world_triangles
+from .candidates import Batch, Pairs, batches, pairs, pixel_bounds, within, world_triangles
+from .certified import Contest
+from .hits import NOTHING, Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .triangle import METHODS
 from .vector import Vectors
 
-NOTHING = -1  # instance and triangle where a ray hits nothing
-
 PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
-
-
-@dataclass
-class Statistics:
-    """What a picture took."""
-
-    triangles: int = 0  # over all instances
-    pairs_tested: int = 0  # (ray, triangle)
-    seconds: float = 0.0
-
-
-@dataclass(eq=False)
-class Hits:
-    """What n rays meet.
-
-    `t` (n,) float64 is inf where nothing is hit; `instance` and `triangle`, (n,) int32, are NOTHING
-    there; `s`, the barycentrics, is (3, n) float64. A hit on plane k has the instance
-    `len(scene.instances) + k` and the triangle NOTHING.
-    """
-
-    t: NDArray[np.float64]
-    instance: NDArray[np.int32]
-    triangle: NDArray[np.int32]
-    s: NDArray[np.float64]
-
-    @classmethod
-    def none(cls, count: int) -> Hits:
-        """Return hits of `count` rays that have met nothing yet."""
-        return cls(
-            np.full(count, np.inf),
-            np.full(count, NOTHING, np.int32),
-            np.full(count, NOTHING, np.int32),
-            np.zeros((3, count)),
-        )
-
-    def take(self, index: NDArray) -> Hits:
-        """Return the hits of the rays at `index`."""
-        return Hits(self.t[index], self.instance[index], self.triangle[index], self.s[:, index])
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,38 +40,31 @@ class Plan:
     reach: float
     batches: list[Batch]
     rows: list[tuple[int, int]]
+    refused: int  # triangles that are not finite in world space
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
     """Look at every batch once; yields 0, as nothing is traced yet."""
-    found, rows = [], []
+    found, rows, refused = [], [], 0
     for batch in batches(scene):
-        x0, x1, y0, y1 = _bounds(scene, settings, reach, batch)[1]
+        _, (x0, x1, y0, y1), left_out = _bounds(scene, settings, reach, batch)
+        refused += left_out
         seen = (x0 < x1) & (y0 < y1)
         if seen.any():
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
         yield 0.0
-    return Plan(scene, settings, reach, found, rows)
+    return Plan(scene, settings, reach, found, rows, refused)
 
 
 def _bounds(scene: Scene, settings: Settings, reach: float, batch: Batch):
+    """Return a batch's triangles but those that are not finite, their bounds, and how many are."""
     triangles = world_triangles(scene, batch, settings.precision.dtype)
-    return triangles, pixel_bounds(scene.camera, triangles.corners, reach)
-
-
-@dataclass(frozen=True, eq=False)
-class Pairs:
-    """p pairs of a pixel and a triangle that may cover it.
-
-    `pixel` (p,) indexes the rays; `corners` is (3 corners, 3, p) in world space; `instance` and
-    `triangle`, (p,) int32, say whose they are.
-    """
-
-    pixel: NDArray[np.integer]
-    corners: NDArray[np.floating]
-    instance: NDArray[np.int32]
-    triangle: NDArray[np.int32]
+    finite = np.isfinite(triangles.corners).all(axis=(0, 1))
+    refused = len(finite) - int(finite.sum())
+    if refused:
+        triangles = triangles.take(np.flatnonzero(finite))
+    return triangles, pixel_bounds(scene.camera, triangles.corners, reach), refused
 
 
 def candidates(
@@ -131,17 +87,16 @@ def candidates(
         if y0 < tile.y1 and y1 > tile.y0
     ]
     for done, batch in enumerate(work):
-        triangles, bounds = _bounds(plan.scene, plan.settings, plan.reach, batch)
+        triangles, bounds, _ = _bounds(plan.scene, plan.settings, plan.reach, batch)
+        bounds = within(bounds, tile)
+        inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
+        triangles = triangles.take(inside)
         yield done / len(work), None
-        for pixel, row in pairs(bounds, tile, limit):
+        for pixel, row in pairs(bounds[:, inside], tile, limit):
             if wanted is not None:
                 keep = np.flatnonzero(wanted[pixel])
                 pixel, row = pixel[keep], row[keep]
-            corners = np.stack([corner.take(row, axis=1) for corner in triangles.corners])
-            yield (
-                done / len(work),
-                Pairs(pixel, corners, triangles.instance[row], triangles.triangle[row]),
-            )
+            yield done / len(work), Pairs(pixel, row, triangles)
 
 
 def trace_tile(
@@ -164,17 +119,26 @@ def trace_tile(
     Hits
         Of the n rays, row by row from the lowest.
     """
-    film = film_positions(tile, dx, dy)
-    rays = camera_rays(plan.scene.camera, *film, plan.settings.precision.dtype)
+    scene, settings = plan.scene, plan.settings
+    statistics = statistics or Statistics()
+    rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
-    test_planes(plan.scene, rays, hits)
+    contest = None
+    if settings.method.is_plain:
+        test_planes(scene, rays, hits)
+    else:
+        planes = [(p.point, p.normal) for p in scene.planes]
+        clip = scene.camera.clip_start, scene.camera.clip_end
+        contest = Contest(rays, planes, len(scene.instances), *clip)
     for share, some in candidates(plan, tile):
         if some is not None:
-            test_pairs(plan.scene, plan.settings, rays, some, hits)
-            if statistics:
-                statistics.pairs_tested += len(some.pixel)
+            statistics.pairs_tested += len(some.pixel)
+            if contest:
+                contest.enter(some)
+            else:
+                test_pairs(scene, settings, rays, some, hits)
         yield share
-    return hits
+    return contest.hits(statistics) if contest else hits
 
 
 def test_pairs(

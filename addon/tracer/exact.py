@@ -1,0 +1,259 @@
+"""Ray and triangle in Python's whole numbers: no rounding anywhere.
+
+Every float is a whole number times a power of two. With one power for all lengths of a batch, and
+one for all directions, rays and corners become integers, and so does everything below. With the
+corners a, b, c relative to the ray's origin o:
+
+    m_ab = a x b,  m_bc = b x c,  m_ca = c x a     normals of the planes of o and each edge
+    e_ab = d . m_ab, ...                           on which side of each edge the ray passes
+    D = e_ab + e_bc + e_ca = d . n,  n = m_ab + m_bc + m_ca = (b - a) x (c - a)
+    T = a . m_bc = a . n,            t = T / D
+
+The ray meets the triangle where the three e have one sign. Where one of them is zero, the ray is
+taken to pass infinitesimally beside itself, along d + (x, x^2, x^3) for an infinitesimal x: the
+sign of e is then that of the first of e, m_x, m_y, m_z that is not zero. As that is *one* real ray
+for all triangles, a surface without gaps is met exactly once. Two hits at the same t are ordered by
+the same ray; where even that ties, they lie in one plane, and the lower name is seen.
+
+Source: Edelsbrunner and Mücke, "Simulation of simplicity", 1990, for the direction of a ray.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .camera import Rays
+
+Whole = tuple[int, int, int]
+Axes = Sequence[tuple[int, int]]  # which axis is moved along first, second, third, and which way
+
+# The rule's own; and six ways to see what else a ray may meet that is moved infinitesimally.
+PERTURBATION: Axes = ((0, 1), (1, 1), (2, 1))
+_ELSEWHERE: tuple[Axes, ...] = tuple(
+    tuple((axis, sign) for axis in order)
+    for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    for sign in (1, -1)
+)
+
+
+class Meeting(NamedTuple):
+    """Where the line of a ray meets a triangle's closed area, or an infinite plane."""
+
+    depth: int  # T
+    towards: int  # D, not zero
+    normal: Whole  # n
+    edges: tuple[int, ...]  # e_ab, e_bc, e_ca; none of a plane
+    sides: tuple[Whole, ...]  # m_ab, m_bc, m_ca
+
+    @property
+    def on_edge(self) -> bool:
+        """Whether the ray as it is meets an edge or a corner."""
+        return 0 in self.edges
+
+    def is_hit(self, axes: Axes = PERTURBATION) -> bool:
+        """Return whether the ray that is infinitesimally moved meets it."""
+        if not self.on_edge:
+            return True
+        signs = {_sign(e, m, axes) for e, m in zip(self.edges, self.sides, strict=True)}
+        return signs in ({1}, {-1})
+
+
+def compare(first: Meeting, second: Meeting, axes: Axes = PERTURBATION) -> int:
+    """Return the sign of t1 - t2 for the moved ray; 0 only for what lies in one plane."""
+    gap = first.depth * second.towards - second.depth * first.towards
+    w = tuple(
+        first.depth * n2 - second.depth * n1
+        for n1, n2 in zip(first.normal, second.normal, strict=True)
+    )
+    sign = _sign(gap, w, axes)
+    return sign if (first.towards > 0) == (second.towards > 0) else -sign
+
+
+class Batch:
+    """Rays, triangles and planes as whole numbers.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays, float64, finite.
+    corners : (3, 3, m) float64
+        Corner, component, triangle; finite.
+    planes : sequence of ((3,), (3,)) float64
+        Point and normal of each infinite plane.
+    start, end : float
+        The clip range: hits with start <= t <= end are seen, but for t = 0 where `start` is 0 (a
+        ray does not meet what it begins on); `end` may be inf.
+    """
+
+    def __init__(
+        self,
+        rays: Rays,
+        corners: NDArray[np.float64],
+        planes: Sequence[tuple[NDArray, NDArray]] = (),
+        start: float = 0.0,
+        end: float = np.inf,
+    ) -> None:
+        count = corners.shape[2]
+        points = np.array([p for p, _ in planes]).reshape(-1, 3).T
+        lengths, exponent = integers(np.hstack((rays.origins, *corners, points)))
+        at = rays.origins.shape[1]
+        self._origins = lengths[:at]
+        self._corners = [lengths[at + k * count : at + (k + 1) * count] for k in range(3)]
+        self._directions, direction_exponent = integers(rays.directions)
+        self._planes = [
+            (point, integers(np.asarray(normal, np.float64)[:, None])[0][0])
+            for point, (_, normal) in zip(lengths[at + 3 * count :], planes, strict=True)
+        ]
+        self._shift = exponent - direction_exponent  # t = T / D 2^shift
+        self._start, self._end = (self._limit(value) for value in (start, end))
+        self._open = start == 0
+
+    def triangle(self, ray: int, triangle: int) -> Meeting | None:
+        """Return where a ray meets a triangle within the clip range; None where it does not."""
+        d = self._directions[ray if len(self._directions) > 1 else 0]
+        ox, oy, oz = self._origins[ray if len(self._origins) > 1 else 0]
+        a, b, c = ((x - ox, y - oy, z - oz) for x, y, z in (k[triangle] for k in self._corners))
+        sides = _cross(a, b), _cross(b, c), _cross(c, a)
+        edges = tuple(_dot(d, m) for m in sides)
+        if min(edges) < 0 < max(edges):
+            return None
+        normal = tuple(map(sum, zip(*sides, strict=True)))
+        return self._seen(Meeting(_dot(a, sides[1]), sum(edges), normal, edges, sides))
+
+    def plane(self, ray: int, plane: int) -> Meeting | None:
+        """Return where a ray meets an infinite plane within the clip range, or None."""
+        d = self._directions[ray if len(self._directions) > 1 else 0]
+        o = self._origins[ray if len(self._origins) > 1 else 0]
+        point, n = self._planes[plane]
+        depth = sum((p - x) * k for p, x, k in zip(point, o, n, strict=True))
+        return self._seen(Meeting(depth, _dot(d, n), n, (), ()))
+
+    def t(self, meeting: Meeting) -> float:
+        """Return t, correctly rounded; inf where no float is as large."""
+        numerator, denominator = meeting.depth, meeting.towards
+        if self._shift >= 0:
+            numerator <<= self._shift
+        else:
+            denominator <<= -self._shift
+        try:
+            return numerator / denominator
+        except OverflowError:
+            return np.inf if (numerator > 0) == (denominator > 0) else -np.inf
+
+    def _limit(self, value: float) -> tuple[int, int] | None:
+        """Return a clip limit as (n, s) so that t >= limit where T 2^s >= n D, for D > 0."""
+        if np.isinf(value):
+            return None
+        [[whole]], exponent = integers(np.array([[value]]))
+        shift = self._shift - exponent
+        return (whole, shift) if shift >= 0 else (whole << -shift, 0)
+
+    def _seen(self, meeting: Meeting) -> Meeting | None:
+        """Return the meeting if its t exists and lies within the clip range."""
+        towards = meeting.towards
+        if not towards:
+            return None
+        depth = meeting.depth if towards > 0 else -meeting.depth
+        if not depth and self._open:
+            return None
+        for limit, side in ((self._start, 1), (self._end, -1)):
+            if limit is not None:
+                whole, shift = limit
+                if side * ((depth << shift) - whole * abs(towards)) < 0:
+                    return None
+        return meeting
+
+
+def nearest(
+    meetings: Sequence[tuple[tuple[int, int], Meeting]], nothing: tuple[int, int]
+) -> tuple[int, frozenset[tuple[int, int]]]:
+    """Return which of these meetings of one ray is seen, and whatever else may be.
+
+    Parameters
+    ----------
+    meetings : sequence of (name, Meeting)
+    nothing : name
+        Of what is seen where nothing is.
+
+    Returns
+    -------
+    seen : int
+        Index of the one that the rule sees; -1 for nothing.
+    ties : frozenset of names
+        Where the ray as it is meets an edge, a corner, or two surfaces at once before anything
+        else, all that one moved infinitesimally may see; empty where the answer is the only one.
+    """
+    seen = _first(meetings, PERTURBATION)
+    inside = [m for _, m in meetings if not m.on_edge]
+    front = meetings
+    if inside:
+        least = inside[0]
+        for m in inside[1:]:
+            if _gap(m, least) < 0:
+                least = m
+        front = [(name, m) for name, m in meetings if _gap(m, least) <= 0]
+    if not front or (len(front) == 1 and not front[0][1].on_edge):
+        return seen, frozenset()
+    first = front[0][1]
+    for _, m in front[1:]:
+        if _gap(m, first) < 0:
+            first = m
+    ties = {name for name, m in front if _gap(m, first) == 0}
+    if any(m.on_edge for _, m in front):
+        found = (_first(front, axes) for axes in _ELSEWHERE)
+        ties.update(front[k][0] if k >= 0 else nothing for k in found)
+    return seen, frozenset(ties)
+
+
+def _first(meetings: Sequence[tuple[tuple[int, int], Meeting]], axes: Axes) -> int:
+    """Return the index of the nearest hit of the moved ray, -1 for none."""
+    best = -1
+    for k, (name, m) in enumerate(meetings):
+        if m.is_hit(axes):
+            order = compare(m, meetings[best][1], axes) if best >= 0 else -1
+            if order < 0 or (order == 0 and name < meetings[best][0]):
+                best = k
+    return best
+
+
+def _gap(first: Meeting, second: Meeting) -> int:
+    """Return a number with the sign of t1 - t2, of the ray as it is."""
+    gap = first.depth * second.towards - second.depth * first.towards
+    return gap if (first.towards > 0) == (second.towards > 0) else -gap
+
+
+def _sign(value: int, otherwise: Whole, axes: Axes) -> int:
+    """Return the sign of value + x otherwise[axis] + ..., for an infinitesimal x > 0."""
+    if value:
+        return 1 if value > 0 else -1
+    for axis, way in axes:
+        if otherwise[axis]:
+            return way if otherwise[axis] > 0 else -way
+    return 0
+
+
+def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
+    """Return vectors (k, n) as n tuples of k integers, and an exponent e: float = integer * 2^e."""
+    mantissa, exponent = np.frexp(vectors)
+    zero = mantissa == 0
+    least = int(exponent[~zero].min()) if not zero.all() else 0
+    exponent[zero] = least
+    whole = (mantissa * 2.0**53).astype(np.int64)  # exact: a mantissa has 53 digits
+    columns = zip(whole.T.tolist(), (exponent - least).T.tolist(), strict=True)
+    return [tuple(m << e for m, e in zip(row, by, strict=True)) for row, by in columns], least - 53
+
+
+def _dot(a: Whole, b: Whole) -> int:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Whole, b: Whole) -> Whole:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )

@@ -1,0 +1,84 @@
+"""What rays meet, and what it took to find out."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .certainty import Certainty
+from .reasons import Reason, sentences
+
+NOTHING = -1  # instance and triangle where a ray hits nothing
+Name = tuple[int, int]  # instance and triangle
+
+
+@dataclass
+class Statistics:
+    """What a picture took."""
+
+    method: str = ""  # what `auto` came to; else what was asked for
+    triangles: int = 0  # over all instances
+    refused: int = 0  # of those, left out as a corner is not finite in world space
+    pairs_tested: int = 0  # (ray, triangle)
+    reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
+    notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
+    seconds: float = 0.0
+
+    @property
+    def pairs_exact(self) -> int:
+        """Pairs of a ray and a surface that whole numbers decided."""
+        return sum(self.reasons.values())
+
+    def required(self) -> list[str]:
+        """Return what the scene required, in words, a fact a line; for a certified picture."""
+        lines = list(self.notes)
+        if self.refused:
+            lines.append(
+                f"{self.refused:,} triangles were left out: their corners are not finite in world "
+                "space (clear the scale or the position that overflows)"
+            )
+        if self.method == "certified":
+            lines += sentences(self.pairs_tested, self.reasons)
+        return lines
+
+
+@dataclass(eq=False)
+class Hits:
+    """What n rays meet.
+
+    `t` (n,) float64 is inf where nothing is hit; `instance` and `triangle`, (n,) int32, are NOTHING
+    there; `s`, the barycentrics, is (3, n) float64. A hit on plane k has the instance
+    `len(scene.instances) + k` and the triangle NOTHING. `certainty` (n,) uint8 holds `Certainty`;
+    `ties` says of ambiguous rays, by their index, all that may be seen.
+    """
+
+    t: NDArray[np.float64]
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+    s: NDArray[np.float64]
+    certainty: NDArray[np.uint8]
+    ties: dict[int, frozenset[Name]] = field(default_factory=dict)
+
+    @classmethod
+    def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:
+        """Return hits of `count` rays that have met nothing yet."""
+        return cls(
+            np.full(count, np.inf),
+            np.full(count, NOTHING, np.int32),
+            np.full(count, NOTHING, np.int32),
+            np.zeros((3, count)),
+            np.full(count, certainty, np.uint8),
+        )
+
+    def take(self, index: NDArray) -> Hits:
+        """Return the hits of the rays at `index`, without their ties."""
+        return Hits(
+            self.t[index],
+            self.instance[index],
+            self.triangle[index],
+            self.s[:, index],
+            self.certainty[index],
+        )
