@@ -112,11 +112,11 @@ class Camera:
                 "perspective camera sees begins in front of it, so raise it above 0."
             )
         w = self.window
-        if not (
-            np.isfinite([w.left, w.right, w.bottom, w.top]).all()
-            and w.left < w.right
-            and w.bottom < w.top
-        ):
+        reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
+        with np.errstate(all="ignore"):
+            farthest = np.abs(self.world_from_camera[:3]) @ (reach, reach, 1.0, 1.0)
+            size = w.right - w.left, w.top - w.bottom
+        if not (np.isfinite([reach, *farthest, *size]).all() and min(size) > 0):
             raise SceneError(
                 f"Camera '{self.name}' has an empty or infinite view window ({w}): check its focal "
                 "length, sensor size, orthographic scale and shift."

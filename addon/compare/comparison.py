@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..manifest import Manifest
 from ..scene import Scene
+from ..tracer.certainty import Certainty
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
@@ -17,6 +18,7 @@ from ..tracer.settings import Settings
 from . import metrics
 from .cause import Cause, Causes
 from .causes import find_causes
+from .methods import MethodRow, list_methods
 
 SCHEMA = "reference_tracer.comparison/1"
 
@@ -24,7 +26,8 @@ SCHEMA = "reference_tracer.comparison/1"
 EXAMPLES = 10  # pixels named of each cause
 _SHOWN = (Cause.UNEXPLAINED, Cause.NOT_MODELLED, Cause.DEPTH_TIE, Cause.EDGE)
 
-_TRACING = 0.7  # of the work, roughly
+_TRACING = 0.4  # of the work, roughly
+_METHODS = 0.35
 _CAUSES = 0.8  # of what is left
 
 EXIT_CODES = {"agree": 0, "warnings": 1, "differences": 2, "cancelled": 1}
@@ -47,6 +50,7 @@ class Comparison:
     causes: Causes
     pixels: dict[str, Any]  # see count_pixels
     metrics: dict[str, Any]  # see measure
+    methods: tuple[MethodRow, ...] = ()
 
     @property
     def verdict(self) -> str:
@@ -61,6 +65,11 @@ class Comparison:
             return "warnings"
         return "agree"
 
+    @property
+    def required(self) -> list[str]:
+        """What it took to certify the picture, and what was left out, in words, a fact a line."""
+        return list(dict.fromkeys(line for row in self.methods for line in row.required))
+
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as JSON can hold it."""
         s = self.frame.statistics
@@ -69,14 +78,21 @@ class Comparison:
             "scene": self.manifest.to_dict(),
             "blender": self.blender,
             "tracer": {
-                "method": self.settings.method.value,
+                "method": s.method,
                 "precision": self.settings.precision.value,
                 "samples": self.settings.samples,
                 "seconds": round(s.seconds, 6),
                 "triangles": s.triangles,
+                "refused_triangles": s.refused,
                 "pairs_tested": s.pairs_tested,
+                "pairs_exact": s.pairs_exact,
+                "exact_reasons": {reason.name.lower(): n for reason, n in s.reasons.items()},
+                "certainty": {
+                    c.name.lower(): int((self.frame.certainty == c).sum()) for c in Certainty
+                },
                 "cancelled": self.frame.cancelled,
             },
+            "methods": [row.to_dict() for row in self.methods],
             "pixels": self.pixels,
             "metrics": self.metrics,
             "verdict": self.verdict,
@@ -99,6 +115,8 @@ class Comparison:
             f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
             f"traced {self.frame.statistics.triangles:,} triangles in "
             f"{self.frame.statistics.seconds:.2f} s",
+            *(row.line() for row in self.methods),
+            *self.required,
             f"verdict: {self.verdict}",
         ]
         return out
@@ -206,5 +224,7 @@ def trace_and_compare(
     frame = Frame.empty(scene.camera)
     for share in steps(scene, settings, frame):
         yield _TRACING * share
+    methods = yield from scaled(list_methods(scene, settings, frame), _TRACING, _METHODS)
     comparing = compare(scene, manifest, settings, frame, picture, blender)
-    return (yield from scaled(comparing, _TRACING, 1 - _TRACING))
+    comparison = yield from scaled(comparing, _TRACING + _METHODS, 1 - _TRACING - _METHODS)
+    return replace(comparison, methods=methods)

@@ -92,8 +92,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
     points, normals = probe.points(sure)[pixel].T, shading.normals(scene, own).T
     behind = np.where(own.instance != NOTHING, plane.intersect(rays, points, normals), np.inf)
     behind = np.where(np.isnan(behind), own.t, behind)
-    seen = Hits(t, instance, triangle, s, np.zeros(len(t), np.uint8))
-    return Coverage(pixel, distance, seen, sure, behind)
+    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure, behind)
 
 
 def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:

@@ -20,7 +20,8 @@ from .camera import Rays
 from .candidates import Pairs, WorldTriangles
 from .certainty import Certainty
 from .hits import Hits, Statistics
-from .settle import CLIP, EDGE, SURE, Candidates, Surfaces, by_bound, by_numbers
+from .progress import Work, result_of
+from .settle import CLIP, EDGE, SURE, Candidates, Surfaces, by_bound, by_numbers, by_ray
 from .vector import Vectors
 
 _PAIRS = 1 << 15  # that `nearest` tests at a time
@@ -82,8 +83,11 @@ class Contest:
             found = self._possible(some.pixel[possible], some.row[possible], edges, depths, sure)
         self._of_batch.append(found)
 
-    def hits(self, statistics: Statistics) -> Hits:
-        """Decide who is nearest; counts in the statistics what whole numbers were asked for."""
+    def hits(self, statistics: Statistics) -> Work[Hits]:
+        """Decide who is nearest, in small steps that all yield 1.
+
+        Counts in the statistics what whole numbers were asked for.
+        """
         self._end_batch()
         hits = Hits.none(self._count, Certainty.BOUND)
         if not self._kept:
@@ -94,10 +98,12 @@ class Contest:
         clear = alone & (found.doubt == SURE)
         triangles = WorldTriangles.joined(self._triangles)
         surfaces = Surfaces(self._planes, self._first_plane, triangles)
-        rest = found.take(np.flatnonzero(~clear))
         with np.errstate(all="ignore"):
             by_bound(hits, self._rays, surfaces, found.take(np.flatnonzero(clear)))
-            by_numbers(hits, self._rays, surfaces, self._clip, rest, statistics.reasons)
+        for part in by_ray(found.take(np.flatnonzero(~clear))):
+            yield 1.0
+            with np.errstate(all="ignore"):
+                by_numbers(hits, self._rays, surfaces, self._clip, part, statistics.reasons)
         return hits
 
     def _prepare(self, corners: NDArray[np.float64]) -> FromPoint | Parallel | None:
@@ -186,7 +192,7 @@ def nearest(
     for first in range(0, n, together):
         ray, row = np.divmod(np.arange(first * count, min(first + together, n) * count), count)
         contest.enter(Pairs(ray, row, triangles))
-    return contest.hits(Statistics())
+    return result_of(contest.hits(Statistics()))
 
 
 def _sides(prepared: FromPoint | Parallel, row: NDArray, rays: Rays):

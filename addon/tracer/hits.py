@@ -59,8 +59,12 @@ class Hits:
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
     s: NDArray[np.float64]
-    certainty: NDArray[np.uint8]
+    certainty: NDArray[np.uint8] = None  # type: ignore[assignment]  # by default NOT_CERTIFIED
     ties: dict[int, frozenset[Name]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.certainty is None:
+            self.certainty = np.full(len(self.t), Certainty.NOT_CERTIFIED, np.uint8)
 
     @classmethod
     def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:

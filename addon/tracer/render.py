@@ -69,9 +69,20 @@ def render(
 def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     """Trace a scene into an empty frame; yields the share of the work done after each step.
 
-    The caller stops by not asking for more, and then sets `frame.cancelled`.
+    The caller stops by not asking for more, and then sets `frame.cancelled`. What the caller does
+    between two steps does not count as time.
     """
-    began = time.perf_counter()
+    work, statistics = _steps(scene, settings, frame), frame.statistics
+    share: float | None = 0.0
+    while share is not None:
+        began = time.perf_counter()
+        share = next(work, None)
+        statistics.seconds += time.perf_counter() - began
+        if share is not None:
+            yield share
+
+
+def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     settings = _resolved(settings, frame)
     frame.statistics.triangles = scene.triangle_count
     offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
@@ -82,7 +93,6 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     for number, tile in enumerate(all_tiles):
         tracing = _trace(made, tile, offsets, frame)
         yield from scaled(tracing, _WHOLE * number / len(all_tiles), _WHOLE / len(all_tiles))
-        frame.statistics.seconds = time.perf_counter() - began
     yield 1.0
 
 

@@ -6,7 +6,7 @@ In come candidates that the bounds could not rule out; out go entries in `Hits`.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,7 +24,7 @@ from .vector import Vectors
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
 
-_TOGETHER = 1 << 12  # candidates turned into whole numbers at a time
+_TOGETHER = 1 << 11  # rays that are decided by whole numbers at a time
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,6 +139,15 @@ def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> N
     hits.s[:, found.ray] = weights
 
 
+def by_ray(found: Candidates) -> Iterator[Candidates]:
+    """Split candidates into parts that are a short step each, those of one ray together."""
+    found = found.take(np.argsort(found.ray, kind="stable"))
+    starts = np.flatnonzero(np.diff(found.ray, prepend=-1))
+    for part in np.split(np.arange(len(found.ray)), starts[_TOGETHER::_TOGETHER]):
+        if len(part):
+            yield found.take(part)
+
+
 def by_numbers(
     hits: Hits,
     rays: Rays,
@@ -147,15 +156,10 @@ def by_numbers(
     found: Candidates,
     reasons: Counter[Reason],
 ) -> None:
-    """Enter all other rays, whose candidates are decided by whole numbers, together."""
-    found = found.take(np.argsort(found.ray, kind="stable"))
-    starts = np.flatnonzero(np.diff(found.ray, prepend=-1))
-    for part in np.split(np.arange(len(found.ray)), starts[_TOGETHER::_TOGETHER]):
-        _decide(hits, rays, surfaces, clip, found.take(part), reasons)
+    """Enter rays whose candidates are decided by whole numbers, together.
 
-
-def _decide(hits: Hits, rays: Rays, surfaces: Surfaces, clip, found: Candidates, reasons) -> None:
-    """Enter the rays of these candidates; counts why each candidate had to be looked at."""
+    Counts why each candidate had to be looked at.
+    """
     numbers = surfaces.numbers(rays, found, *clip)
     names = list(zip(*(v.tolist() for v in surfaces.name(found.surface)), strict=True))
     groups: dict[int, list[tuple[int, exact.Meeting | None]]] = {}

@@ -138,7 +138,7 @@ def trace_tile(
             else:
                 test_pairs(scene, settings, rays, some, hits)
         yield share
-    return contest.hits(statistics) if contest else hits
+    return (yield from contest.hits(statistics)) if contest else hits
 
 
 def test_pairs(
