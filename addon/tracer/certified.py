@@ -21,7 +21,8 @@ from .candidates import Pairs, WorldTriangles
 from .certainty import Certainty
 from .hits import Hits, Statistics
 from .progress import Work, result_of
-from .settle import CLIP, EDGE, SURE, Candidates, Surfaces, by_bound, by_numbers, by_ray
+from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
+from .settle import by_bound, by_numbers, by_order, by_ray
 from .vector import Vectors
 
 _PAIRS = 1 << 15  # that `nearest` tests at a time
@@ -100,7 +101,11 @@ class Contest:
         surfaces = Surfaces(self._planes, self._first_plane, triangles)
         with np.errstate(all="ignore"):
             by_bound(hits, self._rays, surfaces, found.take(np.flatnonzero(clear)))
-        for part in by_ray(found.take(np.flatnonzero(~clear))):
+        yield 1.0
+        rest = found.take(np.flatnonzero(~clear))
+        with np.errstate(all="ignore"):
+            rest = by_order(hits, self._rays, surfaces, rest, statistics.reasons)
+        for part in by_ray(rest):
             yield 1.0
             with np.errstate(all="ignore"):
                 by_numbers(hits, self._rays, surfaces, self._clip, part, statistics.reasons)
@@ -171,7 +176,7 @@ def decide(
     for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
         batch = exact.Batch(rays.take(part), corners.take(part, axis=2), (), start, end)
         for k, pair in enumerate(part.tolist()):
-            meeting = batch.triangle(k, k)
+            meeting = batch.meeting(k, k)
             if meeting:
                 hit[pair], edge[pair] = meeting.is_hit(), meeting.on_edge
     return Decision(hit, edge, undecided)

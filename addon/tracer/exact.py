@@ -108,29 +108,45 @@ class Batch:
             (point, integers(np.asarray(normal, np.float64)[:, None])[0][0])
             for point, (_, normal) in zip(lengths[at + 3 * count :], planes, strict=True)
         ]
+        self.unit = exponent  # of lengths: an integer times 2^unit is metres
         self._shift = exponent - direction_exponent  # t = T / D 2^shift
         self._start, self._end = (self._limit(value) for value in (start, end))
         self._open = start == 0
 
-    def triangle(self, ray: int, triangle: int) -> Meeting | None:
-        """Return where a ray meets a triangle within the clip range; None where it does not."""
+    def meeting(self, ray: int, surface: int) -> Meeting | None:
+        """Return where a ray meets a surface within the clip range; None where it does not.
+
+        Surfaces are the planes, then the triangles.
+        """
         d = self._directions[ray if len(self._directions) > 1 else 0]
-        ox, oy, oz = self._origins[ray if len(self._origins) > 1 else 0]
-        a, b, c = ((x - ox, y - oy, z - oz) for x, y, z in (k[triangle] for k in self._corners))
-        sides = _cross(a, b), _cross(b, c), _cross(c, a)
+        o = self._origins[ray if len(self._origins) > 1 else 0]
+        if surface < len(self._planes):
+            depth, n = self._plane(o, surface)
+            return self._seen(Meeting(depth, _dot(d, n), n, (), ()))
+        depth, n, sides = self._triangle(o, surface)
         edges = tuple(_dot(d, m) for m in sides)
         if min(edges) < 0 < max(edges):
             return None
-        normal = tuple(map(sum, zip(*sides, strict=True)))
-        return self._seen(Meeting(_dot(a, sides[1]), sum(edges), normal, edges, sides))
+        return self._seen(Meeting(depth, sum(edges), n, edges, sides))
 
-    def plane(self, ray: int, plane: int) -> Meeting | None:
-        """Return where a ray meets an infinite plane within the clip range, or None."""
-        d = self._directions[ray if len(self._directions) > 1 else 0]
-        o = self._origins[ray if len(self._origins) > 1 else 0]
-        point, n = self._planes[plane]
-        depth = sum((p - x) * k for p, x, k in zip(point, o, n, strict=True))
-        return self._seen(Meeting(depth, _dot(d, n), n, (), ()))
+    def of_first_ray(self, surface: int) -> tuple[int, int, Whole]:
+        """Return T, D and n of a surface, whether or not the first ray meets it."""
+        find = self._plane if surface < len(self._planes) else self._triangle
+        depth, n, *_ = find(self._origins[0], surface)
+        return depth, _dot(self._directions[0], n), n
+
+    def _triangle(self, o: Whole, surface: int) -> tuple[int, Whole, tuple[Whole, ...]]:
+        """Return T, n, and m of each edge."""
+        k = surface - len(self._planes)
+        ox, oy, oz = o
+        a, b, c = ((x - ox, y - oy, z - oz) for x, y, z in (v[k] for v in self._corners))
+        sides = _cross(a, b), _cross(b, c), _cross(c, a)
+        return _dot(a, sides[1]), tuple(map(sum, zip(*sides, strict=True))), sides
+
+    def _plane(self, o: Whole, surface: int) -> tuple[int, Whole]:
+        """Return T and n."""
+        point, n = self._planes[surface]
+        return sum((p - x) * k for p, x, k in zip(point, o, n, strict=True)), n
 
     def t(self, meeting: Meeting) -> float:
         """Return t, correctly rounded; inf where no float is as large."""

@@ -57,13 +57,13 @@ def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
     exact = sum(counts.values())
     if not exact:
         return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
-    share = exact / max(pairs, 1)
     return [
-        f"{exact:,} of {pairs:,} pairs of a ray and a surface ({share:.2g}) "
+        f"{exact:,} of {pairs:,} pairs of a ray and a surface (one in {pairs / exact:,.0f}) "
         "needed exact arithmetic: rays that",
         *(
             f"  {reason.value}: {n:,}"
             for reason, n in sorted(counts.items(), key=lambda item: -item[1])
+            if n
         ),
     ]
 

@@ -1,123 +1,27 @@
 """Who is nearest among the candidates of each ray, and at which t, correctly rounded.
 
-In come candidates that the bounds could not rule out; out go entries in `Hits`.
+In come rivals that the bounds could not rule out; out go entries in `Hits`. There are three ways,
+from the cheapest: a ray has one candidate, which surely is a hit; it has several, all of which
+surely are, and only their order is asked for; or anything may be in doubt.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import exact
+from . import exact, order
 from .camera import Rays
-from .candidates import WorldTriangles
 from .certainty import Certainty
-from .hits import NOTHING, Hits
+from .hits import NOTHING, Hits, Name
 from .reasons import Reason, of_doubts
-from .rounding import round_t, triangle_normals
-from .vector import Vectors
-
-# What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
-SURE, EDGE, CLIP = 0, 1, 2
+from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
 
 _TOGETHER = 1 << 11  # rays that are decided by whole numbers at a time
-
-
-@dataclass(frozen=True, eq=False)
-class Candidates:
-    """c hits that may be the nearest of their ray.
-
-    `surface` (c,) says of which of the contest's surfaces; `low` and `high` (c,) enclose t;
-    `edges` (3, c) are e_ab, e_bc, e_ca; `doubt` (c,) is what is not known.
-    """
-
-    ray: NDArray[np.intp]
-    surface: NDArray[np.intp]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
-    edges: Vectors
-    doubt: NDArray[np.uint8]
-
-    def take(self, index: NDArray) -> Candidates:
-        """Return those at `index`."""
-        return Candidates(*(v[..., index] for v in vars(self).values()))
-
-    @staticmethod
-    def joined(parts: Sequence[Candidates]) -> Candidates:
-        """Return them all as one."""
-        fields = zip(*(vars(part).values() for part in parts), strict=True)
-        return Candidates(*(np.concatenate(f, axis=-1) for f in fields))
-
-
-@dataclass(frozen=True, eq=False)
-class Surfaces:
-    """Infinite planes, then triangles: what candidates are candidates of.
-
-    `planes` are (point, normal), (3,) each; the first of them has the instance `first_plane`.
-    """
-
-    planes: Sequence[tuple[NDArray, NDArray]]
-    first_plane: int
-    triangles: WorldTriangles
-
-    def take(self, index: NDArray[np.integer]) -> Surfaces:
-        """Return all planes, and of the triangles those at `index` (which counts planes)."""
-        return replace(self, triangles=self.triangles.take(index - len(self.planes)))
-
-    def name(self, surface: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle of surfaces, (c,) each."""
-        count = len(self.planes)
-        instance = np.r_[self.first_plane + np.arange(count), self.triangles.instance]
-        triangle = np.r_[np.full(count, NOTHING), self.triangles.triangle]
-        return instance[surface].astype(np.int32), triangle[surface].astype(np.int32)
-
-    def round_t(self, rays: Rays, surface: NDArray) -> tuple[NDArray, NDArray[np.bool_]]:
-        """Return t of p rays with these surfaces, and whether it surely is rounded correctly."""
-        corners = self.triangles.corners
-        (high, low), size = triangle_normals(corners)
-        if self.planes:
-            points, normals = (np.array(v, np.float64).T for v in zip(*self.planes, strict=True))
-            high, low = np.hstack((normals, high)), np.hstack((np.zeros_like(normals), low))
-            return round_t(
-                rays,
-                surface,
-                np.hstack((points, corners[0])),
-                (high, low),
-                np.hstack((np.abs(normals), size)),
-            )
-        return round_t(rays, surface, corners[0], (high, low), size)
-
-    def numbers(self, rays: Rays, found: Candidates, start: float, end: float) -> Numbers:
-        """Return candidates as whole numbers."""
-        which, ray = np.unique(found.ray, return_inverse=True)
-        planes = len(self.planes)
-        used, surface = np.unique(
-            np.r_[np.arange(planes), found.surface], return_inverse=True
-        )  # every plane stays, so that planes keep their numbers
-        some = self.take(used[planes:])
-        batch = exact.Batch(rays.take(which), some.triangles.corners, self.planes, start, end)
-        return Numbers(batch, planes, ray.tolist(), surface[planes:].tolist())
-
-
-@dataclass(frozen=True, eq=False)
-class Numbers:
-    """Candidates as whole numbers."""
-
-    batch: exact.Batch
-    planes: int
-    ray: list[int]
-    surface: list[int]
-
-    def meeting(self, k: int) -> exact.Meeting | None:
-        """Return what candidate k truly is."""
-        surface = self.surface[k]
-        if surface < self.planes:
-            return self.batch.plane(self.ray[k], surface)
-        return self.batch.triangle(self.ray[k], surface - self.planes)
 
 
 def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> None:
@@ -129,7 +33,7 @@ def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> N
     t, sure = some.round_t(rays.take(found.ray), surface)
     unsure = np.flatnonzero(~sure)
     for part in np.split(unsure, range(_TOGETHER, len(unsure), _TOGETHER)):
-        numbers = surfaces.numbers(rays, found.take(part), -np.inf, np.inf)
+        numbers = surfaces.numbers(rays, found.take(part))
         t[part] = [numbers.batch.t(numbers.meeting(k)) for k in range(len(part))]
     hits.t[found.ray] = t
     hits.instance[found.ray], hits.triangle[found.ray] = surfaces.name(found.surface)
@@ -137,6 +41,61 @@ def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> N
     whole = ab + bc + ca
     weights = np.stack((bc, ca, ab)) / np.where(whole == 0, 1, whole)  # 0 of a plane
     hits.s[:, found.ray] = weights
+
+
+def by_order(
+    hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates, reasons: Counter[Reason]
+) -> Candidates:
+    """Enter rays that surely hit all their candidates, where `order.py` says which is nearest.
+
+    Returns the candidates of the other rays.
+    """
+    doubtful = np.bincount(found.ray, found.doubt != SURE, len(hits.t)) > 0
+    if 1 not in (rays.origins.shape[1], rays.directions.shape[1]) or doubtful[found.ray].all():
+        return found
+    rest = found.take(np.flatnonzero(doubtful[found.ray]))
+    found = found.take(np.flatnonzero(~doubtful[found.ray]))
+    found = found.take(np.lexsort((*surfaces.name(found.surface)[::-1], found.ray)))
+    numbers = surfaces.numbers(rays, replace(found, ray=np.zeros_like(found.ray)))
+    surface = np.array(numbers.surface)
+    # The first of each ray is its champion, and meets one more of the ray's in every round.
+    start = np.flatnonzero(np.diff(found.ray, prepend=-1))
+    count = np.diff(np.r_[start, len(found.ray)])
+    champion, decided, tied = start.copy(), np.ones(len(start), bool), np.zeros(len(surface), bool)
+    for number in range(1, count.max()):
+        at = np.flatnonzero(count > number)
+        rival = start[at] + number
+        result = order.compare(
+            rays, found.ray[rival], numbers.batch, surface[champion[at]], surface[rival]
+        )
+        decided[at[result == order.UNDECIDED]] = False
+        tied[rival] = result == order.COPLANAR
+        beaten = result == order.FARTHER
+        champion[at[beaten]] = rival[beaten]
+    of_ray = np.repeat(np.arange(len(start)), count)
+    tied &= np.arange(len(surface)) > champion[of_ray]  # not those with a champion since beaten
+    lost = decided[of_ray]
+    rest = Candidates.joined((rest, found.take(np.flatnonzero(~lost))))
+    lost[champion] = False
+    reasons[Reason.COPLANAR] += int((lost & tied).sum())
+    reasons[Reason.CLOSE] += int((lost & ~tied).sum())
+    won = found.take(champion[decided])
+    by_bound(hits, rays, surfaces, won)
+    hits.certainty[won.ray] = Certainty.EXACT
+    ambiguous = np.flatnonzero(lost & tied)
+    _tie(hits, surfaces, found, np.r_[champion[np.unique(of_ray[ambiguous])], ambiguous])
+    return rest
+
+
+def _tie(hits: Hits, surfaces: Surfaces, found: Candidates, index: NDArray[np.intp]) -> None:
+    """Enter candidates that lie in one plane as ties of their ray."""
+    members: dict[int, tuple[Name, ...]] = {}
+    names = zip(*(v.tolist() for v in surfaces.name(found.surface[index])), strict=True)
+    for ray, name in zip(found.ray[index].tolist(), names, strict=True):
+        members[ray] = (*members.get(ray, ()), name)
+    sets = {names: frozenset(names) for names in set(members.values())}  # shared by many rays
+    hits.ties.update((ray, sets[names]) for ray, names in members.items())
+    hits.certainty[list(members)] = Certainty.AMBIGUOUS
 
 
 def by_ray(found: Candidates) -> Iterator[Candidates]:

@@ -1,0 +1,86 @@
+"""A file that the user names -> the scene in it.
+
+A .blend is opened with the `bpy` module, in the one function here that imports it; scenes and
+meshes from other files need no Blender.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from .arguments import camera_from, refuse
+from .scene import Scene, SceneError
+from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, scene_of_meshes
+from .tracer.settings import Settings
+
+SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
+
+
+def load(options: argparse.Namespace) -> tuple[Scene, Settings]:
+    """Return the scene of the file `options.scene`, with the settings that it stores.
+
+    Raises
+    ------
+    SceneError, OSError
+        If there is no such scene, or the options don't fit it.
+    """
+    path = options.scene
+    if not path.is_file():
+        raise SceneError(f"there is no file '{path}'")
+    suffix = path.suffix.lower()
+    if suffix not in MESH_SUFFIXES:
+        own = {"width", "height", "eye", "target", "angle", "ortho_scale"} - set(options.heard)
+        refuse(options, tuple(sorted(own)), f"is for meshes: '{path}' has its own camera")
+    if suffix == ".npz":
+        return load_scene(path), Settings()
+    if suffix in MESH_SUFFIXES:
+        width, height = (
+            default if (value := getattr(options, name)) is None else value
+            for name, default in zip(("width", "height"), options.default_size, strict=True)
+        )
+        meshes = load_meshes(path)
+        return scene_of_meshes(
+            meshes, camera_from(options, width, height), width, height
+        ), Settings()
+    if suffix == ".blend":
+        with open_blend(path) as blender:
+            from .blender.compare import export_open_file
+
+            scene, manifest, settings = export_open_file(blender.context)
+        print(*manifest.lines(), sep="\n")
+        return scene, settings
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+
+
+@contextmanager
+def open_blend(path: Path) -> Iterator[Any]:
+    """Open a .blend in this process, with the add-on registered; gives bpy.
+
+    Raises
+    ------
+    SceneError
+        If there is no such file, it cannot be opened, or Blender is not there as a module.
+    """
+    if not path.is_file():
+        raise SceneError(f"there is no file '{path}'")
+    try:
+        import bpy
+    except ImportError as error:
+        raise SceneError(
+            f"a .blend needs Blender as a module: pip install 'reference_tracer[blender]' ({error})"
+        ) from error
+    from .blender import registration
+
+    registration.register()
+    try:
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+        except RuntimeError as error:
+            raise SceneError(f"'{path}' cannot be opened: {error}") from error
+        yield bpy
+    finally:
+        registration.unregister()
