@@ -34,7 +34,7 @@ def compare(
     first: NDArray[np.intp],
     second: NDArray[np.intp],
 ) -> NDArray[np.int8]:
-    """Return for n of these rays, each with two surfaces that it surely hits, how the first one lies.
+    """Return how the first of two surfaces lies, of n of these rays that surely hit both.
 
     Parameters
     ----------

@@ -77,8 +77,8 @@ def by_order(
     lost = decided[of_ray]
     rest = Candidates.joined((rest, found.take(np.flatnonzero(~lost))))
     lost[champion] = False
-    reasons[Reason.COPLANAR] += int((lost & tied).sum())
-    reasons[Reason.CLOSE] += int((lost & ~tied).sum())
+    coplanar = int((lost & tied).sum())
+    reasons += Counter({Reason.COPLANAR: coplanar, Reason.CLOSE: int(lost.sum()) - coplanar})
     won = found.take(champion[decided])
     by_bound(hits, rays, surfaces, won)
     hits.certainty[won.ray] = Certainty.EXACT
