@@ -63,7 +63,8 @@ def test_as_by_every_ray_itself(rng, orthographic, with_plane, monkeypatch):
 def test_coplanar_surfaces_do_not_cost_a_ray_each(make, monkeypatch):
     """Where only the order is asked for, no ray is turned into whole numbers."""
     monkeypatch.setattr(certified, "by_numbers", lambda *a: pytest.fail("a ray by itself"))
-    scene = make.scene(make.camera(), make.quad(-9, 9.3, -8, 9.17, -2), make.quad(-8, 9.1, -9, 8.7, -2))
+    quads = make.quad(-9, 9.3, -8, 9.17, -2), make.quad(-8, 9.1, -9, 8.7, -2)
+    scene = make.scene(make.camera(), *quads)
     frame = render(scene, Settings("certified"))
     assert (frame.object_index == 0).all()
     assert (frame.certainty == Certainty.AMBIGUOUS).all()
