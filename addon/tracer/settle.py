@@ -21,7 +21,7 @@ from .hits import NOTHING, Hits, Name
 from .reasons import Reason, of_doubts
 from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
 
-_TOGETHER = 1 << 11  # rays that are decided by whole numbers at a time
+_TOGETHER = 1 << 9  # rays that are decided by whole numbers at a time
 
 
 def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> None:
