@@ -69,14 +69,15 @@ def camera_rays(
         return np.asarray(value, dtype=dtype)
 
     width, height = pixel_size(camera)
-    x = cast(camera.window.left) + cast(px) * cast(width)
-    y = cast(camera.window.bottom) + cast(py) * cast(height)
-    right, up, forward, origin = (
-        cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
-    )
-    if camera.orthographic:
-        return Rays(origin + (x * right + y * up), forward)
-    return Rays(origin, x * right + y * up + forward)
+    with np.errstate(over="ignore", invalid="ignore"):  # a camera may be beyond float32's range
+        x = cast(camera.window.left) + cast(px) * cast(width)
+        y = cast(camera.window.bottom) + cast(py) * cast(height)
+        right, up, forward, origin = (
+            cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
+        )
+        if camera.orthographic:
+            return Rays(origin + (x * right + y * up), forward)
+        return Rays(origin, x * right + y * up + forward)
 
 
 def film_of(

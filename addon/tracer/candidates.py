@@ -127,8 +127,9 @@ def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> World
     corners = []
     for corner in triangles.T:
         local = mesh.vertices[corner].T.astype(np.float64)
-        world = transform_points(matrices[..., None], local[:, None, :])
-        corners.append(world.reshape(3, copies * each).astype(dtype))
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused
+            world = transform_points(matrices[..., None], local[:, None, :])
+            corners.append(world.reshape(3, copies * each).astype(dtype))
     triangle = np.tile(np.arange(batch.first, batch.last, dtype=np.int32), copies)
     return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
 

@@ -112,6 +112,7 @@ class Batch:
         self._shift = exponent - direction_exponent  # t = T / D 2^shift
         self._start, self._end = (self._limit(value) for value in (start, end))
         self._open = start == 0
+        self._known: dict[int, tuple[int, Whole, tuple[Whole, ...]]] = {}
 
     def meeting(self, ray: int, surface: int) -> Meeting | None:
         """Return where a ray meets a surface within the clip range; None where it does not.
@@ -136,12 +137,18 @@ class Batch:
         return depth, _dot(self._directions[0], n), n
 
     def _triangle(self, o: Whole, surface: int) -> tuple[int, Whole, tuple[Whole, ...]]:
-        """Return T, n, and m of each edge."""
+        """Return T, n, and m of each edge; found once where all rays have one origin."""
+        known = self._known.get(surface)
+        if known:
+            return known
         k = surface - len(self._planes)
         ox, oy, oz = o
         a, b, c = ((x - ox, y - oy, z - oz) for x, y, z in (v[k] for v in self._corners))
         sides = _cross(a, b), _cross(b, c), _cross(c, a)
-        return _dot(a, sides[1]), tuple(map(sum, zip(*sides, strict=True))), sides
+        found = _dot(a, sides[1]), tuple(map(sum, zip(*sides, strict=True))), sides
+        if len(self._origins) == 1:
+            self._known[surface] = found
+        return found
 
     def _plane(self, o: Whole, surface: int) -> tuple[int, Whole]:
         """Return T and n."""

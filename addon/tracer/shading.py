@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
-from .vector import cross, dot, transform_points
+from .vector import Vectors, cross, dot, transform_points
 
 
 def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
@@ -56,13 +56,17 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
         matrices = scene.instance_matrices[..., hits.instance[rows]]
         corners = mesh.triangles[hits.triangle[rows]].T
         p1, p2, p3 = (transform_points(matrices, mesh.vertices[c].T) for c in corners)
-        x, y, z = matrices[:3, :3].swapaxes(0, 1)  # columns: where the object's axes go
+        x, y, z = map(_near_1, matrices[:3, :3].swapaxes(0, 1))  # where the object's axes go
         mirrored = dot(cross(x, y), z) < 0
-        n[:, rows] = cross(p2 - p1, p3 - p1) * np.where(mirrored, -1, 1)
-    largest = np.abs(n).max(axis=0)  # divided by, so that the squares cannot underflow
-    n /= np.where(largest > 0, largest, 1)
+        n[:, rows] = cross(_near_1(p2 - p1), _near_1(p3 - p1)) * np.where(mirrored, -1, 1)
+    n = _near_1(n)
     length = np.sqrt(dot(n, n))
     return (n / np.where(length > 0, length, 1)).T
+
+
+def _near_1(v: Vectors) -> Vectors:
+    """Return vectors scaled so that their products neither overflow nor underflow."""
+    return np.ldexp(v, -np.frexp(np.abs(v).max(axis=0))[1])
 
 
 def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:

@@ -43,8 +43,8 @@ SUM_TOLERANCE = {np.dtype(np.float32): 1e-6, np.dtype(np.float64): 1e-9}
 
 def _textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
     o, d = rays.origins, rays.directions
-    n = cross(p3 - p1, p2 - p1)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        n = cross(p3 - p1, p2 - p1)
         t = -dot(o - p1, n) / dot(d, n)  # d . n = 0 gives inf or NaN, and every test below fails
         x = o + t * d
         area = dot(n, n)
@@ -59,13 +59,14 @@ def _textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection
 def textbook_literal(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
     """Test as printed, the sum's equality with 1 included: loses about half of all hits."""
     inside, t, s = _textbook(rays, p1, p2, p3)
-    return inside & (s[0] + s[1] + s[2] == 1), t, s
+    with np.errstate(invalid="ignore", over="ignore"):
+        return inside & (s[0] + s[1] + s[2] == 1), t, s
 
 
 def textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
     """Test as printed, but with the sum equal to 1 within SUM_TOLERANCE."""
     inside, t, s = _textbook(rays, p1, p2, p3)
-    with np.errstate(invalid="ignore"):
+    with np.errstate(invalid="ignore", over="ignore"):
         sums = np.abs(s[0] + s[1] + s[2] - 1) <= SUM_TOLERANCE[s.dtype]
     return inside & sums, t, s
 
@@ -76,9 +77,9 @@ def moller_trumbore(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Inters
     Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997. Both
     faces are seen; there is no epsilon on the determinant, which would be a length to the third.
     """
-    e1, e2 = p2 - p1, p3 - p1
-    across = cross(rays.directions, e2)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        e1, e2 = p2 - p1, p3 - p1
+        across = cross(rays.directions, e2)
         scale = 1 / dot(e1, across)
         from_p1 = rays.origins - p1
         s2 = dot(from_p1, across) * scale
@@ -114,8 +115,9 @@ def watertight(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersectio
             weights[:, again] = _edge_functions(finer)
         area = weights[0] + weights[1] + weights[2]
         hit = ((weights >= 0).all(axis=0) | (weights <= 0).all(axis=0)) & (area != 0)
-        t = dot(weights, np.stack([corner[2] for corner in sheared])) / (area * dz)
-        return hit, t.astype(d.dtype), (weights / area).astype(d.dtype)
+        s = weights / area
+        t = dot(s, np.stack([depth for _, _, depth in sheared])) / dz
+        return hit, t.astype(d.dtype), s.astype(d.dtype)
 
 
 def _edge_functions(sheared: Sequence[Sequence[NDArray]]) -> Vectors:
