@@ -1,96 +1,249 @@
-"""Speed against accuracy, measured on a scene: every method and precision, judged exactly."""
+"""Speed against accuracy, measured on a scene through its own camera.
+
+In comes a Scene; out goes a `Trade`: a row for each choice of method, precision, samples and
+resolution, with what it takes (seconds, bytes) and what it gets wrong: pixels and t, against the
+certified picture; coverage, against a converged one.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+import tracemalloc
+from dataclasses import dataclass, field, replace
 from statistics import median
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..scene import Scene
+from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.render import render
+from ..tracer.progress import Work, scaled
+from ..tracer.render import steps
 from ..tracer.settings import Method, Precision, Settings
-from .judge import judge
+from ..tracer.visibility import NOTHING
+from .trade import Row, Trade, advice, mark
 
-REPEATS = 3
+WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
+SMALLER = (1, 2, 4)  # the widths measured: the largest, a half and a quarter of it
+
+# More samples are measured for these: the exercise's, the fastest, and the one with a proof.
+SAMPLED = (
+    Settings(Method.TEXTBOOK, Precision.FLOAT64),
+    Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT32),
+    Settings(Method.CERTIFIED),
+)
+
+REPEATS = 3  # of every row: the fewest that have a middle
+MORE_REPEATS = 7  # where one is so short that the machine's noise shows
+SHORT = 0.25  # seconds
+
+# Samples a pixel and direction of the converged picture. With 16, a straight edge along the pixels
+# is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are MANY
+# rays, but at least twice as many as what it judges.
+CONVERGED = 16
+MANY = 4_000_000
+BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 
-@dataclass(frozen=True)
-class Row:
-    """One choice: its median time, and the pixels whose answer exact arithmetic rejects."""
+@dataclass(eq=False)
+class _Choice:
+    """A row on its way."""
 
-    method: str
-    precision: str
-    seconds: float
-    wrong_pixels: int
-    pixels: int
+    settings: Settings
+    scene: Scene  # of the row's resolution
+    peak_bytes: int = 0
+    wrong_pixels: int = 0
+    t_error: float = 0.0
+    coverage_error: float = 0.0
+    rounds: list[float] = field(default_factory=list)
+
+    @property
+    def cost(self) -> float:
+        """About how long it takes, in some unit: rays, and a look at every triangle for each."""
+        camera = self.scene.camera
+        return self.settings.samples**2 * (camera.width * camera.height + self.scene.triangle_count)
+
+    def row(self) -> Row:
+        s, camera = self.settings, self.scene.camera
+        return Row(
+            s.method.value,
+            s.precision.value,
+            s.samples,
+            camera.width,
+            camera.height,
+            median(self.rounds),
+            self.wrong_pixels,
+            self.t_error,
+            self.peak_bytes,
+            self.coverage_error,
+            tuple(self.rounds),
+        )
 
 
 def measure(
-    scene: Scene, width: int = 160, progress: Callable[[float], None] | None = None
-) -> list[Row]:
-    """Measure every method and precision on a scene's own camera.
+    scene: Scene, width: int | None = None, samples: int = SAMPLES, name: str = ""
+) -> Work[Trade]:
+    """Measure what a scene's user can trade; closed before its end, it leaves nothing behind.
 
     Parameters
     ----------
     scene : Scene
-    width : int
-        Of the picture, in pixels; its height keeps the camera's proportions.
-    progress : callable, optional
-        Called with the share of the work done.
+        Its border is left out: the picture is that of the whole camera.
+    width : int, optional
+        Of the picture, in pixels; its height keeps the camera's proportions. By default WIDTH, or
+        the camera's where that is less.
+    samples : int
+        Up to `samples` x `samples` a pixel are measured.
+    name : str
+        Of the scene, for those who read the result.
 
     Raises
     ------
-    judge.TooLargeError
-        If the picture is too large to be judged exactly.
+    certainty.AssumptionError
+        If nothing can be certified on this machine.
+    SceneError, ValueError
+        If the width or the number of samples is out of range.
     """
+    choices = choose(scene, min(WIDTH, scene.camera.width) if width is None else width, samples)
+    camera = choices[0].scene.camera
+    k = _converged_samples(camera.width * camera.height, samples)
+    costs = (
+        k * k * camera.width * camera.height,
+        *((s * sum(c.cost for c in choices)) for s in (2, 4)),
+    )
+    first, second = costs[0] / sum(costs), costs[1] / sum(costs)
+    truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)
+    yield from scaled(_look_at_all(choices, truth), first, second)
+    yield from scaled(_time_all(choices), first + second, 1 - first - second)
+    rows = mark([choice.row() for choice in choices])
+    return Trade(name, rows, advice(rows), k)
+
+
+def choose(scene: Scene, width: int, samples: int) -> list[_Choice]:
+    """Return what is measured, the largest picture first."""
+    plain = [Settings(m, p) for m in Method if m.is_plain for p in Precision]
+    ladder = [*plain, Settings(Method.CERTIFIED)]
+    widths = sorted({-(-width // share) for share in SMALLER}, reverse=True)
+    scenes = [at_width(scene, w) for w in widths]
+    found = [_Choice(s, small) for small in scenes for s in ladder]
+    more = [replace(s, samples=n) for n in levels(samples) if n > 1 for s in SAMPLED]
+    return found + [_Choice(s, scenes[0]) for s in more]
+
+
+def at_width(scene: Scene, width: int) -> Scene:
+    """Return the scene through the whole of its camera, so many pixels wide."""
     camera = scene.camera
     height = max(1, round(camera.height * width / camera.width))
-    small = replace(scene, camera=replace(camera, width=width, height=height, region=None))
-    choices = [Settings(m, p) for m in Method for p in Precision]
-    seconds: list[list[float]] = [[] for _ in choices]
-    frames: list[Frame] = []
-    for repeat in range(REPEATS):  # interleaved, so that a slow moment of the machine is shared
-        for k, settings in enumerate(choices):
-            began = time.perf_counter()
-            frame = render(small, settings)
-            seconds[k].append(time.perf_counter() - began)
-            if repeat == 0:
-                frames.append(frame)
-        if progress:
-            progress(0.2 * (repeat + 1) / REPEATS)
-    answers: list[set[tuple[int, int]]] = []
-    for verdicts in judge(small):
-        answers += verdicts
-        if progress:
-            progress(0.2 + 0.8 * len(answers) / (width * height))
-    return [
-        Row(
-            s.method.value, s.precision.value, median(t), wrong_pixels(frame, answers), len(answers)
-        )
-        for s, t, frame in zip(choices, seconds, frames, strict=True)
-    ]
+    return replace(scene, camera=replace(camera, width=width, height=height, region=None))
 
 
-def wrong_pixels(frame: Frame, answers: list[set[tuple[int, int]]]) -> int:
-    """Count the pixels whose instance and triangle are none of those that may be seen."""
-    given = zip(
-        frame.instance_index.ravel().tolist(), frame.triangle_index.ravel().tolist(), strict=True
+def levels(samples: int) -> list[int]:
+    """Return the numbers of samples that are measured: 1, 2, 4, 8 and so on, and the last."""
+    Settings(samples=samples)  # which says what it may be
+    return sorted({1 << k for k in range(samples.bit_length())} | {samples})
+
+
+def converged(scene: Scene, samples: int) -> Work[NDArray[np.float64]]:
+    """Return the colour of a scene with `samples` x `samples` a pixel, (h, w, 4) linear RGBA.
+
+    That of a picture so many times as large, `watertight` in float64, averaged: the same rays as
+    with `Settings.samples`, in a fraction of the time.
+    """
+    width, height = scene.camera.width, scene.camera.height
+    large = replace(scene.camera, width=samples * width, height=samples * height, region=None)
+    out = np.empty((height, width, 4))
+    rows = max(1, BAND // (samples * samples * width))
+    for y in range(0, height, rows):
+        end = min(y + rows, height)
+        band = replace(large, region=Region(0, samples * y, large.width, samples * end))
+        frame = Frame.empty(band)
+        for share in steps(replace(scene, camera=band), Settings(Method.WATERTIGHT), frame):
+            yield (y + share * (end - y)) / height
+        blocks = frame.color.reshape(end - y, samples, width, samples, 4)
+        out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)
+    return out
+
+
+def coverage_error(color: NDArray[np.floating], truth: NDArray[np.float64]) -> float:
+    """Return the root mean square, over pixels and RGBA, of a picture's difference from `truth`.
+
+    A smaller picture (h, w, 4) is enlarged to the size of `truth` first, each pixel as it is.
+    """
+    (h, w), (height, width) = color.shape[:2], truth.shape[:2]
+    y = (2 * np.arange(height) + 1) * h // (2 * height)  # the pixel in which each centre lies
+    x = (2 * np.arange(width) + 1) * w // (2 * width)
+    return float(np.sqrt(np.mean((color[np.ix_(y, x)] - truth) ** 2)))
+
+
+def largest_t_error(frame: Frame, certified: Frame) -> float:
+    """Return by how much t is off at most, in metres, where both frames see the same surface."""
+    same = (
+        (frame.instance_index == certified.instance_index)
+        & (frame.triangle_index == certified.triangle_index)
+        & (certified.instance_index != NOTHING)
     )
-    return int(np.sum([name not in may for name, may in zip(given, answers, strict=True)]))
+    return float(np.abs(frame.t[same] - certified.t[same]).max(initial=0.0))
 
 
-def table(rows: list[Row]) -> str:
-    """Return the rows as text, with the time relative to the textbook in float64."""
-    base = next(r.seconds for r in rows if (r.method, r.precision) == ("textbook", "float64"))
-    lines = [f"{'method':<18}{'precision':<11}{'seconds':>9}{'ratio':>7}{'wrong pixels':>18}"]
-    for r in rows:
-        share = f"({r.wrong_pixels / r.pixels:.2%})"
-        lines.append(
-            f"{r.method:<18}{r.precision:<11}{r.seconds:>9.4f}{r.seconds / base:>7.2f}"
-            f"{r.wrong_pixels:>9,} {share:>8}"
-        )
-    return "\n".join(lines)
+def _converged_samples(pixels: int, samples: int) -> int:
+    return max(2 * samples, min(CONVERGED, int((MANY / pixels) ** 0.5)))
+
+
+def _look_at_all(choices: list[_Choice], truth: NDArray[np.float64]) -> Work[None]:
+    """Render each once, untimed, for its memory and its errors; only certified frames are kept."""
+    total, done, certified = sum(c.cost for c in choices), 0.0, {}
+    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):  # the judges first
+        frame = yield from scaled(_look(choice), done / total, choice.cost / total)
+        done += choice.cost
+        judge = certified.setdefault(choice.scene.camera.width, frame)
+        choice.wrong_pixels = int(frame.wrong_against(judge).sum())
+        choice.t_error = largest_t_error(frame, judge)
+        choice.coverage_error = coverage_error(frame.color, truth)
+
+
+def _look(choice: _Choice) -> Work[Frame]:
+    """Render with tracemalloc watching, to which numpy tells its memory."""
+    ours = not tracemalloc.is_tracing()
+    if ours:
+        tracemalloc.start()
+    try:
+        tracemalloc.reset_peak()
+        before = tracemalloc.get_traced_memory()[0]
+        frame = Frame.empty(choice.scene.camera)
+        # A scene keeps tables once they are made: each row makes its own.
+        for share in steps(replace(choice.scene), choice.settings, frame):
+            held, peak = tracemalloc.get_traced_memory()
+            choice.peak_bytes = max(choice.peak_bytes, peak - before)
+            yield share
+            before += tracemalloc.get_traced_memory()[0] - held  # what others took meanwhile
+            tracemalloc.reset_peak()
+        return frame
+    finally:
+        if ours:
+            tracemalloc.stop()
+
+
+def _time_all(choices: list[_Choice]) -> Work[None]:
+    """Time all, round by round, so that a slow moment of the machine is shared.
+
+    Every other round goes backwards, so that none has always the same one before it.
+    """
+    for number in range(MORE_REPEATS):
+        some = [c for c in choices if number < REPEATS or median(c.rounds) < SHORT]
+        total, done = MORE_REPEATS * sum(c.cost for c in some), number / MORE_REPEATS
+        for choice in some if number % 2 == 0 else reversed(some):
+            yield from scaled(_repeat(choice), done, choice.cost / total)
+            done += choice.cost / total
+    yield 1.0
+
+
+def _repeat(choice: _Choice) -> Work[None]:
+    """Render once; only the steps count, not what happens between them."""
+    work = steps(choice.scene, choice.settings, Frame.empty(choice.scene.camera))
+    seconds, share = 0.0, 0.0
+    while share < 1:
+        began = time.perf_counter()
+        share = next(work)
+        seconds += time.perf_counter() - began
+        yield share
+    choice.rounds.append(seconds)

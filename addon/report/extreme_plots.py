@@ -1,0 +1,229 @@
+"""The pictures of numerical stability: where methods break, sweeps, and maps of two scales."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
+from ..study.scenario import Map
+from ..study.scenarios import SCENARIOS
+from . import plots
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import Colormap
+    from matplotlib.figure import Figure
+    from matplotlib.image import AxesImage
+
+NAMES = {
+    "textbook_literal": "textbook,\nliteral",
+    "textbook": "textbook",
+    "moller_trumbore": "Möller–\nTrumbore",
+    "watertight": "watertight",
+    "certified": "certified",
+}
+# Of the sweeps: without the literal textbook, which loses half of all rays and hides the others.
+COLORS = {
+    "textbook": "#d55e00",
+    "moller_trumbore": "#0072b2",
+    "watertight": "#009e73",
+    "certified": "#7a3d9a",
+}
+ACROSS = 4  # sweeps beside one another
+NEVER = "#d9eedd"  # of a cell or a map where nothing goes wrong
+_KNOWN = {s.name: s for s in SCENARIOS}
+_GREY, _LEFT = "#777777", -4.65
+_CENTRED = {"ha": "center", "va": "center"}
+
+
+def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
+    """Return a table in colour: the first scale of each sweep at which a method loses a ray.
+
+    The later in the sweep, the paler. A plus marks methods that cross too many triangles somewhere.
+    """
+    points = breaking_points(rows)
+    scales: dict[str, list[float]] = {}
+    for r in rows:
+        if r.across is None and r.scale not in scales.setdefault(r.scenario, []):
+            scales[r.scenario].append(r.scale)
+    columns = list(dict.fromkeys((p.method, p.precision) for p in points))
+    names = list(scales)
+    figure = plots.new_figure(1920, 250 + 46 * len(names))
+    axes = figure.subplots()
+    axes.set_axis_off()
+    axes.set_xlim(-4.7, len(columns))
+    axes.set_ylim(len(names) + 0.9, -1.7)
+    for y, name in enumerate(names):
+        known = _KNOWN.get(name)
+        axes.text(_LEFT, y + 0.5, known.title if known else name, va="center", fontsize=13.5)
+        axes.text(
+            -0.12, y + 0.5, _scale_of(name), va="center", ha="right", color=_GREY, fontsize=11
+        )
+    for x, (method, precision) in enumerate(columns):
+        axes.text(x + 0.5, -1.0, NAMES[method], **_CENTRED, fontsize=13, fontweight="bold")
+        axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=_GREY)
+    for p in points:
+        x, y = columns.index((p.method, p.precision)), names.index(p.scenario)
+        _point(axes, x, y, p, scales[p.scenario])
+    note = (
+        "Dark: breaks early in the sweep; pale: late.   +  at some scale, a ray crosses more "
+        "triangles than there are."
+    )
+    axes.text(_LEFT, len(names) + 0.5, note, va="center", fontsize=12, color=_GREY)
+    _headline(
+        figure,
+        "Where each method breaks: the first scale at which a ray misses, or sees another surface",
+    )
+    return plots.pixels(figure)
+
+
+def _point(axes: Axes, x: int, y: int, point: BreakingPoint, sweep: list[float]) -> None:
+    from matplotlib.patches import Rectangle
+
+    text, color, ink = "never", NEVER, "#3d7a4a"
+    if point.lost is not None:
+        late = sweep.index(point.lost) / max(1, len(sweep) - 1)
+        text, color = written(point.lost), _colormap()(0.85 - 0.8 * late)
+        ink = plots.INK if late > 0.3 else "white"
+    axes.add_patch(Rectangle((x + 0.03, y + 0.05), 0.94, 0.9, color=color, linewidth=0))
+    text += "" if point.doubled is None else " +"
+    axes.text(x + 0.5, y + 0.5, text, **_CENTRED, color=ink, fontsize=13.5)
+
+
+def _headline(figure: Figure, text: str) -> None:
+    figure.suptitle(text, fontsize=18, x=0.01, ha="left", color=plots.INK)
+
+
+def _scale_of(scenario: str) -> str:
+    known = _KNOWN.get(scenario)
+    return f"{known.scale_name}{f', {known.unit}' if known.unit else ''}" if known else ""
+
+
+def _one_line(method: str) -> str:
+    return NAMES[method].replace("–\n", "–").replace("\n", " ")
+
+
+def _colormap() -> Colormap:
+    """Return from pale yellow to dark red, with a colour for none and one for not known."""
+    import matplotlib
+
+    return matplotlib.colormaps["YlOrRd"].with_extremes(under=NEVER, bad="#dddddd")
+
+
+def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[np.uint8]:
+    """Return small multiples: of each scenario the share of lost rays over the scale."""
+    down = -(-len(sweeps) // ACROSS)
+    figure = plots.new_figure(1920, 150 + 310 * down)
+    grid = figure.subplots(down, ACROSS, squeeze=False).ravel()
+    for axes, rows in zip(grid, sweeps, strict=False):
+        _sweep(axes, rows)
+    for axes in grid[len(sweeps) :]:
+        axes.set_axis_off()
+    handles = [
+        grid[0].plot([], [], "o-", color=color, lw=2.5, ms=6, label=_one_line(method))[0]
+        for method, color in COLORS.items()
+    ]
+    for label, style in (("float64", "-"), ("float32", ":")):
+        handles += grid[0].plot([], [], style, color="#666666", lw=2.5, label=label)
+    figure.legend(handles=handles, loc="outside lower center", ncols=7, fontsize=14, frameon=False)
+    _headline(figure, f"Rays that are missed or see the wrong surface{page and f' ({page})'}")
+    return plots.pixels(figure)
+
+
+def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
+    """Draw one scenario; its scales are steps, each as wide as the next."""
+    name = rows[0].scenario
+    scales = list(dict.fromkeys(r.scale for r in rows))
+    shown = [r for r in rows if r.method in COLORS]
+    plots.plain_axes(axes, "", _scale_of(name), "")
+    title = _KNOWN[name].title if name in _KNOWN else name
+    axes.set_title(title, fontsize=14, loc="left", color=plots.INK)
+    axes.xaxis.label.set_size(11.5)
+    for method, precision in dict.fromkeys((r.method, r.precision) for r in shown):
+        some = [r for r in shown if (r.method, r.precision) == (method, precision)]
+        color, whole, proven = COLORS[method], precision == "float64", method == "certified"
+        axes.plot(
+            [scales.index(r.scale) for r in some],
+            [100 * r.share for r in some],
+            "o-" if whole else "o:",
+            color=color,
+            lw=2.2,
+            ms=7 if proven else 5,
+            mfc=color if whole else "white",
+            clip_on=False,
+            zorder=5 if proven else 3,  # above all that hold as well
+        )
+    if not any(r.lost for r in shown):
+        most = max(r.doubled / r.rays for r in shown)
+        note = f"\nup to {100 * most:.0f} % cross too many triangles" if most else ""
+        axes.text(
+            0.5, 0.5, f"no ray is lost{note}", transform=axes.transAxes, **_CENTRED, fontsize=12
+        )
+    axes.set_ylim(0, 100)
+    axes.set_yticks([0, 50, 100], ["0 %", "50 %", "100 %"])
+    _ticks(axes.set_xticks, scales)
+    axes.tick_params(labelsize=10.5)
+
+
+def _ticks(put, scales: Sequence[float]) -> None:
+    words = [written(s) for s in scales]
+    put(range(len(scales)), words, rotation=45, ha="right", rotation_mode="anchor")
+
+
+def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
+    """Return heat maps over two scales of the share of lost rays, one for each method."""
+    columns = [m for m in NAMES if any(r.method == m for r in rows)]
+    precisions = [p for p in ("float64", "float32") if any(r.precision == p for r in rows)]
+    figure = plots.new_figure()
+    grid = figure.subplots(len(precisions), len(columns), squeeze=False, sharex=True, sharey=True)
+    images = [
+        _heat(axes, [r for r in rows if (r.method, r.precision) == (method, precision)])
+        for precision, line in zip(precisions, grid, strict=True)
+        for method, axes in zip(columns, line, strict=True)
+    ]
+    figure.supxlabel(some.rows[0].scale_name, fontsize=15)
+    figure.supylabel(some.across_name, fontsize=15)
+    _headline(
+        figure,
+        f"{some.title}: rays that are missed or see the wrong surface\n{some.explanation}\n"
+        "Green: none. Grey: rounding has left nothing to see.",
+    )
+    bar = figure.colorbar(
+        next(i for i in images if i),
+        ax=grid,
+        ticks=[0.01, 0.1, 0.25, 0.5, 1],
+        format=lambda share, _: f"{100 * share:.0f} %",
+        shrink=0.8,
+    )
+    bar.ax.tick_params(labelsize=13)
+    return plots.pixels(figure)
+
+
+def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
+    """Draw the map of one method; nothing where there are no rows."""
+    from matplotlib.colors import PowerNorm
+
+    if not rows:
+        axes.set_axis_off()
+        return None
+    scales, others = (
+        list(dict.fromkeys(getattr(r, of) for r in rows)) for of in ("scale", "across")
+    )
+    cells = np.full((len(others), len(scales)), np.nan)
+    for r in rows:
+        if r.seen or r.lost:
+            cells[others.index(r.across), scales.index(r.scale)] = r.share
+    norm = PowerNorm(0.5, vmin=0.5 / max(r.rays for r in rows), vmax=1)  # below a ray: none
+    image = axes.imshow(np.ma.masked_invalid(cells), cmap=_colormap(), norm=norm, aspect="auto")
+    title = f"{_one_line(rows[0].method)}, {rows[0].precision}"
+    axes.set_title(title, fontsize=14, color=plots.INK)
+    _ticks(axes.set_xticks, scales)
+    axes.set_yticks(range(len(others)), [written(o) for o in others])
+    axes.tick_params(labelsize=11, length=0)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    return image

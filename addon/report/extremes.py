@@ -1,0 +1,142 @@
+"""Rows of numerical stability -> tables, `extremes.json` and pictures.
+
+The pictures: where each method breaks; the share of rays that it loses over every sweep; and a map
+for each two scales that are swept at once. The folder is whole but for the pictures where
+Matplotlib is missing.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..study.extremes import Row, breaking_points, breaking_table, table
+from ..study.scenarios import MAPS, SCENARIOS
+from .extreme_plots import breaking_picture, map_picture, sweeps_picture
+from .files import SavePng
+
+SCHEMA = "reference_tracer.extremes/1"
+TABLE, JSON = "extremes.txt", "extremes.json"
+PANELS = 12  # sweeps of one picture
+
+_UNITS = {
+    "rays": "rays of the scene; the counts below are of rays",
+    "seen": "rays whose certified ray sees a surface",
+    "missed": "the certified ray sees a surface, the method none",
+    "wrong": "the method sees another surface, or one where there is none",
+    "order": "of the wrong: what is seen is truly crossed, but is not the nearest",
+    "doubled": "the method crosses more triangles than the certified ray does",
+    "refused": "triangles and rays that are not finite in this precision",
+    "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
+    "exact": "share of the pairs of a ray and a triangle that whole numbers decided",
+    "judged": "rays that an independent judge in whole numbers decided, with every triangle",
+    "across": "of a row of a map: its second scale",
+}
+
+
+def to_dict(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return what `extremes.json` holds."""
+    return {
+        "schema": SCHEMA,
+        "units": _UNITS,
+        "scenarios": [
+            {
+                "name": s.name,
+                "title": s.title,
+                "explanation": s.explanation,
+                "scale": s.scale_name,
+                "unit": s.unit,
+            }
+            for s in SCENARIOS
+        ],
+        "maps": [
+            {
+                "name": m.name,
+                "title": m.title,
+                "explanation": m.explanation,
+                "scale": m.rows[0].scale_name,
+                "across": m.across_name,
+            }
+            for m in MAPS
+        ],
+        "breaking_points": [asdict(p) for p in breaking_points(rows)],
+        "rows": [_row(r) for r in rows],
+    }
+
+
+def _row(row: Row) -> dict[str, Any]:
+    found = asdict(row)
+    error = row.largest_t_error
+    if error is not None and not math.isfinite(error):
+        found["largest_t_error"] = None  # JSON has no infinity
+    return found
+
+
+def write(directory: str | Path, rows: Sequence[Row], save_png: SavePng) -> None:
+    """Write `extremes.txt`, `extremes.json` and the pictures, in this order.
+
+    Parameters
+    ----------
+    directory : path
+        Made where it is not there.
+    rows : sequence of Row
+    save_png : callable
+        Writes an (h, w, 4) uint8 picture, row 0 at the bottom: `images.save_png`, or Blender's own.
+
+    Raises
+    ------
+    MissingLibraryError
+        If there can be no pictures. The tables and the JSON are there all the same.
+    OSError
+        If the folder cannot be written.
+    """
+    directory = Path(directory)
+    directory.mkdir(parents=True, exist_ok=True)
+    for name in picture_names():
+        (directory / f"{name}.png").unlink(missing_ok=True)  # it would pass for one of these rows
+    text = f"{breaking_table(rows)}\n\n\n{table(rows)}\n"
+    (directory / TABLE).write_text(text, encoding="utf-8")
+    content = json.dumps(to_dict(rows), indent=2, allow_nan=False)
+    (directory / JSON).write_text(content + "\n", encoding="utf-8")
+    for name, picture in pictures(rows):
+        save_png(directory / f"{name}.png", picture)
+
+
+def picture_names() -> list[str]:
+    """Return the names of all pictures that there may be."""
+    pages = math.ceil(len(SCENARIOS) / PANELS)
+    sweeps = (f"sweeps_{page + 1}" for page in range(pages))
+    return ["breaking_points", *sweeps, *(f"map_{m.name}" for m in MAPS)]
+
+
+def pictures(rows: Sequence[Row]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
+    """Yield the name and pixels, (h, w, 4) sRGB, row 0 at the bottom, of every picture.
+
+    Raises
+    ------
+    MissingLibraryError
+        If Matplotlib is not installed.
+    """
+    sweeps = {r.scenario: [] for r in rows if r.across is None}
+    for row in rows:
+        if row.across is None:
+            sweeps[row.scenario].append(row)
+    if sweeps:
+        yield "breaking_points", breaking_picture(rows)
+        groups = list(sweeps.values())
+        pages = math.ceil(len(groups) / PANELS)
+        each = math.ceil(len(groups) / pages)
+        for page in range(pages):
+            shown = groups[page * each : (page + 1) * each]
+            yield f"sweeps_{page + 1}", sweeps_picture(shown, f"{page + 1} of {pages}")
+    for some in MAPS:
+        found = [r for r in rows if r.across is not None and r.scenario == some.name]
+        if found:
+            yield f"map_{some.name}", map_picture(some, found)

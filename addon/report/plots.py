@@ -1,0 +1,71 @@
+"""What all plots share: a figure without Matplotlib's global state, and its pixels.
+
+Matplotlib is the extra `plots`; without it there are no plots, and all else works.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..images import MissingLibraryError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+WIDTH, HEIGHT = 1920, 1080  # pixels: what a projector shows
+DPI = 120
+INK, FAINT = "#222222", "#c8c8c8"
+
+
+def new_figure(width: int = WIDTH, height: int = HEIGHT) -> Figure:
+    """Return an empty white figure of so many pixels.
+
+    Raises
+    ------
+    MissingLibraryError
+        If Matplotlib is not installed.
+    """
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        raise MissingLibraryError(
+            "plots need the library Matplotlib: pip install 'reference_tracer[plots]'"
+        ) from None
+    return Figure((width / DPI, height / DPI), dpi=DPI, facecolor="white", layout="constrained")
+
+
+def plain_axes(axes: Axes, title: str, x: str, y: str) -> None:
+    """Give axes a title, labels, a faint grid and no frame, in letters for the back row."""
+    axes.set_title(title, fontsize=19, color=INK, loc="left", pad=12)
+    axes.set_xlabel(x, fontsize=16, color=INK)
+    axes.set_ylabel(y, fontsize=16, color=INK)
+    axes.tick_params(labelsize=14, color=FAINT, labelcolor=INK, which="both")
+    axes.grid(True, color=FAINT, linewidth=0.6, alpha=0.6)
+    axes.set_axisbelow(True)
+    for side, spine in axes.spines.items():
+        spine.set_visible(side in ("left", "bottom"))
+        spine.set_color(FAINT)
+
+
+def log_ticks(axis: Axis) -> None:
+    """Make an axis logarithmic, with its numbers written out at 1, 2, 5, 10 and so on."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=20))
+    axis.set_major_formatter(lambda value, _: f"{value:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
+def pixels(figure: Figure) -> NDArray[np.uint8]:
+    """Return a figure as a picture, (h, w, 4) sRGB with alpha, row 0 at the bottom."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[::-1].copy()

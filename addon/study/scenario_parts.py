@@ -1,0 +1,171 @@
+"""What the scenarios are built of: cameras, and meshes around or in front of them.
+
+A picture's rays are those of its camera, as the tracer stores them: a mesh that is to be met at its
+corners and edges is built from the camera's own rays (`sheet`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera, Instance, Mesh, Scene, ViewWindow
+from ..tracer.camera import camera_rays
+
+SEED = 20240611
+
+# No axis of the world is one of these: an ordinary view, all of whose numbers have to be rounded.
+# Columns are right, up, backward. Times 39 they are whole numbers: what lies in one plane across
+# this view can do so exactly.
+TURNED_39 = np.array([[13.0, -34.0, -14.0], [26.0, 19.0, -22.0], [26.0, -2.0, 29.0]])
+TURNED = TURNED_39 / 39
+
+COLORS = ((0.85, 0.45, 0.15, 1.0), (0.2, 0.5, 0.8, 1.0), (0.5, 0.75, 0.3, 1.0))
+MARGIN = 2  # lattice cells that a sheet reaches beyond the picture
+# Of a pixel: a lattice that is moved by this has no corner, edge or diagonal on a pixel's ray.
+BESIDE = (0.37, 0.19)
+
+
+def generator() -> np.random.Generator:
+    """Return random numbers, the same for every scene."""
+    return np.random.default_rng(SEED)
+
+
+def camera(
+    width: int,
+    height: int,
+    half: float = 0.4,
+    half_height: float | None = None,
+    eye: Sequence[float] | NDArray = (0.0, 0.0, 0.0),
+    axes: NDArray = TURNED,
+    near: float = 1e-3,
+    far: float = 1e3,
+    **options: object,
+) -> Camera:
+    """Return a camera whose picture is 2 `half` wide at depth 1, or in metres if orthographic.
+
+    Pixels are square unless `half_height` is given.
+    """
+    matrix = np.eye(4)
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = eye
+    tall = half * height / width if half_height is None else half_height
+    window = options.pop("window", None) or ViewWindow(-half, half, -tall, tall)
+    return Camera(matrix, window, width, height, clip_start=near, clip_end=far, **options)
+
+
+def sheet(
+    view: Camera,
+    step: int = 2,
+    near: float = 4.0,
+    far: float = 5.0,
+    beside: tuple[float, float] = (0.0, 0.0),
+    around: bool = True,
+) -> Mesh:
+    """Return a rough surface before a camera, with a corner on the ray of every `step`-th pixel.
+
+    The corners are fl(o + t d), with t at random between `near` and `far`. As a straight line is
+    straight in a picture, the pixels between meet the edges: of step 2, all of them do. With
+    `beside`, in pixels, the corners are that far from the rays. The surface reaches beyond the
+    picture, and is closed `around` a perspective camera by a fan behind it: a ray crosses it once.
+    """
+    columns, rows = (n // step + 2 * MARGIN for n in (view.width, view.height))
+    px, py = (
+        0.5 + by + step * (np.arange(n + 1.0) - MARGIN)
+        for n, by in zip((columns, rows), beside, strict=True)
+    )
+    x, y = (v.ravel() for v in np.meshgrid(px, py))
+    rays = camera_rays(view, x, y)
+    rng = generator()
+    t = near * (far / near) ** rng.random(len(x))
+    points = np.broadcast_to(rays.at(t), (3, len(x))).T
+    triangles = lattice(columns, rows, rng.integers(0, 2, columns * rows))
+    behind = view.origin - 2 * near * view.forward if around else None
+    return closed(points, triangles, boundary(columns, rows), behind)
+
+
+def closed(points: NDArray, triangles: NDArray, rim: NDArray, apex: NDArray | None) -> Mesh:
+    """Return a mesh with a fan from its rim, corners in order, to the apex, if there is one."""
+    if apex is not None:
+        fan = np.stack((rim, np.roll(rim, -1), np.full(len(rim), len(points))), axis=1)
+        points = np.concatenate((points, apex[None]))
+        triangles = np.concatenate((triangles, fan))
+    return Mesh(points, triangles, name="Sheet")
+
+
+def lattice(columns: int, rows: int, split: NDArray | int = 0) -> NDArray[np.int64]:
+    """Return triangles of a lattice of cells, each split along one diagonal or the other.
+
+    Its (columns + 1) x (rows + 1) corners are numbered row by row.
+    """
+    j, i = (v.ravel() for v in np.meshgrid(np.arange(columns), np.arange(rows)))
+    a = i * (columns + 1) + j
+    b, c, d = a + 1, a + columns + 2, a + columns + 1
+    other = np.broadcast_to(split, a.shape).astype(bool)
+    first = np.where(other, (a, b, d), (a, b, c))
+    second = np.where(other, (b, c, d), (a, c, d))
+    return np.stack((first.T, second.T), axis=1).reshape(-1, 3)
+
+
+def boundary(columns: int, rows: int) -> NDArray[np.int64]:
+    """Return the corners around a lattice, in order."""
+    index = np.arange((columns + 1) * (rows + 1)).reshape(rows + 1, columns + 1)
+    return np.concatenate((index[0, :-1], index[:-1, -1], index[-1, :0:-1], index[:0:-1, 0]))
+
+
+def sphere(radius: float = 2.0, rings: int = 12) -> Mesh:
+    """Return a closed sphere about the origin, 4 rings (rings - 1) triangles, as Embree's test."""
+    theta = np.pi * np.arange(1, rings) / rings
+    phi = np.pi * np.arange(2 * rings) / rings
+    ring = np.stack(np.broadcast_arrays(np.cos(phi), np.sin(phi)), axis=-1)
+    points = [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]
+    points += [(*(np.sin(a) * xy), np.cos(a)) for a in theta for xy in ring]
+    count = 2 * rings
+    k = np.arange(count)
+    after = (k + 1) % count
+    triangles = [np.stack((np.zeros_like(k), 2 + k, 2 + after), axis=1)]
+    for r in range(rings - 2):
+        a, b = 2 + r * count, 2 + (r + 1) * count
+        triangles.append(np.stack((a + k, b + k, b + after), axis=1))
+        triangles.append(np.stack((a + k, b + after, a + after), axis=1))
+    last = 2 + (rings - 2) * count
+    triangles.append(np.stack((last + k, np.ones_like(k), last + after), axis=1))
+    return Mesh(radius * np.array(points), np.concatenate(triangles), name="Sphere")
+
+
+def grid(
+    columns: int,
+    rows: int,
+    corner: NDArray,
+    across: NDArray,
+    along: NDArray,
+    split: int | NDArray = 0,
+    apex: NDArray | None = None,
+) -> Mesh:
+    """Return a flat lattice of cells: its first corner, and what spans the whole of it."""
+    v, u = (w.ravel()[:, None] for w in np.mgrid[: rows + 1, : columns + 1])
+    points = corner + (u / columns) * across + (v / rows) * along
+    return closed(points, lattice(columns, rows, split), boundary(columns, rows), apex)
+
+
+def scene(view: Camera, *meshes: Mesh, matrices: tuple[NDArray, ...] = ()) -> Scene:
+    """Return a scene with an object for each mesh, at the origin unless it has a matrix."""
+    matrices = (*matrices, *[np.eye(4)] * (len(meshes) - len(matrices)))
+    return Scene(
+        view,
+        meshes,
+        tuple(
+            Instance(k, k, matrix, [COLORS[k % len(COLORS)]]) for k, matrix in enumerate(matrices)
+        ),
+        background=(0.0, 0.0, 0.0, 1.0),
+        objects=tuple(mesh.name for mesh in meshes),
+    )
+
+
+def moved(by: NDArray | tuple[float, float, float]) -> NDArray[np.float64]:
+    """Return the matrix of an object that is moved."""
+    matrix = np.eye(4)
+    matrix[:3, 3] = by
+    return matrix

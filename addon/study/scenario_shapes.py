@@ -1,0 +1,168 @@
+"""Scenes that are hard by their surfaces: where a ray meets them, and how thin they are.
+
+Each function takes the scale that is swept, and the size of the picture.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scene import Mesh, Scene, ViewWindow
+from ..tracer.camera import camera_rays
+from .scenario_parts import (
+    BESIDE,
+    TURNED,
+    TURNED_39,
+    boundary,
+    camera,
+    closed,
+    generator,
+    grid,
+    lattice,
+    scene,
+    sheet,
+)
+
+RIGHT, UP, FORWARD = TURNED[:, 0], TURNED[:, 1], -TURNED[:, 2]
+EYE = np.array((0.3, -0.2, 0.25))
+STRIP = 40  # quads of a strip of needles
+ULP = 2.0**-52  # relative distance of the doubles next to 1
+
+
+def corners_and_edges(ratio: float, width: int, height: int) -> Scene:
+    """Return a closed surface met at its corners and edges, `ratio` times deeper in its pits."""
+    view = camera(width, height, eye=EYE, far=1e3 * ratio)
+    return scene(view, sheet(view, far=4 * ratio))
+
+
+def closed_fan(count: float, width: int, height: int) -> Scene:
+    """Return `count` triangles around one corner, between the rays of pixels around the picture.
+
+    So the corner is on a pixel's ray, and so is the middle of every edge that leads to it.
+    """
+    view = camera(width, height, eye=EYE)
+    x, y = width // 2 + 4, height // 2 + 4  # of the rim, from the middle; both even
+    x, y = x + x % 2, y + y % 2
+    rim = [(i, -y) for i in range(-x, x, 2)] + [(x, j) for j in range(-y, y, 2)]
+    rim += [(-i, -j) for i, j in rim]
+    chosen = np.linspace(0, len(rim), int(count), endpoint=False).astype(int)
+    # Without the four corners of the picture, the fan would not cover it.
+    chosen = np.union1d(chosen, [rim.index((i, j)) for i in (-x, x) for j in (-y, y)])
+    x, y = np.array([(0, 0), *[rim[k] for k in chosen]]).T
+    rays = camera_rays(view, x + width // 2 + 0.5, y + height // 2 + 0.5)
+    points = rays.at(4 + generator().random(len(x))).T
+    around = np.arange(1, len(x))
+    triangles = np.stack((np.zeros_like(around), around, np.roll(around, -1)), axis=1)
+    return scene(view, closed(points, triangles, around, EYE - 8 * FORWARD))
+
+
+def needles(
+    aspect: float, width: int, height: int, angle: float = np.pi / 2, quads: int = STRIP
+) -> Scene:
+    """Return a strip of quads of 1 x 1/aspect m, seen at an angle to its plane, in radians."""
+    length = quads / aspect
+    depth = max(1.0, length)  # so that no part of it is beside or behind the camera
+    along = np.cos(angle) * FORWARD + np.sin(angle) * UP
+    # At most 0.45 of the strip's length to either side; the far side appears shortened.
+    tall = 0.45 * length * np.sin(angle) / (depth + 0.5 * length)
+    view = camera(width, height, 0.4 / depth, tall, near=1e-3)
+    corner = depth * FORWARD - 0.5 * RIGHT - 0.5 * length * along
+    apex = -depth * FORWARD  # behind the camera, which is so inside
+    return scene(view, grid(1, quads, corner, RIGHT, length * along, apex=apex))
+
+
+def grazing(height_above: float, width: int, height: int) -> Scene:
+    """Return a plane of 20 x 20 cells, the camera closely above it and looking along it."""
+    # It meets the plane at 1 to 10 m. Not symmetrical: no column of the picture is along a line.
+    window = ViewWindow(-0.37, 0.43, -height_above, -0.1 * height_above)
+    view = camera(width, height, window=window)
+    corner = -10 * RIGHT - 5 * FORWARD - height_above * UP
+    split = generator().integers(0, 2, 400)
+    return scene(view, grid(20, 20, corner, 20 * RIGHT, 20 * FORWARD, split))
+
+
+def close_planes(ulps: float, width: int, height: int) -> Scene:
+    """Return two planes across the view, 5 m away; the second is nearer by some ulp of that."""
+    view = camera(width, height, eye=EYE)
+    rng = generator()
+    planes = (
+        grid(
+            6,
+            5,
+            EYE + depth * FORWARD - 3 * RIGHT - 3 * UP,
+            6 * RIGHT,
+            6 * UP,
+            rng.integers(0, 2, 30),
+        )
+        for depth in (5 * (1 + ulps * ULP), 5.0)
+    )
+    return scene(view, *planes)
+
+
+def integer_cube(cells: float, width: int, height: int) -> Scene:
+    """Return a cube of whole numbers, its camera inside, with rays that are binary fractions.
+
+    Pixels are 1/4 wide at depth 1, so that rays meet the wall 16 m away at even numbers.
+    """
+    view = camera(width, height, width / 8, axes=np.eye(3))
+    return scene(view, _cube(int(cells), np.array((-8.0, -16.0, -16.0)), 32.0))
+
+
+def integer_cube_ortho(cells: float, width: int, height: int) -> Scene:
+    """Return a cube of whole numbers from outside, with rays at whole numbers along its sides."""
+    eye = (0.5 * (width % 2 == 0), 0.5 * (height % 2 == 0), 40.0)
+    view = camera(width, height, width / 2, eye=eye, axes=np.eye(3), orthographic=True)
+    return scene(view, _cube(int(cells), np.array((-8.0, -8.0, -8.0)), 16.0))
+
+
+def _cube(cells: int, least: np.ndarray, side: float) -> Mesh:
+    """Return a cube whose six sides are lattices with corners of their own."""
+    points, triangles = [], []
+    rng = generator()
+    for axis in range(3):
+        u, v = side * np.roll(np.eye(3), axis, axis=1)[1:]
+        for far in (0.0, side):
+            corner = least + far * np.roll(np.eye(3), axis, axis=1)[0]
+            wall = grid(cells, cells, corner, u, v, rng.integers(0, 2, cells * cells))
+            triangles.append(wall.triangles + len(wall.vertices) * len(points))
+            points.append(wall.vertices)
+    return Mesh(np.concatenate(points), np.concatenate(triangles), name="Cube")
+
+
+def degenerate_faces(copies: float, width: int, height: int) -> Scene:
+    """Return a wall, and `copies` of its faces split otherwise, with others of no area."""
+    columns, rows, copies = 16, 12, int(copies)
+    across, up, backward = TURNED_39.T / 4  # of a cell; all whole numbers of quarters
+    corner = -20 * backward - columns / 2 * across - rows / 2 * up
+    rng = generator()
+    split = rng.integers(0, 2, columns * rows)
+    # The cells' corners are sums of quarters: no product is rounded, unlike in `grid`.
+    i, j = (v.ravel()[:, None] for v in np.mgrid[: rows + 1, : columns + 1])
+    points = corner + j * across + i * up
+    meshes = [Mesh(points, lattice(columns, rows, split), name="Wall")]
+    if copies:
+        rim = boundary(columns, rows)[:columns]
+        line = rim[:-2, None] + np.arange(rows)[None] * (columns + 1)
+        line = line.ravel()
+        empty = np.stack((line, line + 1, line + 2), axis=1)  # three corners in a row
+        point = np.stack((line, line + 1, line), axis=1)
+        again = np.tile(lattice(columns, rows, 1 - split), (copies, 1))
+        meshes.append(Mesh(points, np.concatenate((empty, again, point)), name="Copies"))
+    # Not symmetrical: no pixel's ray is on a diagonal.
+    view = camera(width, height, window=ViewWindow(-0.33, 0.3, -0.22, 0.25))
+    return scene(view, *meshes)
+
+
+def non_finite(share: float, width: int, height: int) -> Scene:
+    """Return a wall before another, with some corners that its matrix takes to infinity."""
+    view = camera(width, height)
+    front = sheet(view, step=4, beside=BESIDE, around=False)
+    power = 600  # 2^power x 2^500 overflows; all else is scaled forth and back without rounding
+    points = np.ldexp(front.vertices, -power)
+    rng = generator()
+    chosen = rng.permutation(len(points))[: round(share * len(points))]
+    points[chosen, rng.integers(0, 3, len(chosen))] = np.ldexp(1.0, 500)
+    matrix = np.diag((*[np.ldexp(1.0, power)] * 3, 1.0))
+    # Not symmetrical: no pixel's ray is on one of its edges.
+    wall = grid(2, 2, 9 * FORWARD - 6.3 * RIGHT - 5.8 * UP, 12.5 * RIGHT, 12.3 * UP)
+    return scene(view, Mesh(points, front.triangles, name="Front"), wall, matrices=(matrix,))

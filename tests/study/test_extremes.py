@@ -1,0 +1,266 @@
+"""The study of numerical stability: what is counted, who judges it, and where methods break."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.study import extremes
+from reference_tracer.study.extreme_rows import Row, breaking_points, breaking_table, table, written
+from reference_tracer.study.extremes import measure
+from reference_tracer.study.scenarios import ALL, MAPS, SCENARIOS, quick
+from reference_tracer.study.truth import sample, truth_of
+from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.settings import Method, Precision
+
+BY_NAME = {s.name: s for s in SCENARIOS}
+
+
+def at(name, *scales, judged=2):
+    """Rows of a scenario by (method, precision, scale)."""
+    rows = result_of(measure([replace(BY_NAME[name], scales=scales)], judged=judged))
+    return {(r.method, r.precision, r.scale): r for r in rows}
+
+
+@pytest.fixture(scope="module")
+def rows():
+    """Every scenario and map, in small pictures at three scales."""
+    return result_of(measure(quick()))
+
+
+def faults(rows):
+    return [(r.scenario, r.scale, r.across) for r in rows if r.lost or r.doubled]
+
+
+def certified(rows):
+    return [r for r in rows if r.method == "certified"]
+
+
+def test_a_row_for_every_scene_method_and_precision(rows):
+    plain = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
+    expected = {
+        (s.name, s.across, scale, *choice)
+        for s in quick()
+        for scale in s.scales
+        for choice in plain | {("certified", "float64")}
+    }
+    assert {(r.scenario, r.across, r.scale, r.method, r.precision) for r in rows} == expected
+    assert len(rows) == len(expected)
+
+
+def test_certified_is_never_wrong(rows):
+    some = certified(rows)
+    assert faults(some) == []
+    assert sum(r.judged for r in some) == extremes.JUDGED * len(some)
+    assert {r.exact > 0 for r in some} == {True, False}
+    assert all(r.largest_t_error is None or r.largest_t_error <= 0.5 for r in some)
+
+
+@pytest.mark.torture
+def test_certified_is_never_wrong_at_any_scale():
+    every = result_of(measure(judged=64))
+    assert faults(certified(every)) == []
+    assert len(certified(every)) == sum(len(s.scales) for s in ALL)
+    for method in Method:
+        if method.is_plain:
+            assert faults([r for r in every if r.method == method])
+
+
+def test_counts_fit(rows):
+    for r in rows:
+        assert 0 <= r.order <= r.wrong and r.missed <= r.seen <= r.rays
+        assert r.missed + r.wrong <= r.rays and r.doubled <= r.rays
+        assert (r.exact is None) == (r.method != "certified") == (r.judged == 0)
+
+
+# As predicted: where a method still holds, and the share of rays that it loses further on.
+@pytest.mark.parametrize(
+    ("name", "method", "precision", "holds", "breaks", "least", "most"),
+    [
+        ("far_from_origin", "textbook", "float32", 1e3, 1e6, 0.01, 0.3),
+        ("far_from_origin", "textbook", "float32", 1e3, 1e8, 0.99, 1),
+        ("far_from_origin", "watertight", "float32", 1e3, 1e8, 0.99, 1),
+        ("far_from_origin", "textbook", "float64", 1e10, 1e15, 0.03, 0.5),
+        ("needles", "textbook", "float32", 1e1, 1e3, 0.8, 1),
+        ("needles", "watertight", "float32", 1e5, 1e9, 0.6, 1),
+        ("needles", "textbook", "float64", 1e5, 1e9, 0.9, 1),
+        ("needles", "watertight", "float64", 1e12, 1e15, 0.005, 0.5),
+        ("grazing", "watertight", "float32", 1e-3, 1e-8, 0.2, 1),
+        ("grazing", "textbook", "float64", 1e-10, 1e-15, 0.1, 0.6),
+        ("tiny", "textbook", "float32", 1e-6, 1e-12, 0.99, 1),
+        ("tiny", "textbook", "float64", 1e-60, 1e-80, 0.3, 0.9),
+        ("tiny", "watertight", "float64", 1e-60, 1e-300, 1, 1),
+        ("huge", "textbook", "float32", 1e6, 1e10, 0.5, 1),
+        ("huge", "textbook", "float64", 1e60, 1e80, 1, 1),
+        ("far_camera", "watertight", "float32", 1e3, 1e6, 0.1, 0.6),
+        ("far_camera", "textbook", "float64", 1e10, 1e14, 0.03, 0.4),
+        ("narrow_view", "watertight", "float32", 1e-4, 1e-8, 0.9, 1),
+        ("close_planes", "watertight", "float64", 1024, 1, 0.05, 0.9),
+    ],
+)
+def test_plain_methods_break_where_predicted(name, method, precision, holds, breaks, least, most):
+    found = at(name, holds, breaks)
+    assert found[method, precision, holds].lost == 0
+    assert least <= found[method, precision, breaks].share <= most
+
+
+def test_watertight_never_misses_at_corners_but_crosses_twice():
+    found = at("corners_and_edges", 6.0)
+    for precision in ("float32", "float64"):
+        assert found["watertight", precision, 6.0].missed == 0
+        assert found["watertight", precision, 6.0].doubled > 0.02 * 768
+        assert found["textbook", precision, 6.0].missed > 0.03 * 768
+
+
+def test_true_ties_are_doubled_but_not_wrong():
+    """Where a ray meets an edge exactly, each triangle at it is right, and all are crossed."""
+    for name in ("integer_cube", "integer_cube_ortho"):
+        for (method, _, _), r in at(name, 4).items():
+            assert (r.doubled > 20) == (method != "certified")
+            assert r.wrong == 0 or method == "textbook_literal"
+
+
+def test_wrong_order_is_told_from_a_wrong_triangle():
+    found = at("close_planes", 1.0)
+    r = found["watertight", "float64", 1.0]
+    assert r.order == r.wrong > 0
+    found = at("needles", 1e7)
+    r = found["watertight", "float32", 1e7]
+    assert r.wrong > 0 == r.order
+
+
+def test_half_of_all_rays_are_lost_by_the_literal_textbook():
+    r = at("far_from_origin", 0.0)["textbook_literal", "float64", 0.0]
+    assert 0.2 < r.share < 0.7
+
+
+def test_what_is_not_finite_is_refused_and_counted():
+    scenario = replace(BY_NAME["non_finite"], scales=(0.0, 0.1))
+    scene = scenario.build(0.1, 32, 24)
+    mesh = scene.meshes[0]
+    broken = (np.abs(mesh.vertices) > 1).any(axis=1)[mesh.triangles].any(axis=1)
+    for r in result_of(measure([scenario], judged=2)):
+        assert r.refused == (broken.sum() if r.scale else 0)
+    found = at("huge", 1e300)
+    float32 = found["watertight", "float32", 1e300]
+    assert float32.refused == scene_triangles("huge", 1e300) + float32.rays
+    assert found["certified", "float64", 1e300].refused == 0
+
+
+def scene_triangles(name, scale):
+    return BY_NAME[name].build(scale, 32, 24).triangle_count
+
+
+@pytest.fixture(scope="module")
+def truth():
+    scenario = BY_NAME["corners_and_edges"]
+    return scenario, result_of(truth_of(scenario.build(6.0, 16, 12)))
+
+
+def judged_row(truth, frame=None, count=None, odd=True, judged=16):
+    scenario, true = truth
+    true = replace(
+        true,
+        frame=frame or true.frame,
+        crossed=true.crossed if count is None else replace(true.crossed, count=count),
+    )
+    return extremes._certified_row(replace(scenario, odd=odd), 6.0, true, judged)
+
+
+def tampered(frame, **changes):
+    """A frame with one of its arrays changed everywhere."""
+    values = {name: np.full_like(getattr(frame, name), value) for name, value in changes.items()}
+    return replace(frame, **values)
+
+
+def test_the_judge_finds_what_is_wrong_with_a_certified_frame(truth):
+    frame = truth[1].frame
+    assert faults([judged_row(truth)]) == []
+    assert judged_row(truth, tampered(frame, triangle_index=0)).wrong >= 15
+    gone = tampered(frame, instance_index=NOTHING, triangle_index=NOTHING)
+    assert judged_row(truth, gone).missed == 16 * 12
+    off = replace(frame, t=np.nextafter(frame.t, 0))
+    assert judged_row(truth, off).largest_t_error > 0.5
+
+
+def test_all_rays_are_held_against_how_often_they_must_cross(truth):
+    count = truth[1].crossed.count
+    assert judged_row(truth, count=count + 1).missed > 16 * 12 - 17
+    assert judged_row(truth, count=count + 1).doubled == 16
+    assert judged_row(truth, count=count + 1, odd=None).missed == 0
+    assert judged_row(truth, count=0 * count, odd=None).wrong == 16 * 12 - 16
+    assert judged_row(truth, count=0 * count, odd=None).missed == 16
+
+
+def test_the_sample_has_what_whole_numbers_decided(truth):
+    frame = truth[1].frame
+    certainty = np.full_like(frame.certainty, Certainty.BOUND)
+    certainty.flat[[3, 70, 100]] = Certainty.EXACT, Certainty.AMBIGUOUS, Certainty.EXACT
+    pixels = sample(replace(frame, certainty=certainty), 10)
+    assert {3, 70, 100} <= set(pixels) and len(set(pixels)) == 10
+    assert len(sample(frame, 10_000)) == 16 * 12
+
+
+def test_steps_and_stopping():
+    scenario = replace(BY_NAME["needles"], scales=(10.0, 1e3), width=8, height=6)
+    shares = []
+    result_of(measure([scenario]), shares.append)
+    assert shares == sorted(shares) and shares[0] == 0 and shares[-1] == 1 and len(shares) > 20
+    stopped = measure([scenario])
+    next(stopped)
+    stopped.close()
+
+
+def test_the_number_of_rays_can_be_chosen():
+    scenario = replace(BY_NAME["grazing"], scales=(1.0,))
+    for rays in (1, 50, 300):
+        row = result_of(measure([scenario], rays))[0]
+        assert rays / 1.2 <= row.rays <= 1.2 * rays
+
+
+def row(scale, missed=0, wrong=0, doubled=0, scenario="tiny", across=None, method="watertight"):
+    return Row(scenario, scale, method, "float64", 200, missed, doubled, wrong, 0, across=across)
+
+
+def test_breaking_points():
+    rows = [row(1.0), row(0.1, doubled=1), row(0.01, wrong=2), row(1e-3, missed=1), row(1e-4)]
+    rows += [row(1.0, method="certified"), row(5.0, missed=1, across=2.0)]
+    first, second = breaking_points(rows)
+    assert (first.doubled, first.wrong, first.missed, first.lost) == (0.1, 0.01, 1e-3, 0.01)
+    assert second.never and not first.never and second.method == "certified"
+    assert second.lost is second.doubled is second.wrong is second.missed is None
+
+
+def test_tables():
+    rows = [row(1.0), row(1e-9, doubled=1, wrong=3), row(1e-20, missed=200)]
+    rows += [row(s, method="certified") for s in (1.0, 1e-9, 1e-20)]
+    lines = breaking_table(rows).splitlines()
+    assert lines[-1].split() == ["tiny", "scale", "1e-9", "+1e-9", "."]
+    lines = table(rows).splitlines()
+    assert [line.split() for line in lines[-3:]] == [
+        ["1", ".", "."],
+        ["1e-9", "1.5", "+0.5", "."],
+        ["1e-20", "100", "."],
+    ]
+    assert "Tiny (scale): A sphere" in table(rows)
+    assert len({len(line) for line in (*lines[-3:], lines[4])}) == 1
+
+
+def test_tables_of_all(rows):
+    text = table(rows)
+    assert all(s.explanation in text for s in SCENARIOS)
+    assert not any(m.title in text for m in MAPS)
+    lines = breaking_table(rows).splitlines()
+    assert [line.split()[0] for line in lines[-len(SCENARIOS) :]] == [s.name for s in SCENARIOS]
+    assert all(line.endswith(" .") for line in lines[-len(SCENARIOS) :])
+
+
+@pytest.mark.parametrize(
+    ("scale", "words"),
+    [(None, "-"), (0.0, "0"), (1e8, "1e8"), (148376.0, "1.5e5"), (1e-12, "1e-12"), (128, "128")],
+)
+def test_scales_in_few_letters(scale, words):
+    assert written(scale) == words
