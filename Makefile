@@ -5,7 +5,7 @@
 
 PYTHON_IN_VENV := .venv/bin/python
 
-.PHONY: help demo test test-gui lint extension clean
+.PHONY: help demo test test-gui torture bench lint extension clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -26,6 +26,13 @@ test: lint ## run all tests, those in a window too where that is possible
 test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
 	tools/whole_blender.sh setup
 	$(PYTHON_IN_VENV) -m pytest -m gui
+
+# What `make test` samples, at its full length.
+torture: .venv/.stamp ## run the long tests, too long for every day: the suites at their full size
+	$(PYTHON_IN_VENV) -m pytest -m torture
+
+bench: .venv/.stamp ## measure what certainty costs, on whole frames: out/bench
+	$(PYTHON_IN_VENV) benchmarks/certified.py
 
 lint: .venv/.stamp ## check the style of all code
 	$(PYTHON_IN_VENV) -m ruff check .

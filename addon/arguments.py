@@ -37,12 +37,14 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     """Add what the user can trade; without an option, what the scene stores holds."""
     group = parser.add_argument_group("how to trace (by default what the scene says)")
     group.add_argument(
-        "--method", choices=[m.value for m in Method], help="how a ray meets a triangle"
+        "--method",
+        choices=[m.value for m in Method],
+        help="how a ray meets a triangle; auto is certified wherever this machine allows",
     )
     group.add_argument(
         "--precision",
         choices=[p.value for p in Precision],
-        help="floating-point type of rays and vertices",
+        help="floating-point type of rays and vertices; what is certified needs float64",
     )
     group.add_argument(
         "--samples", type=int, metavar="N", help="colour is the mean of N x N rays a pixel"
@@ -75,7 +77,7 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
     chosen = {
         name: value
         for name in ("method", "precision", "samples")
-        if (value := getattr(options, name)) is not None
+        if (value := getattr(options, name, None)) is not None
     }
     try:
         return Settings(**vars(stored) | chosen)

@@ -1,8 +1,4 @@
-"""The command `reftrace`: the tracer and the comparison outside Blender's window.
-
-A .blend is opened with the `bpy` module, in the one function here that imports it; scenes and
-meshes from other files need no Blender.
-"""
+"""The command `reftrace`: the tracer, the comparison and the studies outside Blender's window."""
 
 from __future__ import annotations
 
@@ -22,13 +18,14 @@ from .arguments import (
     add_camera,
     add_judge,
     add_settings,
-    camera_from,
-    refuse,
     settings_from,
 )
+from .opening import SOURCES, load, open_blend
 from .report import files
-from .scene import Scene, SceneError
-from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, save_scene, scene_of_meshes
+from .scene import SceneError
+from .scene_files import save_scene
+from .tracer.certainty import AssumptionError
+from .tracer.progress import result_of
 from .tracer.render import render
 from .tracer.settings import Settings
 
@@ -38,7 +35,7 @@ def main(argv: list[str] | None = None) -> int:
     options = _parser().parse_args(argv)
     try:
         return options.run(options)
-    except (SceneError, OSError, images.MissingLibraryError) as error:
+    except (SceneError, OSError, images.MissingLibraryError, AssumptionError) as error:
         print(f"reftrace: {error}", file=sys.stderr)
     except Exception as error:  # Python's own exit code for it, 1, means warnings here
         traceback.print_exc()
@@ -58,20 +55,19 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
 
-    def command(name: str, run: Callable, text: str, example: str, source: str) -> Any:
+    def command(run: Callable, text: str, example: str, source: str | None) -> Any:
         sub = commands.add_parser(
-            name,
+            run.__name__.lstrip("_"),
             help=text,
             description=text[0].upper() + text[1:] + ".",
             epilog=f"example:\n  {example}\n\n{EXIT_CODES}",
         )
         sub.set_defaults(run=run)
-        sub.add_argument("scene", type=Path, metavar="SCENE", help=source)
+        if source:
+            sub.add_argument("scene", type=Path, metavar="SCENE", help=source)
         return sub
 
-    sources = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
     sub = command(
-        "compare",
         _compare,
         "trace a .blend and compare it with Blender's own picture",
         "reftrace compare scene.blend --out out/",
@@ -82,11 +78,10 @@ def _parser() -> argparse.ArgumentParser:
     add_judge(sub)
 
     sub = command(
-        "trace",
         _trace,
         "trace a scene or a mesh into a picture",
         "reftrace trace mesh.ply --out mesh.png --width 800",
-        sources,
+        SOURCES,
     )
     sub.add_argument(
         "--out",
@@ -99,17 +94,28 @@ def _parser() -> argparse.ArgumentParser:
     add_camera(sub)
 
     sub = command(
-        "trade",
         _trade,
-        "measure seconds and wrong pixels of every method and precision",
-        "reftrace trade sample_scenes/suzanne.blend --width 160",
-        sources,
+        "measure what every method, precision, number of samples and size costs on a scene",
+        "reftrace trade sample_scenes/suzanne.blend --out out/",
+        SOURCES,
+    )
+    sub.add_argument("--out", metavar="DIR", help="folder for the table, JSON and plot")
+    sub.add_argument(
+        "--samples", type=int, metavar="N", help="measure up to N x N rays a pixel (default 4)"
     )
     add_camera(sub, width=160, height=90)
     sub.set_defaults(heard=("width",))
 
     sub = command(
-        "export",
+        _extremes,
+        "find where every method breaks: far away, tiny, edge-on, and so on",
+        "reftrace extremes --out out/",
+        None,
+    )
+    sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
+    sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
+
+    sub = command(
         _export,
         "export a .blend to a scene that needs no Blender",
         "reftrace export scene.blend --out scene.npz",
@@ -121,65 +127,11 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _load(options: argparse.Namespace) -> tuple[Scene, Settings]:
-    """Return the scene of a file, with the settings that it stores."""
-    path = options.scene
-    if not path.is_file():
-        raise SceneError(f"there is no file '{path}'")
-    suffix = path.suffix.lower()
-    if suffix not in MESH_SUFFIXES:
-        own = {"width", "height", "eye", "target", "angle", "ortho_scale"} - set(options.heard)
-        refuse(options, tuple(sorted(own)), f"is for meshes: '{path}' has its own camera")
-    if suffix == ".npz":
-        return load_scene(path), Settings()
-    if suffix in MESH_SUFFIXES:
-        width, height = (
-            default if (value := getattr(options, name)) is None else value
-            for name, default in zip(("width", "height"), options.default_size, strict=True)
-        )
-        meshes = load_meshes(path)
-        return scene_of_meshes(
-            meshes, camera_from(options, width, height), width, height
-        ), Settings()
-    if suffix == ".blend":
-        with _open_blend(path) as blender:
-            from .blender.compare import export_open_file
-
-            scene, manifest, settings = export_open_file(blender.context)
-        print(*manifest.lines(), sep="\n")
-        return scene, settings
-    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
-
-
-@contextmanager
-def _open_blend(path: Path) -> Iterator[Any]:
-    """Open a .blend in this process, with the add-on registered; gives bpy."""
-    if not path.is_file():
-        raise SceneError(f"there is no file '{path}'")
-    try:
-        import bpy
-    except ImportError as error:
-        raise SceneError(
-            f"a .blend needs Blender as a module: pip install 'reference_tracer[blender]' ({error})"
-        ) from error
-    from .blender import registration
-
-    registration.register()
-    try:
-        try:
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
-        except RuntimeError as error:
-            raise SceneError(f"'{path}' cannot be opened: {error}") from error
-        yield bpy
-    finally:
-        registration.unregister()
-
-
 def _compare(options: argparse.Namespace) -> int:
     try:
         if options.scene.suffix.lower() != ".blend":
             raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
-        with _open_blend(options.scene):
+        with open_blend(options.scene):
             from .blender.commands import compare_open_file
 
             with _progress() as progress:
@@ -194,7 +146,7 @@ def _trace(options: argparse.Namespace) -> int:
     suffix = options.out.suffix.lower()
     if suffix not in (".png", ".exr"):
         raise SceneError(f"'{options.out}' must end in .png or .exr")
-    scene, stored = _load(options)
+    scene, stored = load(options)
     settings = settings_from(options, stored)
     with _progress() as progress:
         frame = render(scene, settings, progress)
@@ -206,26 +158,57 @@ def _trace(options: argparse.Namespace) -> int:
     s = frame.statistics
     print(
         f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
-        f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({settings.method.value}, "
+        f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision.value}): {options.out}"
     )
+    for line in s.required():
+        print(line)
     return 0
 
 
 def _trade(options: argparse.Namespace) -> int:
-    from .study.judge import TooLargeError
-    from .study.tradeoff import measure, table
+    from .report import trade as report
+    from .study import tradeoff
 
-    scene, _ = _load(options)
-    try:
-        with _progress() as progress:
-            rows = measure(
-                scene, options.default_size[0] if options.width is None else options.width, progress
-            )
-    except TooLargeError as error:
-        raise SceneError(str(error)) from error
-    print(table(rows))
+    scene, _ = load(options)
+    samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
+    _make(options.out)
+    with _progress() as progress:
+        work = tradeoff.measure(scene, options.width, samples, options.scene.name)
+        trade = result_of(work, progress)
+    print(report.table(trade))
+    if options.out:
+        _write(options.out, lambda: report.write(options.out, trade, images.save_png))
     return 0
+
+
+def _extremes(options: argparse.Namespace) -> int:
+    from .report import extremes as report
+    from .study import extremes
+
+    if options.rays is not None and options.rays < 1:
+        raise SceneError(f"--rays is {options.rays}; it must be at least 1")
+    _make(options.out)
+    with _progress() as progress:
+        rows = result_of(extremes.measure(rays=options.rays), progress)
+    print(extremes.breaking_table(rows))
+    _write(options.out, lambda: report.write(options.out, rows, images.save_png))
+    return 0
+
+
+def _make(directory: str | None) -> None:
+    """Make a folder before the work that it is for, so that this is not in vain."""
+    if directory:
+        Path(directory).mkdir(parents=True, exist_ok=True)
+
+
+def _write(directory: str, write: Callable[[], None]) -> None:
+    """Write a study; where pictures need a library that is not there, say so and do without."""
+    try:
+        write()
+    except images.MissingLibraryError as error:
+        print(f"reftrace: {error}", file=sys.stderr)
+    print(f"written to {directory}")
 
 
 def _export(options: argparse.Namespace) -> int:
@@ -234,7 +217,7 @@ def _export(options: argparse.Namespace) -> int:
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
     options.heard = ()
-    scene, _ = _load(options)
+    scene, _ = load(options)
     options.out.parent.mkdir(parents=True, exist_ok=True)
     save_scene(options.out, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")

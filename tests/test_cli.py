@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 
 import numpy as np
 import OpenEXR
@@ -13,6 +15,8 @@ from reference_tracer import __version__
 from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.scene_files import save_scene
+from reference_tracer.study import extremes
+from reference_tracer.tracer import certainty
 
 SMALL = ["--width", "24", "--height", "16"]
 
@@ -109,11 +113,158 @@ def test_samples_are_shown(ball, tmp_path):
     assert set(np.unique(alpha)) - {0, 255}
 
 
-def test_trade(tmp_path, capsys):
-    trimesh.creation.icosphere(1).export(tmp_path / "ball.ply")
-    assert main(["trade", str(tmp_path / "ball.ply"), "--width", "12", "--height", "8"]) == AGREE
-    lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == 7 and "wrong pixels" in lines[0]
+@pytest.mark.parametrize("method, came_to", [("auto", "certified"), ("certified", "certified")])
+def test_certified_says_what_the_scene_required(method, came_to, ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.exr", "--method", method) == AGREE
+    said = capsys.readouterr().out.splitlines()
+    assert f"({came_to}, float64)" in said[0]
+    assert len(said) > 1 and "pairs" in said[1]
+    found = channels(tmp_path / "b.exr")["certainty.V"]
+    assert (found > 0).all()
+
+
+def test_plain_methods_require_nothing(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.exr", "--method", "watertight") == AGREE
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 1 and "(watertight, float64)" in said[0]
+
+
+@pytest.mark.parametrize("method", ["certified", "auto"])
+def test_certified_in_float32_is_refused(method, ball, tmp_path, capsys):
+    options = ["--method", method, "--precision", "float32"]
+    assert trace(ball, tmp_path / "b.png", *options) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert "float64 only" in said and "watertight" in said and "Traceback" not in said
+    assert not (tmp_path / "b.png").exists()
+
+
+@pytest.fixture
+def broken_arithmetic(monkeypatch):
+    monkeypatch.setattr(certainty, "broken_assumptions", lambda: ["subnormal results"])
+
+
+@pytest.mark.usefixtures("broken_arithmetic")
+def test_a_machine_that_cannot_certify_says_so(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.png", "--method", "certified") == INPUT_ERROR
+    assert main(["trade", str(ball)]) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert said.count("subnormal results") == 2 and "Traceback" not in said
+    assert not (tmp_path / "b.png").exists()
+
+
+@pytest.mark.usefixtures("broken_arithmetic")
+def test_auto_falls_back_and_says_so(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.png") == AGREE
+    said = capsys.readouterr().out
+    assert "(watertight, float64)" in said and "subnormal results" in said
+
+
+@pytest.fixture
+def small_ball(tmp_path):
+    trimesh.creation.icosphere(1).export(tmp_path / "small.ply")
+    return str(tmp_path / "small.ply")
+
+
+TRADE = ["--width", "12", "--height", "8", "--samples", "2"]
+
+
+def test_trade(small_ball, tmp_path, capsys):
+    assert main(["trade", small_ball, *TRADE, "--out", str(tmp_path / "new" / "out")]) == AGREE
+    said = capsys.readouterr().out
+    lines = said.splitlines()
+    assert "wrong pixels" in lines[0] and "12 x 8 pixels, 2 x 2 rays each" in lines
+    assert "certified, proven to have none" in said and lines[-1].startswith("written to")
+    written = sorted(p.name for p in (tmp_path / "new" / "out").iterdir())
+    assert written == ["tradeoff.json", "tradeoff.png", "tradeoff.txt"]
+    held = json.loads((tmp_path / "new" / "out" / "tradeoff.json").read_text(encoding="utf-8"))
+    assert held["scene"] == "small.ply" and max(r["samples"] for r in held["rows"]) == 2
+    assert held["advice"] in said
+
+
+def test_trade_without_out_only_prints(small_ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["trade", small_ball, *TRADE]) == AGREE
+    assert "wrong pixels" in capsys.readouterr().out
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def without(module, *argv):
+    """Run `reftrace` in a process of its own, in which a module is not there."""
+    code = (
+        f"import sys; sys.modules[{module!r}] = None; "
+        "from reference_tracer.cli import main; sys.exit(main(sys.argv[1:]))"
+    )
+    return subprocess.run([sys.executable, "-c", code, *argv], capture_output=True, text=True)
+
+
+def test_trade_without_matplotlib(small_ball, tmp_path):
+    """The table and the JSON are there all the same."""
+    done = without("matplotlib", "trade", small_ball, *TRADE, "--out", str(tmp_path / "out"))
+    assert done.returncode == AGREE, done.stderr
+    assert "pip install 'reference_tracer[plots]'" in done.stderr
+    assert "Traceback" not in done.stderr and "wrong pixels" in done.stdout
+    written = sorted(p.name for p in (tmp_path / "out").iterdir())
+    assert written == ["tradeoff.json", "tradeoff.txt"]
+
+
+@pytest.mark.parametrize(
+    "options, word",
+    [
+        (["--samples", "0"], "samples is 0"),
+        (["--samples", "65"], "samples is 65"),
+        (["--width", "0"], "0 x"),
+        (["--out", "small.ply"], "small.ply"),
+    ],
+)
+def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    argv = ["trade", small_ball, *TRADE, *options]
+    assert main(argv) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert word in said and "Traceback" not in said
+
+
+def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
+    """A scene has its own camera, but how wide its picture is can be chosen."""
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6), make.quad(-9, 0, -9, 9, -2)))
+    assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1"]) == AGREE
+    assert "10 x 6 pixels, one ray each" in capsys.readouterr().out
+    assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--width", "20"]) == AGREE
+    assert "20 x 12 pixels, one ray each" in capsys.readouterr().out
+    assert main(["trade", str(tmp_path / "s.npz"), "--height", "9"]) == INPUT_ERROR
+    assert "--height" in capsys.readouterr().err
+
+
+@pytest.fixture
+def one_scenario(monkeypatch):
+    real, some = extremes.measure, extremes.ALL[:1]
+    monkeypatch.setattr(extremes, "measure", lambda rays: real(some, rays, judged=1))
+
+
+@pytest.mark.usefixtures("one_scenario")
+def test_extremes(tmp_path, capsys):
+    assert main(["extremes", "--out", str(tmp_path / "out"), "--rays", "40"]) == AGREE
+    said = capsys.readouterr().out
+    assert "certified" in said and "First scale" in said
+    written = {p.name for p in (tmp_path / "out").iterdir()}
+    assert {"extremes.json", "extremes.txt", "breaking_points.png"} <= written
+    held = json.loads((tmp_path / "out" / "extremes.json").read_text(encoding="utf-8"))
+    assert {r["method"] for r in held["rows"]} >= {"certified", "watertight", "textbook"}
+
+
+@pytest.mark.usefixtures("one_scenario")
+def test_extremes_without_matplotlib(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    assert main(["extremes", "--out", str(tmp_path / "out"), "--rays", "40"]) == AGREE
+    assert "reference_tracer[plots]" in capsys.readouterr().err
+    written = sorted(p.name for p in (tmp_path / "out").iterdir())
+    assert written == ["extremes.json", "extremes.txt"]
+
+
+def test_extremes_needs_rays(tmp_path, capsys):
+    assert main(["extremes", "--out", str(tmp_path / "out"), "--rays", "0"]) == INPUT_ERROR
+    assert "--rays is 0" in capsys.readouterr().err and not (tmp_path / "out").exists()
 
 
 BAD = {
@@ -189,7 +340,7 @@ def test_options_that_would_not_be_heard_are_refused(options, word, make, tmp_pa
     assert word in capsys.readouterr().err and not (tmp_path / "s.png").exists()
 
 
-@pytest.mark.parametrize("command", ["", "compare", "trace", "trade", "export"])
+@pytest.mark.parametrize("command", ["", "compare", "trace", "trade", "extremes", "export"])
 def test_help_names_the_exit_codes(command, capsys):
     with pytest.raises(SystemExit) as stop:
         main([*command.split(), "--help"])

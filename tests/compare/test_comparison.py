@@ -132,11 +132,21 @@ def test_json_has_what_is_promised(scene):
     found = mixed(scene)
     held = json.loads(json.dumps(found.to_dict(), allow_nan=False))
     assert held["schema"] == SCHEMA
-    assert set(held) == {"schema", "scene", "blender", "tracer", "pixels", "metrics", "verdict"}
+    assert set(held) == {
+        "schema",
+        "scene",
+        "blender",
+        "tracer",
+        "pixels",
+        "metrics",
+        "methods",
+        "verdict",
+    }
     assert held["blender"] == BLENDER and held["pixels"] == found.pixels
     assert held["scene"]["unmodelled"][0]["object"] == "Hair"
     tracer = held["tracer"]
-    assert (tracer["method"], tracer["precision"], tracer["samples"]) == ("textbook", "float64", 1)
+    named = tracer["method"], tracer["precision"], tracer["samples"]
+    assert named == ("certified", "float64", 1)
     assert tracer["triangles"] == 4 and tracer["pairs_tested"] > 0 and tracer["seconds"] >= 0
     assert set(held["metrics"]) == {"rmse", "psnr", "ssim", "largest_difference"}
 

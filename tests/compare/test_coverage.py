@@ -53,7 +53,7 @@ def test_a_corner_behind_the_eye_is_unknown():
 
 def asked(scene, band=BAND, settings=None):
     """Return the coverage of all pixels of a picture."""
-    settings = settings or Settings()
+    settings = settings or Settings("moller_trumbore")
     region = scene.camera.region
     made = result_of(plan(scene, settings, reach=band))
     count = region.width * region.height

@@ -99,7 +99,7 @@ def test_json(folder, comparison):
     held = strict(folder)
     assert held["schema"] == SCHEMA and held["verdict"] == "differences"
     assert held["pixels"]["unexplained"] == 6 and held["pixels"]["total"] == 108
-    assert held["tracer"]["method"] == "textbook"
+    assert held["tracer"]["method"] == "certified" and held["tracer"]["certainty"]["bound"] > 0
 
 
 def test_json_of_a_picture_that_is_not_finite(compared, tmp_path):
