@@ -104,7 +104,7 @@ class Contest:
         yield 1.0
         rest = found.take(np.flatnonzero(~clear))
         with np.errstate(all="ignore"):
-            rest = by_order(hits, self._rays, surfaces, rest, statistics.reasons)
+            rest = by_order(hits, self._rays, surfaces, self._clip, rest, statistics.reasons)
         for part in by_ray(rest):
             yield 1.0
             with np.errstate(all="ignore"):

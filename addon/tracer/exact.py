@@ -21,6 +21,7 @@ Source: Edelsbrunner and Mücke, "Simulation of simplicity", 1990, for the direc
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cmp_to_key
 from typing import NamedTuple
 
 import numpy as np
@@ -29,15 +30,10 @@ from numpy.typing import NDArray
 from .camera import Rays
 
 Whole = tuple[int, int, int]
-Axes = Sequence[tuple[int, int]]  # which axis is moved along first, second, third, and which way
+# Where a ray is moved to, infinitesimally: along the first, infinitely less along the second, ...
+Moves = Sequence[Whole]
 
-# The rule's own; and six ways to see what else a ray may meet that is moved infinitesimally.
-PERTURBATION: Axes = ((0, 1), (1, 1), (2, 1))
-_ELSEWHERE: tuple[Axes, ...] = tuple(
-    tuple((axis, sign) for axis in order)
-    for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
-    for sign in (1, -1)
-)
+PERTURBATION: Moves = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
 class Meeting(NamedTuple):
@@ -48,29 +44,34 @@ class Meeting(NamedTuple):
     normal: Whole  # n
     edges: tuple[int, ...]  # e_ab, e_bc, e_ca; none of a plane
     sides: tuple[Whole, ...]  # m_ab, m_bc, m_ca
+    direction: Whole  # of the ray
 
     @property
     def on_edge(self) -> bool:
         """Whether the ray as it is meets an edge or a corner."""
         return 0 in self.edges
 
-    def is_hit(self, axes: Axes = PERTURBATION) -> bool:
+    def is_hit(self, moves: Moves = PERTURBATION) -> bool:
         """Return whether the ray that is infinitesimally moved meets it."""
         if not self.on_edge:
             return True
-        signs = {_sign(e, m, axes) for e, m in zip(self.edges, self.sides, strict=True)}
+        signs = {_sign(e, m, moves) for e, m in zip(self.edges, self.sides, strict=True)}
         return signs in ({1}, {-1})
 
 
-def compare(first: Meeting, second: Meeting, axes: Axes = PERTURBATION) -> int:
+def compare(first: Meeting, second: Meeting, moves: Moves = PERTURBATION) -> int:
     """Return the sign of t1 - t2 for the moved ray; 0 only for what lies in one plane."""
     gap = first.depth * second.towards - second.depth * first.towards
-    w = tuple(
+    sign = _sign(gap, _crossing(first, second), moves)
+    return sign if (first.towards > 0) == (second.towards > 0) else -sign
+
+
+def _crossing(first: Meeting, second: Meeting) -> Whole:
+    """Return T1 n2 - T2 n1: how the order of two surfaces depends on the ray's direction."""
+    return tuple(
         first.depth * n2 - second.depth * n1
         for n1, n2 in zip(first.normal, second.normal, strict=True)
     )
-    sign = _sign(gap, w, axes)
-    return sign if (first.towards > 0) == (second.towards > 0) else -sign
 
 
 class Batch:
@@ -123,12 +124,12 @@ class Batch:
         o = self._origins[ray if len(self._origins) > 1 else 0]
         if surface < len(self._planes):
             depth, n = self._plane(o, surface)
-            return self._seen(Meeting(depth, _dot(d, n), n, (), ()))
+            return self._seen(Meeting(depth, _dot(d, n), n, (), (), d))
         depth, n, sides = self._triangle(o, surface)
         edges = tuple(_dot(d, m) for m in sides)
         if min(edges) < 0 < max(edges):
             return None
-        return self._seen(Meeting(depth, sum(edges), n, edges, sides))
+        return self._seen(Meeting(depth, sum(edges), n, edges, sides, d))
 
     def of_first_ray(self, surface: int) -> tuple[int, int, Whole]:
         """Return T, D and n of a surface, whether or not the first ray meets it."""
@@ -226,18 +227,58 @@ def nearest(
         if _gap(m, first) < 0:
             first = m
     ties = {name for name, m in front if _gap(m, first) == 0}
-    if any(m.on_edge for _, m in front):
-        found = (_first(front, axes) for axes in _ELSEWHERE)
-        ties.update(front[k][0] if k >= 0 else nothing for k in found)
+    ties.add(meetings[seen][0] if seen >= 0 else nothing)
+    found = (_first(front, (move,)) for move in _ways([m for _, m in front]))
+    ties.update(front[k][0] if k >= 0 else nothing for k in found)
     return seen, frozenset(ties)
 
 
-def _first(meetings: Sequence[tuple[tuple[int, int], Meeting]], axes: Axes) -> int:
+def _ways(meetings: Sequence[Meeting]) -> list[Whole]:
+    """Return ways to move their ray, one for each answer that it may have.
+
+    The answer changes where the moved ray meets an edge that the ray itself meets, or the line in
+    which two surfaces cross that it meets there: lines through one point, seen along the ray. There
+    is a way between every two that follow one another.
+    """
+    lines = [m for met in meetings for e, m in zip(met.edges, met.sides, strict=True) if e == 0]
+    for k, met in enumerate(meetings):
+        lines += [_crossing(met, other) for other in meetings[:k] if _gap(met, other) == 0]
+    d = meetings[0].direction
+    along = max(range(3), key=lambda axis: abs(d[axis]))  # not needed: moves along d change nothing
+    x, y = (along + 1) % 3, (along + 2) % 3
+    rays = [(-s * m[y], s * m[x]) for m in lines if m[x] or m[y] for s in (1, -1)]
+    rays.sort(key=cmp_to_key(_by_angle))
+    out = []
+    for k, (ux, uy) in enumerate(rays):
+        vx, vy = rays[(k + 1) % len(rays)]
+        turn = ux * vy - uy * vx
+        if turn > 0:
+            between = ux + vx, uy + vy
+        elif turn == 0 and ux * vx + uy * vy < 0:  # opposite one another
+            between = -uy, ux
+        else:
+            continue
+        move = [0, 0, 0]
+        move[x], move[y] = between
+        out.append(tuple(move))
+    return out
+
+
+def _by_angle(u: tuple[int, int], v: tuple[int, int]) -> int:
+    """Return the sign of u's angle less that of v, both from 0 to a whole turn."""
+    lower_u, lower_v = ((y, x) < (0, 0) for x, y in (u, v))
+    if lower_u != lower_v:
+        return 1 if lower_u else -1
+    turn = u[0] * v[1] - u[1] * v[0]
+    return (turn < 0) - (turn > 0)
+
+
+def _first(meetings: Sequence[tuple[tuple[int, int], Meeting]], moves: Moves) -> int:
     """Return the index of the nearest hit of the moved ray, -1 for none."""
     best = -1
     for k, (name, m) in enumerate(meetings):
-        if m.is_hit(axes):
-            order = compare(m, meetings[best][1], axes) if best >= 0 else -1
+        if m.is_hit(moves):
+            order = compare(m, meetings[best][1], moves) if best >= 0 else -1
             if order < 0 or (order == 0 and name < meetings[best][0]):
                 best = k
     return best
@@ -249,14 +290,13 @@ def _gap(first: Meeting, second: Meeting) -> int:
     return gap if (first.towards > 0) == (second.towards > 0) else -gap
 
 
-def _sign(value: int, otherwise: Whole, axes: Axes) -> int:
-    """Return the sign of value + x otherwise[axis] + ..., for an infinitesimal x > 0."""
-    if value:
-        return 1 if value > 0 else -1
-    for axis, way in axes:
-        if otherwise[axis]:
-            return way if otherwise[axis] > 0 else -way
-    return 0
+def _sign(value: int, otherwise: Whole, moves: Moves) -> int:
+    """Return the sign of value + x otherwise . moves[0] + ..., for an infinitesimal x > 0."""
+    for move in moves:
+        if value:
+            break
+        value = _dot(otherwise, move)
+    return (value > 0) - (value < 0)
 
 
 def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:

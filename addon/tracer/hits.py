@@ -22,7 +22,7 @@ class Statistics:
     method: str = ""  # what `auto` came to; else what was asked for
     triangles: int = 0  # over all instances
     refused: int = 0  # of those, left out as a corner is not finite in world space
-    pairs_tested: int = 0  # (ray, triangle)
+    pairs_tested: int = 0  # (ray, triangle or plane)
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0

@@ -27,6 +27,12 @@ from .vector import dot
 NEARER, COPLANAR, FARTHER, UNDECIDED = -1, 0, 1, 2
 
 
+def applies(rays: Rays, start: float) -> bool:
+    """Return whether rays share what is needed here, hits being sought from t = start on."""
+    from_one_point, parallel = rays.origins.shape[1] == 1, rays.directions.shape[1] == 1
+    return start >= 0 if from_one_point else parallel
+
+
 def compare(
     rays: Rays,
     ray: NDArray[np.intp],
@@ -39,7 +45,7 @@ def compare(
     Parameters
     ----------
     rays : Rays
-        They share their origin or their direction.
+        To which the above :func:`applies`.
     ray : (n,) int
         Which of them.
     batch : Batch

@@ -7,6 +7,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from .bounds import BOUND, SLACK
 from .camera import Rays
 from .vector import cross
 
@@ -37,13 +38,17 @@ def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
         longest = np.maximum(np.maximum(*sides[:2]), sides[2])
         normal = cross((b - a) / longest, (c - a) / longest)  # by units, lest it underflow
         height = _length(normal)
-        d = rays.directions / _length(rays.directions)
+        speed, distance = _length(rays.directions), _length(a - rays.origins)
+        d = rays.directions / speed
         cosine = np.abs(d[0] * normal[0] + d[1] * normal[1] + d[2] * normal[2]) / height
-        ratios = np.stack((_length(a - rays.origins) / longest, 1 / height, 1 / cosine))
+        ratios = np.stack((distance / longest, 1 / height, 1 / cosine))
+        # Of e, T and D: beyond these, it is not the digits that are too few, but the exponent.
+        sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
+        extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
     named = Reason.FAR, Reason.THIN, Reason.EDGE_ON
     out = []
-    for column in np.nan_to_num(ratios, nan=np.inf).T:
-        if np.isinf(column).all():
+    for column, beyond in zip(np.nan_to_num(ratios, nan=np.inf).T, extreme, strict=True):
+        if beyond:
             out.append(Reason.EXTREME)
         elif column.max() <= _ORDINARY:
             out.append(Reason.NEAR_EDGE)

@@ -44,14 +44,19 @@ def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> N
 
 
 def by_order(
-    hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates, reasons: Counter[Reason]
+    hits: Hits,
+    rays: Rays,
+    surfaces: Surfaces,
+    clip: tuple[float, float],
+    found: Candidates,
+    reasons: Counter[Reason],
 ) -> Candidates:
     """Enter rays that surely hit all their candidates, where `order.py` says which is nearest.
 
     Returns the candidates of the other rays.
     """
     doubtful = np.bincount(found.ray, found.doubt != SURE, len(hits.t)) > 0
-    if 1 not in (rays.origins.shape[1], rays.directions.shape[1]) or doubtful[found.ray].all():
+    if not order.applies(rays, clip[0]) or doubtful[found.ray].all():
         return found
     rest = found.take(np.flatnonzero(doubtful[found.ray]))
     found = found.take(np.flatnonzero(~doubtful[found.ray]))

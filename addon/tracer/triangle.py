@@ -108,16 +108,22 @@ def watertight(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersectio
         for corner in (p1, p2, p3):
             x, y, depth = np.take_along_axis(corner - rays.origins, order, axis=0)
             sheared.append((x - shear_x * depth, y - shear_y * depth, depth))
+        depths = [depth for _, _, depth in sheared]
         weights = _edge_functions(sheared)
-        if weights.dtype == np.float32 and (again := (weights == 0).any(axis=0)).any():
-            finer = [[v[again].astype(np.float64) for v in corner] for corner in sheared]
-            weights = weights.astype(np.float64)
-            weights[:, again] = _edge_functions(finer)
-        area = weights[0] + weights[1] + weights[2]
-        hit = ((weights >= 0).all(axis=0) | (weights <= 0).all(axis=0)) & (area != 0)
-        s = weights / area
-        t = dot(s, np.stack([depth for _, _, depth in sheared])) / dz
-        return hit, t.astype(d.dtype), s.astype(d.dtype)
+        hit, t, s = _weighed(weights, depths, dz)
+        if d.dtype == np.float32 and (again := (weights == 0).any(axis=0)).any():
+            finer = _edge_functions([[v[again].astype(np.float64) for v in c] for c in sheared])
+            own = [depth[again] for depth in depths], np.broadcast_to(dz, again.shape)[again]
+            hit[again], t[again], s[:, again] = _weighed(finer, *own)
+        return hit, t, s
+
+
+def _weighed(weights: Vectors, depths: Sequence[NDArray], dz: NDArray) -> Intersection:
+    """Return hit, t and barycentrics from edge functions, and depths along the ray's axis."""
+    area = weights[0] + weights[1] + weights[2]
+    hit = ((weights >= 0).all(axis=0) | (weights <= 0).all(axis=0)) & (area != 0)
+    s = weights / area
+    return hit, dot(s, np.stack(depths)) / dz, s
 
 
 def _edge_functions(sheared: Sequence[Sequence[NDArray]]) -> Vectors:

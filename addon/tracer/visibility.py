@@ -123,6 +123,7 @@ def trace_tile(
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
+    statistics.pairs_tested += len(scene.planes) * len(hits.t)
     contest = None
     if settings.method.is_plain:
         test_planes(scene, rays, hits)

@@ -49,7 +49,7 @@ def test_as_by_every_ray_itself(rng, orthographic, with_plane, monkeypatch):
         scene = layers(rng, orthographic, with_plane)
         frame = render(scene, Settings("certified"))
         with monkeypatch.context() as patch:
-            patch.setattr(certified, "by_order", lambda *a: a[3])  # leaves all to the slow way
+            patch.setattr(certified, "by_order", lambda *a: a[4])  # leaves all to the slow way
             slow = render(scene, Settings("certified"))
         for name in ("t", "instance_index", "triangle_index", "certainty"):
             assert np.array_equal(getattr(frame, name), getattr(slow, name)), name
