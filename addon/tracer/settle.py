@@ -20,6 +20,7 @@ from .certainty import Certainty
 from .hits import NOTHING, Hits, Name
 from .reasons import Reason, of_doubts
 from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
+from .ties import nearest
 
 _TOGETHER = 1 << 11  # candidates that whole numbers decide at a time: some ten milliseconds
 
@@ -134,7 +135,7 @@ def by_numbers(
     first_of: dict[int, exact.Meeting | None] = {}
     for ray, group in groups.items():
         meetings = [(names[k], m) for k, m in group if m]
-        seen, ties = exact.nearest(meetings, (NOTHING, NOTHING))
+        seen, ties = nearest(meetings, (NOTHING, NOTHING))
         hits.certainty[ray] = Certainty.AMBIGUOUS if ties else Certainty.EXACT
         if ties:
             hits.ties[ray] = ties
@@ -156,18 +157,20 @@ def _reasons(rays: Rays, surfaces: Surfaces, found: Candidates, groups, first_of
     for ray, group in groups.items():
         first = first_of[ray]
         for k, m in group:
-            if found.doubt[k] == CLIP:
-                out.append(Reason.CLIP)
-            elif found.doubt[k] == EDGE:
-                if m and m.on_edge:
-                    out.append(Reason.EDGE)
-                elif found.surface[k] < len(surfaces.planes):
-                    out.append(Reason.EDGE_ON)
-                else:
-                    unusual.append(k)
-            elif m is not first:  # sure to be hit, but as near as another, for all the bounds know
-                same = m and first and exact.compare(m, first) == 0
-                out.append(Reason.COPLANAR if same else Reason.CLOSE)
+            doubt, of_plane = found.doubt[k], found.surface[k] < len(surfaces.planes)
+            if doubt == SURE:  # to be hit, but as near as another, for all the bounds know
+                if m is not first:
+                    same = m and first and exact.compare(m, first) == 0
+                    out.append(Reason.COPLANAR if same else Reason.CLOSE)
+            elif doubt == EDGE and m and m.on_edge:
+                out.append(Reason.EDGE)
+            elif of_plane:
+                out.append(Reason.CLIP if doubt == CLIP else Reason.EDGE_ON)
+            else:
+                unusual.append(k)
     unusual = np.array(unusual, np.intp)
     corners = surfaces.triangles.corners.take(found.surface[unusual] - len(surfaces.planes), axis=2)
-    return out + of_doubts(rays.take(found.ray[unusual]), corners)
+    properties = of_doubts(rays.take(found.ray[unusual]), corners)
+    for doubt, reason in zip(found.doubt[unusual], properties, strict=True):
+        out.append(Reason.CLIP if doubt == CLIP and reason != Reason.EXTREME else reason)
+    return out

@@ -9,7 +9,7 @@ import pytest
 from reference_tracer.scene import Instance, Mesh, Region, Scene, ViewWindow
 from reference_tracer.tracer import candidates
 from reference_tracer.tracer.camera import Rays, camera_rays, pixel_size
-from reference_tracer.tracer.candidates import batches, pairs, pixel_bounds, world_triangles
+from reference_tracer.tracer.candidates import batches, pixel_bounds, within, world_triangles
 from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.triangle import METHODS
 from reference_tracer.tracer.visibility import film_positions, within_clip
@@ -185,7 +185,7 @@ def test_pairs_spell_boxes_out(limit, rng):
         for x in range(max(x0, TILE.x0), min(x1, TILE.x1))
     ]
     found, longest = [], 0
-    for pixel, triangle in pairs(bounds, TILE, limit):
+    for pixel, triangle in candidates.pairs(within(bounds, TILE), TILE, limit):
         assert len(pixel) == len(triangle) > 0
         longest = max(longest, len(pixel))
         found += zip(pixel.tolist(), triangle.tolist(), strict=True)
@@ -196,7 +196,8 @@ def test_pairs_spell_boxes_out(limit, rng):
 
 def test_nothing_in_the_tile_gives_no_pairs():
     empty = np.array([[5, 5, 7, 9], [20, 30, 7, 9]], np.int32).T.copy()
-    assert not list(pairs(empty, TILE, 10)) and not list(pairs(empty[:, :0], TILE, 10))
+    for none in (empty, empty[:, :0]):
+        assert not list(candidates.pairs(within(none, TILE), TILE, 10))
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""Ray and triangle: three ways, against points that were chosen by their barycentrics."""
+"""Ray and triangle: four ways, against points that were chosen by their barycentrics."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.triangle import (
     METHODS,
     SUM_TOLERANCE,
     moller_trumbore,
     textbook,
     textbook_literal,
+    watertight,
 )
 
-BOTH = pytest.mark.parametrize("test", [textbook, moller_trumbore])
+SOUND = pytest.mark.parametrize("test", [textbook, moller_trumbore, watertight])
 TYPES = pytest.mark.parametrize("dtype, near", [(np.float64, 1e-9), (np.float32, 2e-3)])
 
 
@@ -42,7 +42,7 @@ def cast(rays, corners, dtype):
     return Rays(rays.origins.astype(dtype), rays.directions.astype(dtype)), corners.astype(dtype)
 
 
-@BOTH
+@SOUND
 @TYPES
 def test_closed_form(chosen, test, dtype, near):
     rays, corners, s, t = chosen
@@ -57,7 +57,7 @@ def test_closed_form(chosen, test, dtype, near):
     assert np.allclose(found_s[:, hit], s[:, hit], rtol=0, atol=near)
 
 
-@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("method", METHODS)
 @TYPES
 def test_barycentrics_are_in_the_order_of_the_corners(chosen, method, dtype, near):
     """The erratum: s2 as printed weighs p3, and gives another point."""
@@ -121,12 +121,12 @@ def test_literal_loses_about_half_of_a_closed_mesh(dtype, rng):
     assert 0.35 < lost < 0.65
 
 
-@BOTH
+@SOUND
 def test_from_inside_a_sphere_one_triangle_is_seen(test, rng):
     assert (closed(np.float64, rng)(test).sum(axis=1) == 1).mean() > 0.999
 
 
-@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_parallel_rays_miss(method, dtype):
     p1, p2, p3 = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0]], dtype)[:, :, None]
@@ -136,7 +136,7 @@ def test_parallel_rays_miss(method, dtype):
         assert not METHODS[method](Rays(origins, directions), p1, p2, p3)[0].any()
 
 
-@pytest.mark.parametrize("method", Method)
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_triangles_without_area_miss(method, dtype):
     flat = [
@@ -154,7 +154,7 @@ def test_triangles_without_area_miss(method, dtype):
         ].any()
 
 
-@BOTH
+@SOUND
 def test_both_faces_and_any_order_of_corners(chosen, test):
     rays, corners, s, t = chosen
     clear = np.abs(s).min(axis=0) > 1e-9
@@ -166,7 +166,7 @@ def test_both_faces_and_any_order_of_corners(chosen, test):
         assert np.allclose(found_s, s[order], rtol=0, atol=1e-9)
 
 
-@BOTH
+@SOUND
 @pytest.mark.parametrize("dtype, reach", [(np.float64, 60), (np.float32, 6)])
 def test_scale_invariance(chosen, test, dtype, reach):
     """Powers of two change no digit, so every decision and barycentric stays what it was."""
@@ -179,7 +179,7 @@ def test_scale_invariance(chosen, test, dtype, reach):
         assert np.array_equal(scaled[1], t * scale) and np.array_equal(scaled[2], s)
 
 
-@BOTH
+@SOUND
 def test_scale_invariance_away_from_edges(chosen, test):
     rays, corners, s, _ = chosen
     clear = np.abs(s).min(axis=0) > 1e-9
@@ -188,7 +188,7 @@ def test_scale_invariance_away_from_edges(chosen, test):
         assert np.array_equal(hit[clear], (s > 0).all(axis=0)[clear])
 
 
-@BOTH
+@SOUND
 def test_float32_differs_only_near_edges(chosen, test):
     rays, corners, s, _ = chosen
     coarse, near = cast(rays, corners, np.float32)

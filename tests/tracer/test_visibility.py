@@ -9,15 +9,24 @@ import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.tracer import candidates, plane, render, visibility
 from reference_tracer.tracer.camera import Rays, camera_rays
+from reference_tracer.tracer.candidates import WorldTriangles
 from reference_tracer.tracer.settings import Method, Settings
 from reference_tracer.tracer.triangle import METHODS
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.visibility import NOTHING, film_positions
 
-SETTINGS = [Settings(m, p) for m in Method for p in ("float64", "float32")]
-EVERY_SETTING = pytest.mark.parametrize(
-    "settings", SETTINGS, ids=lambda s: f"{s.method.value} {s.precision.value}"
-)
+from ..judge import judge
+from .pictures import names_of
+from .rational import t_of_pixels
+
+PLAIN = [Settings(m, p) for m in Method if m.is_plain for p in ("float64", "float32")]
+PROVEN = [Settings("certified"), Settings("auto")]
+
+
+def for_all(some):
+    return pytest.mark.parametrize(
+        "settings", some, ids=lambda s: f"{s.method.value} {s.precision.value}"
+    )
 
 
 @pytest.fixture
@@ -72,7 +81,7 @@ def traced(scene, settings=None):
     return render.render(scene, settings)
 
 
-@EVERY_SETTING
+@for_all(PLAIN)
 def test_brute_force(mess, settings):
     frame = traced(mess, settings)
     t, instance, triangle = brute_force(mess, settings)
@@ -83,19 +92,34 @@ def test_brute_force(mess, settings):
     assert len(seen) > 6 and len(mess.instances) in seen  # a plane
 
 
-@EVERY_SETTING
+def test_certified_and_auto_against_exact_brute_force(mess):
+    """Every ray with every triangle in whole numbers, with a rule written apart."""
+    truth = judge(mess)
+    names = [s.seen for s in truth]
+    t = t_of_pixels(mess, names)
+    for settings in PROVEN:
+        frame = traced(mess, settings)
+        assert names_of(frame) == names
+        assert np.array_equal(frame.t.ravel(), t)
+    assert sum(len(s.touched) > 1 for s in truth) > 20 and len({i for i, _ in names}) > 6
+
+
+@for_all(PLAIN + PROVEN[:1])
 @pytest.mark.parametrize(
     "division",
     [(1, 1 << 14, 32), (1 << 15, 1, 32), (1 << 15, 17, 1), (50, 7, 3), (1 << 20, 1 << 20, 1000)],
 )
 def test_the_division_of_the_work_does_not_matter(mess, settings, division, monkeypatch):
-    whole = traced(mess, settings).passes()
+    whole = traced(mess, settings)
     for module, name, value in zip(
         (visibility, candidates, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
     ):
         monkeypatch.setattr(module, name, value)
-    for name, values in traced(mess, settings).passes().items():
-        assert values.tobytes() == whole[name].tobytes(), name
+    divided = traced(mess, settings)
+    for name, values in divided.passes().items():
+        assert values.tobytes() == whole.passes()[name].tobytes(), name
+    assert divided.ties == whole.ties and bool(whole.ties) == (settings in PROVEN)
+    assert divided.statistics.pairs_tested == whole.statistics.pairs_tested
 
 
 def test_the_memory_does_not_matter(mess):
@@ -126,7 +150,11 @@ def test_a_mesh_shared_or_copied_or_split_is_the_same(mess):
     assert np.array_equal(names[..., 1], whole.triangle_index)
 
 
-def test_where_instances_touch_there_is_no_gap(make, rng):
+SEEING = pytest.mark.parametrize("method", [m for m in Method if m != Method.TEXTBOOK_LITERAL])
+
+
+@SEEING
+def test_where_instances_touch_there_is_no_gap(make, rng, method):
     """A grid of instances of one square, each corner computed four times: no pixel is missed."""
     turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     camera = make.camera(
@@ -143,12 +171,12 @@ def test_where_instances_touch_there_is_no_gap(make, rng):
             matrix[:3] = np.column_stack((turn, turn @ (x, y, 0)))
             instances.append(Instance(0, 0, matrix))
     scene = Scene(camera, (make.quad(0, 1, 0, 1, 0),), instances, objects=("Square",))
-    frame = traced(scene, Settings("moller_trumbore"))
+    frame = traced(scene, Settings(method))
     assert (frame.instance_index != NOTHING).all()
     assert len(np.unique(frame.instance_index)) > 16
 
 
-@pytest.mark.parametrize("method", ["textbook", "moller_trumbore"])
+@SEEING
 def test_equal_t_goes_to_the_lower_instance_and_triangle(make, method):
     quad = make.quad(-9, 9, -9, 9, -2)
     double = replace(quad, triangles=quad.triangles[[1, 0, 1, 0]], slots=None)
@@ -177,12 +205,13 @@ def test_planes_come_after_instances_and_the_first_of_them_wins(make):
 
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("kind", ["triangle", "plane"])
-def test_the_clip_range_is_inclusive(make, orthographic, kind):
+@pytest.mark.parametrize("method", ["moller_trumbore", "certified"])
+def test_the_clip_range_is_inclusive(make, orthographic, kind, method):
     camera = make.camera(orthographic=orthographic, clip_start=2, clip_end=3)
     for z, seen in ((2, True), (3, True), (2 - 1e-12, False), (3 + 1e-12, False), (-2.5, False)):
         things = {"planes": [((0, 0, -z), (0, 0, 1))]} if kind == "plane" else {}
         meshes = () if kind == "plane" else (make.quad(-9, 9, -9, 9, -z),)
-        frame = traced(make.scene(camera, *meshes, **things), Settings("moller_trumbore"))
+        frame = traced(make.scene(camera, *meshes, **things), Settings(method))
         assert (frame.instance_index == (0 if seen else NOTHING)).all()
         assert np.allclose(frame.t, z if seen else np.inf, rtol=0, atol=1e-15)
 
@@ -201,12 +230,11 @@ def test_nearest_to_a_ray_among_pairs_of_one_step(mess):
     )
     some = visibility.Pairs(
         np.zeros(4, int),
-        corners,
-        np.array([1, 7, 0, 2], np.int32),
-        np.array([0, 1, 2, 3], np.int32),
+        np.arange(4),
+        WorldTriangles(corners, np.array([1, 7, 0, 2], np.int32), np.arange(4, dtype=np.int32)),
     )
     hits = visibility.Hits.none(1)
-    visibility.test_pairs(mess, Settings(), rays, some, hits)
+    visibility.test_pairs(mess, Settings("watertight"), rays, some, hits)
     assert (hits.t[0], hits.instance[0], hits.triangle[0]) == (3, 2, 3)
 
 

@@ -1,0 +1,130 @@
+"""The watertight test: no ray slips between triangles, and in float32 no zero is a wrong one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.triangle import moller_trumbore, watertight
+
+from .rational import functions
+
+pytestmark = pytest.mark.filterwarnings("error")
+TYPES = pytest.mark.parametrize("dtype", [np.float32, np.float64])
+
+
+def shapes(rng):
+    """Closed meshes: round, sharp with needles, and with whole corners."""
+    turn = trimesh.transformations.random_rotation_matrix(rng.random(3))
+    yield trimesh.creation.icosphere(2).apply_transform(turn)
+    yield trimesh.creation.cylinder(1, 2, sections=40).apply_transform(turn)
+    yield trimesh.creation.box((2, 2, 2))
+
+
+def rays_within(mesh, rng, dtype):
+    """Return rays from inside at every vertex, at points of every edge, and beside them."""
+    vertices = np.asarray(mesh.vertices, dtype)
+    edges = mesh.edges_unique
+    share = rng.choice([0.5, rng.random(), rng.random()], (len(edges), 1)).astype(dtype)
+    on_edges = vertices[edges[:, 0]] + share * (vertices[edges[:, 1]] - vertices[edges[:, 0]])
+    targets = np.concatenate((vertices, on_edges))
+    origins = rng.uniform(-0.3, 0.3, targets.shape).astype(dtype)
+    origins[::4] = rng.integers(-1, 2, origins[::4].shape) * 0.25
+    return origins, targets - origins, vertices[mesh.faces].transpose(1, 2, 0)
+
+
+@TYPES
+@pytest.mark.parametrize("place", [0.0, 1e3, 1e5])
+def test_no_ray_leaves_a_closed_mesh_unseen(rng, dtype, place):
+    """Of rays at vertices and edges; some are met twice, which is allowed."""
+    met_twice = rays = 0
+    for mesh in shapes(rng):
+        mesh = mesh.apply_translation((place, -place / 3, 0))
+        for _ in range(4):
+            origins, directions, corners = rays_within(mesh, rng, dtype)
+            origins += np.array((place, -place / 3, 0), dtype)
+            directions -= np.array((place, -place / 3, 0), dtype)
+            some = Rays(origins.T[:, :, None], directions.T[:, :, None])
+            hit, t, _ = watertight(some, *corners[:, :, None, :])
+            seen = (hit & (t > 0)).sum(axis=1)
+            assert (seen > 0).all()
+            met_twice, rays = met_twice + (seen > 1).sum(), rays + len(seen)
+    assert 0 < met_twice < rays
+
+
+@TYPES
+def test_agrees_with_moller_trumbore_away_from_edges(rng, dtype):
+    count, near = 20_000, 1e-3 if dtype == np.float32 else 1e-10
+    corners = rng.normal(size=(3, 3, count)).astype(dtype)
+    rays = Rays(*(rng.normal(size=(3, count)).astype(dtype) for _ in range(2)))
+    hit, t, s = watertight(rays, *corners)
+    other_hit, other_t, other_s = moller_trumbore(rays, *corners)
+    assert t.dtype == s.dtype == dtype
+    with np.errstate(invalid="ignore"):
+        clear = (np.abs(other_s).min(axis=0) > 0.01) & (np.abs(other_s).max(axis=0) < 10)
+    assert clear.mean() > 0.5 and hit.mean() > 0.05
+    assert np.array_equal(hit[clear], other_hit[clear])
+    both = hit & other_hit & clear & (np.abs(t) < 10)
+    assert np.allclose(t[both], other_t[both], rtol=0, atol=100 * near)
+    assert np.allclose(s[:, both], other_s[:, both], rtol=0, atol=100 * near)
+
+
+@TYPES
+@pytest.mark.parametrize("axis", [0, 1, 2])
+@pytest.mark.parametrize("way", [1, -1])
+def test_along_an_axis_it_is_exact(rng, dtype, axis, way):
+    """No shear and no origin: nothing is rounded but products, and rounding keeps their order.
+
+    What float32 finds to be zero is looked at in float64, where the products are exact. In float64
+    itself a ray beside an edge by less than a rounding is taken for one on it.
+    """
+    count = 3000
+    corners = rng.normal(size=(3, 3, count)).astype(dtype)
+    share = rng.random(count).astype(dtype)
+    part = np.arange(count) < 2000
+    corners[1][:, part] = -(share * corners[0])[:, part]  # an edge passes the ray within rounding
+    corners[1][axis] = rng.normal(size=count)
+    corners[:, :, 2500:] = rng.integers(-2, 3, (3, 3, 500))  # true edges, corners, no area
+    direction = np.zeros((3, 1), dtype)
+    direction[axis] = way
+    hit, _, s = watertight(Rays(np.zeros((3, 1), dtype), direction), *corners)
+    edges, _, towards = functions(np.zeros((3, count)), np.tile(direction, count), corners)
+    closed = ((edges >= 0).all(axis=0) | (edges <= 0).all(axis=0)) & (towards != 0)
+    assert not (closed & ~hit).any()
+    extra = hit & ~closed
+    assert extra[:2000].any() == (dtype == np.float64) and not extra[2000:].any()
+    assert (s[:, hit] >= 0).all() and np.allclose(s[:, hit].sum(axis=0), 1, rtol=0, atol=1e-6)
+
+
+def test_zero_edges_in_float32_are_computed_again(rng):
+    """Without that, rays beside an edge would count as rays on it."""
+    count = 4000
+    a = rng.normal(size=(3, count)).astype(np.float32)
+    b = (-rng.random(count).astype(np.float32) * a).astype(np.float32)
+    lost = a[0] * b[1] - a[1] * b[0] == 0
+    exact = a[0].astype(np.float64) * b[1] - a[1].astype(np.float64) * b[0]
+    assert (lost & (exact != 0)).sum() > 200
+    c = np.stack((-a[1], a[0], a[2]))  # to one side of the edge
+    down = Rays(np.zeros((3, 1), np.float32), np.array([[0], [0], [-1]], np.float32))
+    hit, _, _ = watertight(down, a, b, c)
+    other, _, _ = watertight(down, a, b, -c)
+    assert (hit | other)[lost].all()
+    assert not (hit & other)[lost & (exact != 0)].any()
+
+
+@TYPES
+def test_neighbours_compute_their_edge_alike(rng, dtype):
+    """Whatever the order of corners, an edge has one sign for both triangles: one is always met."""
+    count = 20_000
+    a, b, c, d = rng.normal(size=(4, 3, count)).astype(dtype)
+    rays = Rays(np.zeros((3, 1), dtype), a + dtype(0.37) * (b - a))
+    normal = np.cross(a, b, axis=0)
+    sides = [np.einsum("kn,kn->n", normal.astype(float), v.astype(float)) for v in (c, d)]
+    apart = (sides[0] > 0.1) & (sides[1] < -0.1)  # one to each side of the plane of ray and edge
+    hits = [
+        watertight(rays, *corners)[0] for corners in ((a, b, c), (b, a, d), (c, a, b), (d, b, a))
+    ]
+    assert apart.sum() > 3000
+    assert (hits[0] | hits[1])[apart].all()
+    assert np.array_equal(hits[0], hits[2]) and np.array_equal(hits[1], hits[3])
