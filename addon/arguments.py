@@ -79,6 +79,8 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
         for name in ("method", "precision", "samples")
         if (value := getattr(options, name, None)) is not None
     }
+    if not Method(chosen.get("method", stored.method)).is_plain:
+        chosen.setdefault("precision", Precision.FLOAT64)  # in place of one that is stored
     try:
         return Settings(**vars(stored) | chosen)
     except ValueError as error:

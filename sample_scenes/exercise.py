@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import cos, pi, sin
+from typing import Any
 
 import bpy
 
@@ -14,21 +15,21 @@ EYE, TARGET = (7.5, -9.0, 6.2), (0.1, -0.05, 0.6)
 
 def exercise_orthographic() -> None:
     """Constant shading, orthographic camera: parallels stay parallel, distance changes no size."""
-    parts.start("Exercise: Orthographic", 640, 480)
+    _start("Exercise: Orthographic", 640, 480)
     parts.camera(EYE, TARGET, ortho_scale=8.6)
     _solids()
 
 
 def exercise_perspective() -> None:
     """The very same solids by a perspective camera at the same place: parallels converge."""
-    parts.start("Exercise: Perspective", 640, 480)
+    _start("Exercise: Perspective", 640, 480)
     parts.camera(EYE, TARGET, lens=50)
     _solids()
 
 
 def exercise_plane() -> None:
     """Ray/plane: an infinite plane up to its horizon; solids stand on it, sink into it, cut it."""
-    parts.start("Exercise: Plane", 640, 360, colours="OBJECT", sky="#bfe3f2")
+    _start("Exercise: Plane", 640, 360, colours="OBJECT", sky="#bfe3f2")
     parts.camera((0, -9, 1.9), (0, 0, 1.25), lens=40, clip_end=1000)
     square = [(-400, -400, 0), (400, -400, 0), (400, 400, 0), (-400, 400, 0)]  # for Blender's eyes
     ground = parts.add("Infinite Plane", solids.polygons(square, [(0, 1, 2, 3)]), "#7fb069")
@@ -47,7 +48,7 @@ def exercise_triangle() -> None:
 
     Each of the ring is in front of the next: no order of painting them whole is right.
     """
-    parts.start("Exercise: Triangle", 640, 360, sky="#f6f1e7")
+    _start("Exercise: Triangle", 640, 360, sky="#f6f1e7")
     parts.camera((0, -12, 0), (0, 0, 0), lens=50)
     wheel = ["#e63946", "#f4a261", "#e9c46a", "#2a9d8f", "#457b9d", "#6d597a"]
     rim = [(1.15 * cos(k * pi / 3), 0, 1.15 * sin(k * pi / 3)) for k in range(6)]
@@ -65,6 +66,11 @@ def exercise_triangle() -> None:
         c, s = cos(2 * pi * k / 3), sin(2 * pi * k / 3)
         spun = [(c * x - s * z, y, s * x + c * z) for x, y, z in arrow]
         _triangle(f"Ring {k + 1}", spun, css, 2.75)
+
+
+def _start(*args: Any, **options: Any) -> None:
+    """Begin a scene that stores the exercise's own method."""
+    parts.start(*args, **options).reference_tracer.method = "textbook"
 
 
 def _triangle(name: str, corners: Sequence[Sequence[float]], css: str, x: float) -> None:

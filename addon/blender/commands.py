@@ -1,15 +1,17 @@
-"""`blender FILE --command reference_tracer compare --out DIR`, for scripts and render farms."""
+"""`blender FILE --command reference_tracer compare|trade|extremes`, for scripts and farms."""
 
 from __future__ import annotations
 
 import sys
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
 import bpy
 
 from ..arguments import (
+    AGREE,
     EXIT_CODES,
     INPUT_ERROR,
     SIZES_DIFFER,
@@ -22,7 +24,12 @@ from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import SizeError
 from ..report import files
 from ..scene import SceneError
-from .compare import compare_to_folder
+from ..study import tradeoff
+from ..tracer.certainty import AssumptionError
+from ..tracer.progress import result_of
+from ..tracer.settings import Settings
+from . import studies
+from .compare import compare_to_folder, made
 
 _handle: Any = None
 
@@ -32,26 +39,76 @@ def run(argv: list[str]) -> int:
 
     An exception would make Blender exit with 1, which means warnings here.
     """
-    parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES)
-    commands = parser.add_subparsers(dest="command", required=True)
-    compare = commands.add_parser(
-        "compare",
-        help="trace the open scene, compare it with Blender's picture, write files",
-        epilog=EXIT_CODES,
-    )
-    compare.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
-    add_settings(compare)
-    add_judge(compare)
     try:
-        options = parser.parse_args(argv)
+        options = _parser().parse_args(argv)
     except SystemExit as stop:
         return int(stop.code or 0)
-    if not bpy.data.filepath:
-        return failed(
-            SceneError("no file is open (is its name right?): name a .blend before --command"),
-            options.out,
-        )
+    try:
+        return options.run(options)
+    except Exception as error:
+        return _said(error)
+
+
+def _parser() -> Parser:
+    parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
+
+    def command(name: str, run: Callable[[Any], int], text: str) -> Parser:
+        sub = commands.add_parser(name, help=text, epilog=EXIT_CODES)
+        sub.set_defaults(run=run)
+        sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
+        return sub
+
+    sub = command(
+        "compare",
+        _compare,
+        "trace the open scene, compare it with Blender's picture, write files",
+    )
+    add_settings(sub)
+    add_judge(sub)
+    sub = command(
+        "trade",
+        _trade,
+        "measure what every method, precision, number of samples and size costs on the open scene",
+    )
+    sub.add_argument("--width", type=int, metavar="PIXELS", help="of the largest picture")
+    sub.add_argument("--samples", type=int, metavar="N", help="up to N x N rays a pixel")
+    sub = command("extremes", _extremes, "find where every method breaks; needs no file")
+    sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
+    return parser
+
+
+def _compare(options: Any) -> int:
+    try:
+        _check_open()
+    except SceneError as error:
+        return failed(error, options.out)
     return compare_open_file(options)
+
+
+def _trade(options: Any) -> int:
+    _check_open()
+    folder = made(options.out)
+    samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
+    found = result_of(studies.trade(bpy.context, options.width, samples))
+    studies.write_trade(folder, found)
+    print(*studies.trade_table(found), f"written to {folder}", sep="\n")
+    return AGREE
+
+
+def _extremes(options: Any) -> int:
+    if options.rays is not None and options.rays < 1:
+        raise SceneError(f"--rays is {options.rays}; it must be at least 1")
+    folder = made(options.out)
+    rows = result_of(studies.run_extremes(rays=options.rays))
+    studies.write_extremes(folder, rows)
+    print(*studies.extremes_table(rows), f"written to {folder}", sep="\n")
+    return AGREE
+
+
+def _check_open() -> None:
+    if not bpy.data.filepath:
+        raise SceneError("no file is open (is its name right?): name a .blend before --command")
 
 
 def compare_open_file(options: Any, progress: Any = None) -> int:
@@ -64,14 +121,14 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     """
     try:
         settings = settings_from(options, bpy.context.scene.reference_tracer.settings())
-        comparison = compare_to_folder(
+        work = compare_to_folder(
             bpy.context,
             options.out,
-            progress,
             settings=settings,
             judge=options.judge.upper() if options.judge else None,
             as_is=options.as_is or None,
         )
+        comparison = result_of(work, progress)
     except Exception as error:
         return failed(error, options.out)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
@@ -80,11 +137,15 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
 
 def failed(error: Exception, directory: str) -> int:
     """Say what went wrong, in words and in the folder's JSON; returns the exit code."""
-    if not isinstance(error, (SizeError, SceneError, OSError)):
-        traceback.print_exception(error)
-    print(f"reference_tracer: {error}", file=sys.stderr)
     with suppress(OSError):  # where it is the folder that cannot be written
         files.write_failure(bpy.path.abspath(directory), error)
+    return _said(error)
+
+
+def _said(error: Exception) -> int:
+    if not isinstance(error, (SizeError, SceneError, OSError, AssumptionError)):
+        traceback.print_exception(error)
+    print(f"reference_tracer: {error}", file=sys.stderr)
     return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 

@@ -6,7 +6,8 @@ holds no reference to Blender's data, so that tracing may go on while the user w
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from ..compare.comparison import Comparison, trace_and_compare
 from ..manifest import Manifest
 from ..report import files
 from ..scene import Scene
-from ..tracer.progress import Work, result_of
+from ..tracer.progress import Work
 from ..tracer.settings import Settings
 from . import images
 from .camera import export_camera
@@ -112,28 +113,48 @@ def gather(
     return Gathered(exported, manifest, settings, drawn, blender)
 
 
-def compare_to_folder(
-    context: Any, directory: str, progress: Callable[[float], None] | None = None, **choices: Any
-) -> Comparison:
-    """Gather, trace, compare, and write the files; on failure the JSON says why.
+def compare_to_folder(context: Any, directory: str, **choices: Any) -> Work[Comparison]:
+    """Gather at once; return the work of tracing, comparing and writing the files.
 
-    Raises what :func:`gather` and `compare.compare` raise, and OSError.
+    On failure the folder's JSON says why. Raises what :func:`gather` and `compare.compare` raise,
+    and OSError.
     """
-    # A path as Blender writes it, // for beside the file, or as the shell does.
-    folder = Path(bpy.path.abspath(directory))
+    folder = made(directory)  # now, not after all the work
+    with _failure_written(folder):
+        return _written(folder, gather(context, **choices).steps())
+
+
+def made(directory: str) -> Path:
+    """Return a folder that is there now; its path is as Blender writes it, or as the shell does.
+
+    Raises
+    ------
+    OSError
+        If it cannot be made.
+    """
+    folder = Path(bpy.path.abspath(directory))  # // is beside the file
     try:
-        folder.mkdir(parents=True, exist_ok=True)  # now, not after all the work
+        folder.mkdir(parents=True, exist_ok=True)
     except FileExistsError as error:
         raise OSError(f"'{folder}' is a file: name a folder for what is found") from error
-    try:
-        comparison = result_of(gather(context, **choices).steps(), progress)
+    return folder
+
+
+def _written(folder: Path, work: Work[Comparison]) -> Work[Comparison]:
+    with _failure_written(folder):
+        comparison = yield from work
         files.write(folder, comparison, images.save_png)
+    yield 1.0
+    return comparison
+
+
+@contextmanager
+def _failure_written(folder: Path) -> Iterator[None]:
+    try:
+        yield
     except Exception as error:
         files.write_failure(folder, error)
         raise
-    if progress:
-        progress(1.0)
-    return comparison
 
 
 def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:

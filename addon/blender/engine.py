@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
+from ..tracer.certainty import AssumptionError
 from ..tracer.frame import Frame
 from ..tracer.render import steps
 from .animation import values_kept
@@ -38,6 +39,7 @@ PASSES: tuple[tuple[str, int, str, str, Callable[[Frame], NDArray]], ...] = (
     ("Barycentrics", 3, "XYZ", "VECTOR", lambda f: f.barycentrics),
     ("Object Index", 1, "X", "VALUE", lambda f: f.object_index + 1),
     ("Triangle Index", 1, "X", "VALUE", lambda f: f.triangle_index + 1),
+    ("Certainty", 1, "X", "VALUE", lambda f: f.certainty),  # see tracer.certainty.Certainty
 )
 
 _captured: list[tuple[Scene, Manifest]] | None = None
@@ -63,7 +65,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
                 _captured.append(export(depsgraph, diagnosis=True))
                 return
             self._trace(depsgraph)
-        except (SceneError, ValueError) as error:
+        except (SceneError, ValueError, AssumptionError) as error:
             self.report({"ERROR"}, str(error))
         except Exception as error:  # whatever it is, Blender must hear of it
             traceback.print_exc()
@@ -93,6 +95,12 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         if frame.cancelled:
             done, rows = int(frame.rows_done.sum()), len(frame.rows_done)
             _say(f"Cancelled: {done} of {rows} rows are traced, the others are empty")
+            return
+        for line in (required := frame.statistics.required()):
+            print(f"Reference Tracer: {line}")
+        for note in frame.statistics.notes:  # such as that nothing can be certified here
+            self.report({"WARNING"}, note[0].upper() + note[1:])
+        self.update_stats("", required[0] if required else "")
 
     def _show(self, frame: Frame, layer: str) -> None:
         """Give Blender the rows that are done."""

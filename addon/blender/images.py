@@ -11,24 +11,45 @@ from numpy.typing import NDArray
 
 TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
 
-MARK = "reference_tracer"  # a custom property of the images that a comparison may write into
+TRADE = "Reference Tracer Trade"
+
+MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
-def show(name: str, color: NDArray[np.floating]) -> Any:
-    """Put linear RGBA (h, w, 4) into our image of this name, made where it is not there."""
+def plot_name(name: str) -> str:
+    """Return what the image of a study's picture is named: 'map_this_and_that' by its words."""
+    return f"Reference Tracer {name.replace('_', ' ').title()}"
+
+
+def show(name: str, color: NDArray) -> Any:
+    """Put a picture into our image of this name, made where it is not there.
+
+    Linear RGBA (h, w, 4) floats are seen through the scene's view transform; uint8 are sRGB, and
+    seen as they are.
+    """
     height, width = color.shape[:2]
+    plot = color.dtype == np.uint8
     image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
     if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
         del image[MARK]
         image = None
     if image is None:
-        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=not plot)
         image[MARK] = name
     elif tuple(image.size) != (width, height):
         image.scale(width, height)
-    image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
+    values = np.ascontiguousarray(color, dtype=np.float32)
+    image.pixels.foreach_set((values / 255 if plot else values).ravel())
     image.update()
     return image
+
+
+def show_in_editor(context: Any, image: Any) -> None:
+    """Show an image in the window's first image editor, if there is one."""
+    for area in context.window.screen.areas if context.window else ():
+        if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
+            area.spaces.active.image = image
+            break
 
 
 def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:

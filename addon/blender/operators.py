@@ -1,154 +1,198 @@
-"""Trace and Compare, as a button and as an operator for scripts."""
+"""The add-on's buttons, and its operators for scripts. They hold no maths."""
 
 from __future__ import annotations
 
-import time
-import traceback
-from typing import Any, ClassVar
+from typing import Any
 
 import bpy
-from bpy.props import StringProperty
+from bpy.props import EnumProperty, IntProperty, StringProperty
 
+from ..compare.comparison import Comparison
 from ..scene import SceneError
-from ..tracer.progress import result_of
-from . import results
-from .compare import compare_to_folder, gather
+from ..study import tradeoff
+from ..study.scenarios import MAPS, SCENARIOS
+from ..tracer.progress import Work
+from . import results, scenario_scene, studies
+from .compare import compare_to_folder, gather, made
+from .long_work import LongWork
 
-STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
-PAUSE = 0.005  # seconds that the interface gets in between
+SWEEPS = [(s.name, s.title, s.explanation) for s in SCENARIOS]
+STUDIES = [
+    (studies.EVERY, "All", "Every scenario, and the maps of two scales at once"),
+    *SWEEPS,
+    *((m.name, m.title, m.explanation) for m in MAPS),
+]
 
 
-class REFERENCE_TRACER_OT_compare(bpy.types.Operator):
+class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
     """The button and the script's way to one comparison."""
 
     bl_idname = "reference_tracer.compare"
     bl_label = "Trace and Compare"
     bl_description = (
-        "Trace the scene with the textbook's maths, and compare every pixel with "
-        "Blender's own picture"
-    )
-    bl_options = {"UNDO"}  # the three images are one step
-
-    running: ClassVar[bool] = False  # in some window
-
-    directory: StringProperty(  # type: ignore[valid-type]
-        name="Folder",
-        subtype="DIR_PATH",
-        options={"SKIP_SAVE"},
-        description="Where to write the pictures and comparison.json; nothing is written if empty",
+        "Trace the scene by the method that is chosen, and compare every pixel with Blender's own "
+        "picture; the textbook's formulas and the proven picture are listed side by side"
     )
 
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Allow one at a time."""
-        if cls.running:
-            cls.poll_message_set("It is running already: Esc cancels it")
-        return not cls.running
+    def begin(self, context: Any) -> Work[Comparison]:
+        """Have Blender draw the scene at once; return the work that is left."""
+        if self.directory:
+            return compare_to_folder(context, self.directory)
+        return gather(context).steps()
+
+    def finish(self, context: Any, result: Comparison) -> tuple[str, str]:
+        """Show the pictures and the numbers."""
+        lines = results.keep_comparison(context, result).lines
+        _print(*result.manifest.lines(), *lines)
+        return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
+
+
+class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
+    """What each way of tracing costs on the user's own scene."""
+
+    bl_idname = "reference_tracer.trade"
+    bl_label = "Measure the Trade"
+    bl_description = (
+        "Measure on this scene and camera what every method, precision, number of samples and "
+        "size takes, and what it gets wrong"
+    )
+
+    width: IntProperty(  # type: ignore[valid-type]
+        name="Width",
+        default=tradeoff.WIDTH,
+        min=1,
+        soft_max=1920,
+        description="Of the largest picture that is measured, in pixels; its height follows",
+    )
+    samples: IntProperty(  # type: ignore[valid-type]
+        name="Samples",
+        default=tradeoff.SAMPLES,
+        min=1,
+        max=16,
+        description="Up to this number squared of rays a pixel are measured",
+    )
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Export the scene at once; return the work of measuring."""
+        self._folder = made(self.directory) if self.directory else None
+        return studies.trade(context, self.width, self.samples)
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the table, the plot and the advice."""
+        if self._folder:
+            studies.write_trade(self._folder, result)
+        lines = results.keep_trade(context, result).lines
+        print(*studies.trade_table(result), *lines[1:], sep="\n")
+        return _told(lines)
+
+
+class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
+    """Where each method breaks."""
+
+    bl_idname = "reference_tracer.extremes"
+    bl_label = "Find Where Methods Break"
+    bl_description = (
+        "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every method, and "
+        "find the first scale at which each goes wrong against exact arithmetic"
+    )
+
+    scenario: EnumProperty(name="Scenario", items=STUDIES, default=studies.EVERY)  # type: ignore[valid-type]
+    rays: IntProperty(  # type: ignore[valid-type]
+        name="Rays",
+        default=0,
+        min=0,
+        soft_max=10_000,
+        description="About so many through each scene; 0 for each scene's own number",
+    )
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Return the work."""
+        self._folder = made(self.directory) if self.directory else None
+        return studies.run_extremes(self.scenario, self.rays or None)
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the breaking points and the maps."""
+        if self._folder:
+            studies.write_extremes(self._folder, result)
+        lines = results.keep_extremes(context, result).lines
+        print(*studies.extremes_table(result), *lines, sep="\n")
+        return _told(lines)
+
+
+class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
+    """A scenario to look at."""
+
+    bl_idname = "reference_tracer.extreme_scene"
+    bl_label = "Open Scenario as a Scene"
+    bl_description = (
+        "Build a scenario at one of its scales as a new scene with its camera and meshes, as "
+        "closely as Blender's float32 allows, to look at and to trace and compare there"
+    )
+    bl_options = {"UNDO"}
+
+    scenario: EnumProperty(name="Scenario", items=SWEEPS)  # type: ignore[valid-type]
+    scale: StringProperty(  # type: ignore[valid-type]
+        name="Scale",
+        description="A number, such as 1e8; the scenario's last and hardest if empty",
+    )
+    width: IntProperty(  # type: ignore[valid-type]
+        name="Width",
+        default=0,
+        min=0,
+        soft_max=1920,
+        description="Of the picture, in pixels; 0 for that of the study, one ray a pixel",
+    )
 
     def execute(self, context: Any) -> set[str]:
-        """Run through, as a script wants it."""
+        """Build the scene, and go there."""
         try:
-            if self.directory:
-                comparison = compare_to_folder(context, self.directory)
-            else:
-                comparison = result_of(gather(context).steps())
-            self._finish(context, comparison)
-        except Exception as error:
-            return self._fail(error)
+            scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        changed = scene[scenario_scene.CHANGED].split("\n")
+        _print(f"{scene.name}:", *changed)
+        self.report({"INFO"}, f"{scene.name}: {changed[0]}")
         return {"FINISHED"}
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
-        """Gather at once, then trace while the interface stays alive."""
-        if bpy.app.background or self.directory:
-            return self.execute(context)
-        try:
-            self._work = gather(context).steps()
-        except Exception as error:
-            return self._fail(error)
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(PAUSE, window=context.window)
-        manager.progress_begin(0, 100)
-        manager.modal_handler_add(self)
-        self._began = time.monotonic()
-        type(self).running = True
-        return {"RUNNING_MODAL"}
 
-    def modal(self, context: Any, event: Any) -> set[str]:
-        """Work for one step, or stop at Esc."""
-        if event.type == "ESC" and event.value == "PRESS":
-            self._clean_up(context)
-            self.report({"WARNING"}, "Trace and Compare was cancelled; nothing was changed")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        until = time.monotonic() + STEP
-        try:
-            while time.monotonic() < until:
-                share = next(self._work)
-        except StopIteration as stop:
-            self._clean_up(context)
-            try:
-                self._finish(context, stop.value)
-            except Exception as error:
-                return self._fail(error)
-            return {"FINISHED"}
-        except Exception as error:
-            self._clean_up(context)
-            return self._fail(error)
-        self._show_progress(context, share)
-        return {"PASS_THROUGH"}  # the timers of others are theirs
+def _print(*lines: str) -> None:
+    for line in lines:
+        print(f"Reference Tracer: {line}")
 
-    def cancel(self, context: Any) -> None:
-        """Stop when Blender itself ends the operator, as at quitting or loading a file."""
-        self._clean_up(context)
 
-    def _show_progress(self, context: Any, share: float) -> None:
-        context.window_manager.progress_update(int(100 * share))
-        past = time.monotonic() - self._began
-        left = f"  {past * (1 - share) / share:.0f} s left" if share > 0.01 else ""
-        context.workspace.status_text_set(
-            f"Trace and Compare: {int(100 * share)} %{left}  (Esc: cancel)"
-        )
+def _told(lines: tuple[str, ...]) -> tuple[str, str]:
+    """Return what to report of a study: its sentence, and that its picture can't be had."""
+    if lines[1:]:
+        return "WARNING", f"{lines[0]} (No picture without Matplotlib: the panel says how.)"
+    return "INFO", lines[0]
 
-    def _clean_up(self, context: Any) -> None:
-        type(self).running = False
-        self._work.close()
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        if context.workspace:
-            context.workspace.status_text_set(None)
 
-    def _finish(self, context: Any, comparison: Any) -> None:
-        result = results.keep(context, comparison)
-        for line in (*comparison.manifest.lines(), *result.lines):
-            print(f"Reference Tracer: {line}")
-        for area in context.window.screen.areas if context.window else ():
-            area.tag_redraw()
-        level = "INFO" if comparison.verdict == "agree" else "WARNING"
-        self.report({level}, result.lines[0])
-
-    def _fail(self, error: Exception) -> set[str]:
-        if not isinstance(error, (SceneError, OSError)):
-            traceback.print_exc()
-        self.report({"ERROR"}, str(error) or type(error).__name__)
-        return {"CANCELLED"}
+CLASSES = (
+    REFERENCE_TRACER_OT_compare,
+    REFERENCE_TRACER_OT_trade,
+    REFERENCE_TRACER_OT_extremes,
+    REFERENCE_TRACER_OT_extreme_scene,
+)
 
 
 @bpy.app.handlers.persistent
 def _file_closes(*_: Any) -> None:
-    """Forget what was of the file that goes: its comparison, and one that was under way."""
+    """Forget what was found in the file that goes, and what was under way there."""
     results.forget()
-    REFERENCE_TRACER_OT_compare.running = False
+    LongWork.running = ""
 
 
 def register() -> None:
-    """Register the operator."""
+    """Register the operators."""
     bpy.app.handlers.load_pre.append(_file_closes)
-    bpy.utils.register_class(REFERENCE_TRACER_OT_compare)
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     results.forget()
     bpy.app.handlers.load_pre.remove(_file_closes)
-    bpy.utils.unregister_class(REFERENCE_TRACER_OT_compare)
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -6,9 +6,11 @@ from typing import Any
 
 import bpy
 
+from ..compare.comparison import Comparison
 from . import results
 from .engine import ENGINE
 from .operators import REFERENCE_TRACER_OT_compare
+from .panel_parts import NARROW, Properties, Sidebar, short_name, table, wrapped
 
 # Blender's own panels that this engine has no use for.
 _NOT_OURS = {
@@ -33,7 +35,9 @@ class _Main:
         layout.use_property_decorate = False
         column = layout.column()
         column.prop(stored, "method")
-        column.prop(stored, "precision")
+        row = column.row()
+        row.enabled = stored.has_precision
+        row.prop(stored, "precision")
         column.prop(stored, "samples")
         column = layout.column()
         column.prop(stored, "judge")
@@ -46,11 +50,11 @@ class _Result:
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Show only where there is one."""
-        return results.latest(context.scene) is not None
+        return results.latest(Comparison, context.scene) is not None
 
     def draw(self, context: Any) -> None:
         """Draw the numbers."""
-        comparison = results.latest(context.scene).comparison
+        comparison = results.latest(Comparison, context.scene).content
         pixels, measured = comparison.pixels, comparison.metrics
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
@@ -71,7 +75,15 @@ class _Result:
             ("Compared With", comparison.blender["source"].capitalize()),
             ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
         ]
-        _table(self.layout, rows)
+        table(self.layout, rows)
+        rows = [("Traced by", "s", "Wrong", "Ambig.")]
+        for m in comparison.methods:
+            wrong = "?" if m.wrong_pixels is None else f"{m.wrong_pixels:,}"
+            name = short_name(m.method, m.precision)
+            rows.append((name, f"{m.seconds:.2f}", wrong, f"{m.ambiguous:,}"))
+        table(self.layout.box(), rows, NARROW)
+        for line in comparison.required:
+            wrapped(self.layout, context, line)
 
 
 class _Export:
@@ -81,7 +93,7 @@ class _Export:
 
     def draw(self, context: Any) -> None:
         """Draw the manifest: what was exported, skipped, not modelled."""
-        manifest = results.latest(context.scene).comparison.manifest
+        manifest = results.latest(Comparison, context.scene).content.manifest
         column = self.layout.column(align=True)
         column.scale_y = 0.8
         for line in manifest.lines():
@@ -89,43 +101,27 @@ class _Export:
             column.label(text=line.strip(), icon="ERROR" if warning else "NONE")
 
 
-def _table(layout: Any, rows: list[tuple[str, str]]) -> None:
-    split = layout.split(factor=0.45)
-    names, values = split.column(align=True), split.column(align=True)
-    for name, value in rows:
-        names.label(text=name)
-        values.label(text=value)
-
-
-class _Properties:
-    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "render"
-
-
-class _Sidebar:
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Reference Tracer"
-
-
-class RENDER_PT_reference_tracer(_Properties, _Main, bpy.types.Panel):
+class RENDER_PT_reference_tracer(Properties, _Main, bpy.types.Panel):
     pass
 
 
-class RENDER_PT_reference_tracer_result(_Properties, _Result, bpy.types.Panel):
+class RENDER_PT_reference_tracer_result(Properties, _Result, bpy.types.Panel):
     bl_parent_id = "RENDER_PT_reference_tracer"
 
 
-class RENDER_PT_reference_tracer_export(_Properties, _Export, bpy.types.Panel):
+class RENDER_PT_reference_tracer_export(Properties, _Export, bpy.types.Panel):
     bl_parent_id = "RENDER_PT_reference_tracer"
 
 
-class VIEW3D_PT_reference_tracer(_Sidebar, _Main, bpy.types.Panel):
+class VIEW3D_PT_reference_tracer(Sidebar, _Main, bpy.types.Panel):
     pass
 
 
-class VIEW3D_PT_reference_tracer_result(_Sidebar, _Result, bpy.types.Panel):
+class VIEW3D_PT_reference_tracer_result(Sidebar, _Result, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_reference_tracer"
 
 
-class VIEW3D_PT_reference_tracer_export(_Sidebar, _Export, bpy.types.Panel):
+class VIEW3D_PT_reference_tracer_export(Sidebar, _Export, bpy.types.Panel):
     bl_parent_id = "VIEW3D_PT_reference_tracer"
 
 

@@ -8,32 +8,57 @@ from __future__ import annotations
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
-from ..tracer.settings import Settings
+from ..tracer.settings import Method, Precision, Settings
 
+# (identifier, name, description, number). A .blend stores the number: one that was given away is
+# never given to another, and a new item takes the next.
 METHODS = (
+    (
+        "auto",
+        "Automatic",
+        "The cheapest way to a proven picture: an error bound first, whole numbers only where it "
+        "does not decide. Watertight, and a warning, where this machine allows no proof",
+        5,
+    ),
+    (
+        "certified",
+        "Certified",
+        "Every pixel shows what exact arithmetic says it should, or the render fails",
+        4,
+    ),
+    (
+        "watertight",
+        "Watertight",
+        "Woop, Benthin and Wald: neighbours agree on whose a ray at their edge is, without a proof "
+        "of the rest",
+        3,
+    ),
+    ("moller_trumbore", "Möller–Trumbore", "The test most renderers started from", 2),
     (
         "textbook",
         "Textbook",
         "The exercise's plane-then-barycentrics test, usable in floating point",
+        0,
     ),
     (
         "textbook_literal",
         "Textbook, Literal",
         "The test exactly as printed, s1 + s2 + s3 = 1 included: it loses about half of all hits",
+        1,
     ),
-    ("moller_trumbore", "Möller–Trumbore", "The test most renderers started from"),
 )
 PRECISIONS = (
-    ("float64", "float64", "Double precision"),
-    ("float32", "float32", "Single precision, as graphics hardware has it"),
+    ("float64", "float64", "Double precision", 0),
+    ("float32", "float32", "Single precision, as graphics hardware has it", 1),
 )
 JUDGES = (
-    ("AUTO", "Automatic", "The viewport in a window, Workbench in background"),
-    ("WORKBENCH", "Workbench", "A Workbench render: render visibility and modifier levels"),
+    ("AUTO", "Automatic", "The viewport in a window, Workbench in background", 0),
+    ("WORKBENCH", "Workbench", "A Workbench render: render visibility and modifier levels", 1),
     (
         "CYCLES",
         "Cycles",
         "A Cycles render of the same constant colours, one sample in each pixel's centre",
+        2,
     ),
 )
 SHADINGS = (
@@ -41,16 +66,27 @@ SHADINGS = (
         "LIKE_FOR_LIKE",
         "Like for Like",
         "Blender draws what the tracer does: flat light, the same colours, no effects, raw view",
+        0,
     ),
-    ("AS_IS", "As It Is", "Blender draws with the shading that the scene has"),
+    ("AS_IS", "As It Is", "Blender draws with the shading that the scene has", 1),
 )
 
 
 class ReferenceTracerScene(bpy.types.PropertyGroup):
     """How to trace and compare this scene."""
 
-    method: EnumProperty(name="Method", items=METHODS, default="textbook")  # type: ignore[valid-type]
-    precision: EnumProperty(name="Precision", items=PRECISIONS, default="float64")  # type: ignore[valid-type]
+    method: EnumProperty(  # type: ignore[valid-type]
+        name="Method",
+        items=METHODS,
+        default="auto",
+        description="How a ray meets a triangle",
+    )
+    precision: EnumProperty(  # type: ignore[valid-type]
+        name="Precision",
+        items=PRECISIONS,
+        default="float64",
+        description="Floating-point type of rays and corners; what is proven is proven in float64",
+    )
     samples: IntProperty(  # type: ignore[valid-type]
         name="Samples",
         default=1,
@@ -67,8 +103,14 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     shading: EnumProperty(name="Shading", items=SHADINGS, default="LIKE_FOR_LIKE")  # type: ignore[valid-type]
 
     def settings(self) -> Settings:
-        """Return what the tracer is to use."""
-        return Settings(method=self.method, precision=self.precision, samples=self.samples)
+        """Return what the tracer is to use; a precision that is greyed out does not count."""
+        precision = self.precision if self.has_precision else Precision.FLOAT64
+        return Settings(method=self.method, precision=precision, samples=self.samples)
+
+    @property
+    def has_precision(self) -> bool:
+        """Whether the method leaves a choice of the precision."""
+        return Method(self.method).is_plain
 
 
 class ReferenceTracerObject(bpy.types.PropertyGroup):

@@ -1,54 +1,106 @@
-"""The latest comparison, for the panels. Not stored in the .blend: it speaks of one moment."""
+"""The latest of each kind of result, for the panels, and the images that show it.
+
+Not stored in the .blend: it speaks of one moment.
+"""
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
 from ..compare.comparison import Comparison
+from ..images import MissingLibraryError
+from ..report import extremes as extremes_report
+from ..report import trade_plot
 from ..report.pictures import difference
+from ..study.extremes import BreakingPoint, Row, breaking_points
+from ..study.trade import Trade
 from . import images
+from .studies import extremes_sentence
 
 
 @dataclass(frozen=True, eq=False)
 class Result:
-    """What the panels show."""
+    """What a panel shows; computed once, since panels are drawn many times a second."""
 
     file: str
-    scene: str
-    comparison: Comparison
-    lines: tuple[str, ...]  # computed once: panels are drawn many times a second
+    content: Comparison | Trade | tuple[BreakingPoint, ...]
+    lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
+    scene: str | None = None  # None: of no scene
 
 
-_latest: Result | None = None
+_latest: dict[type, Result] = {}
 
 
-def keep(context: Any, comparison: Comparison) -> Result:
+def keep_comparison(context: Any, comparison: Comparison) -> Result:
     """Remember a comparison, and put its three pictures into images of Blender's."""
-    global _latest
     images.show(images.TRACED, comparison.frame.color)
     images.show(images.BLENDER, comparison.picture)
     shown = images.show(images.DIFFERENCE, difference(comparison))
-    for area in context.window.screen.areas if context.window else ():
-        if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
-            area.spaces.active.image = shown
-            break
-    _latest = Result(
-        bpy.data.filepath, comparison.manifest.scene, comparison, tuple(comparison.lines())
-    )
-    return _latest
+    images.show_in_editor(context, shown)
+    return _keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
 
 
-def latest(scene: Any) -> Result | None:
-    """Return the latest comparison, if it is of this scene in the file that is open."""
-    if _latest and (_latest.file, _latest.scene) == (bpy.data.filepath, scene.name):
-        return _latest
+def keep_trade(context: Any, trade: Trade) -> Result:
+    """Remember a trade, and show its plot if there can be one."""
+    why = _show_plots(context, lambda: [(images.TRADE, trade_plot.picture(trade))], "trade")
+    return _keep(Trade, trade, [trade.advice, *why], trade.scene)
+
+
+def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
+    """Remember where each method breaks, and show the pictures of it if there can be any."""
+
+    def plots() -> Iterable[tuple[str, NDArray[np.uint8]]]:
+        return ((images.plot_name(n), p) for n, p in extremes_report.pictures(rows))
+
+    lines = [extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
+    return _keep(BreakingPoint, tuple(breaking_points(rows)), lines)
+
+
+def _show_plots(
+    context: Any, plots: Callable[[], Iterable[tuple[str, NDArray[np.uint8]]]], command: str
+) -> list[str]:
+    """Show pictures, the last one in an image editor; return why not, if there can be none."""
+    try:
+        shown = None
+        for name, picture in plots():
+            shown = images.show(name, picture)
+        if shown:
+            images.show_in_editor(context, shown)
+        return []
+    except MissingLibraryError:
+        return [
+            "No picture: this Blender's Python has no Matplotlib. For one, run "
+            f'"{sys.executable}" -m pip install matplotlib, and start Blender again; or use '
+            f"reftrace {command} outside Blender"
+        ]
+
+
+def _keep(kind: type, content: Any, lines: Iterable[str], scene: str | None = None) -> Result:
+    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene)
+    return _latest[kind]
+
+
+def latest(kind: type, scene: Any) -> Result | None:
+    """Return the latest result of a kind, if it is of this scene in the file that is open.
+
+    Parameters
+    ----------
+    kind : {Comparison, Trade, BreakingPoint}
+    scene : bpy.types.Scene
+    """
+    found = _latest.get(kind)
+    if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):
+        return found
     return None
 
 
 def forget() -> None:
-    """Drop the latest comparison, as when another file is opened."""
-    global _latest
-    _latest = None
+    """Drop all results, as when another file is opened."""
+    _latest.clear()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from reference_tracer.blender import images, results
+from reference_tracer.compare.comparison import Comparison
 
 PICTURE = np.ones((4, 6, 4), np.float32)
 
@@ -42,7 +43,7 @@ def test_another_file_has_no_result(build, compare):
     build.scene()
     build.solids()
     build.corner_camera()
-    results.keep(bpy.context, compare())
-    assert results.latest(bpy.context.scene)
+    results.keep_comparison(bpy.context, compare())
+    assert results.latest(Comparison, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(bpy.context.scene) is None
+    assert results.latest(Comparison, bpy.context.scene) is None

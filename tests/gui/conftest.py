@@ -34,15 +34,15 @@ class Blender:
         ]
         return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
 
-    def story(self, name, scene="suzanne"):
-        """Play a story of stories.py in the real window; returns what it noted."""
+    def story(self, name, scene="suzanne", file="stories"):
+        """Play a story of a file in the real window; returns what it noted."""
         result = OUT / f"{name}.json"
         done = self.run(
             f"/project/sample_scenes/{scene}.blend",
             "--python-exit-code",
             "9",
             "--python",
-            "/project/tests/gui/stories.py",
+            f"/project/tests/gui/{file}.py",
             "--",
             name,
         )

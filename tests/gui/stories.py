@@ -1,130 +1,34 @@
 """What a user does in Blender's window, played inside it: `--python stories.py -- NAME`.
 
-A story is a generator: it yields how many seconds to wait, and Blender draws and handles events
-meanwhile. What it notes is written to out/gui/NAME.json when it ends, and Blender quits.
+Renders and comparisons; the studies are in `study_stories.py`.
 """
 
-import hashlib
-import json
-import subprocess
 import sys
 import time
-import traceback
 from pathlib import Path
 
 import bpy
 import numpy as np
 
-OUT = Path("/project/out/gui")
-SIDEBAR_TAB = ("1308", "233")  # ours, in a window of 1600 x 900
-noted = {}
+sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
-
-def window():
-    return bpy.context.window_manager.windows[0]
-
-
-def press(key):
-    """Press a key as a keyboard does, with the pointer over the 3D view."""
-    subprocess.run(["xdotool", "mousemove", "500", "350", "key", key], check=True)
-
-
-def screenshot(name):
-    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
-
-
-def data_blocks():
-    return {
-        name: sorted(x.name_full for x in getattr(bpy.data, name))
-        for name in (
-            "scenes",
-            "objects",
-            "meshes",
-            "materials",
-            "images",
-            "collections",
-            "worlds",
-            "node_groups",
-        )
-    }
-
-
-def settings():
-    """Everything of the user's that a comparison could have touched."""
-    scene, preferences = window().scene, bpy.context.preferences
-    out = {
-        "scene": scene.name,
-        "view_layer": window().view_layer.name,
-        "viewport_aa": preferences.system.viewport_aa,
-        "dirty": preferences.is_dirty,
-    }
-    shading = [a.spaces.active.shading for a in window().screen.areas if a.type == "VIEW_3D"]
-    for name, owner in (
-        ("render", scene.render),
-        ("display", scene.display),
-        ("shading", scene.display.shading),
-        ("view", scene.view_settings),
-        ("image", scene.render.image_settings),
-        *((f"3d{k}", s) for k, s in enumerate(shading)),
-    ):
-        for prop in owner.bl_rna.properties:
-            if prop.type in ("BOOLEAN", "INT", "FLOAT", "ENUM", "STRING"):
-                value = getattr(owner, prop.identifier)
-                out[f"{name}.{prop.identifier}"] = repr(
-                    list(value) if getattr(prop, "is_array", False) else value
-                )
-    return out
-
-
-def render_result():
-    """A digest of the user's last render, read through a file as a user would save it."""
-    image = bpy.data.images.get("Render Result")
-    if image is None:
-        return None
-    path = OUT / "render_result.png"
-    path.unlink(missing_ok=True)
-    image.save_render(str(path), scene=window().scene)
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def until(condition, seconds=60):
-    """Wait for something; an error if it does not come."""
-    end = time.monotonic() + seconds
-    while not condition():
-        if time.monotonic() > end:
-            raise TimeoutError(condition.__name__)
-        yield 0.05
-
-
-def reports():
-    """What the Info editor lists."""
-    area = window().screen.areas[0]
-    area.type = "INFO"
-    with bpy.context.temp_override(window=window(), area=area, region=area.regions[-1]):
-        bpy.ops.info.select_all(action="SELECT")
-        bpy.ops.info.report_copy()
-    return bpy.context.window_manager.clipboard
-
-
-def module():
-    return sys.modules["bl_ext.user_default.reference_tracer.addon.blender.results"]
-
-
-def compared():
-    return module().latest(window().scene) is not None
-
-
-def press_compare():
-    with bpy.context.temp_override(window=window()):
-        return bpy.ops.reference_tracer.compare("INVOKE_DEFAULT")
-
-
-def show_panel():
-    for area in window().screen.areas:
-        if area.type == "VIEW_3D":
-            area.spaces.active.show_region_ui = True
-        if area.type == "PROPERTIES":
-            area.spaces.active.context = "RENDER"
+from story import (
+    compared,
+    data_blocks,
+    noted,
+    open_tab,
+    play,
+    press,
+    press_compare,
+    render_result,
+    reports,
+    result,
+    screenshot,
+    settings,
+    show_panel,
+    until,
+    window,
+)
 
 
 def f12():
@@ -191,7 +95,7 @@ def compare():
     yield from until(compared)
     yield 1
     after = settings(), data_blocks(), render_result()
-    comparison = module().latest(window().scene).comparison
+    comparison = result().content
     noted["comparison"] = comparison.to_dict()
     noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
     noted["new"] = {
@@ -206,10 +110,7 @@ def compare():
     window().scene.render.engine = "REFERENCE_TRACER"  # its tab is short: our panel is in sight
     show_panel()
     yield 0.5
-    for action in (["mousemove", *SIDEBAR_TAB], ["mousedown", "1"], ["mouseup", "1"]):
-        subprocess.run(["xdotool", *action], check=True)
-        yield 0.3
-    yield 1
+    yield from open_tab()
     screenshot("compare")
     for area in window().screen.areas:
         if area.type == "VIEW_3D":
@@ -231,7 +132,7 @@ def compare_as_is():
     yield 1
     press_compare()
     yield from until(compared)
-    noted["comparison"] = module().latest(window().scene).comparison.to_dict()
+    noted["comparison"] = result().content.to_dict()
     noted["preference"] = bpy.context.preferences.system.viewport_aa
 
 
@@ -271,7 +172,7 @@ def compare_another_file():
     noted["left"] = [o.bl_idname for o in window().modal_operators]
     press_compare()
     yield from until(compared)
-    noted["comparison"] = module().latest(window().scene).comparison.to_dict()
+    noted["comparison"] = result().content.to_dict()
 
 
 def compare_error():
@@ -297,12 +198,11 @@ def scenes():
         yield 0.5
         press_compare()
         yield from until(compared, 120)
-        noted[path.stem] = module().latest(window().scene).comparison.to_dict()
+        noted[path.stem] = result().content.to_dict()
 
 
-STORIES = {
-    s.__name__: s
-    for s in (
+play(
+    (
         f12,
         f12_escape,
         f12_error,
@@ -313,24 +213,4 @@ STORIES = {
         compare_error,
         scenes,
     )
-}
-
-
-def play(name):
-    story = STORIES[name]()
-
-    def go():
-        try:
-            return next(story)
-        except StopIteration:
-            pass
-        except BaseException:
-            noted["error"] = traceback.format_exc()
-        (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
-        bpy.ops.wm.quit_blender()
-        return None
-
-    bpy.app.timers.register(go, first_interval=2, persistent=True)
-
-
-play(sys.argv[sys.argv.index("--") + 1])
+)

@@ -92,6 +92,18 @@ def test_command(blender, folder):
     check_files(path)
 
 
+def test_command_for_the_trade(blender, folder):
+    path, inside = folder
+    done = blender.run(
+        SCENE, "--command", "reference_tracer", "trade", "--out", inside, "--width", "16"
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "certified" in done.stdout
+    # Debian's Blender has no Matplotlib: it is said, and all else is there.
+    assert "Matplotlib" in done.stdout
+    assert {p.name for p in path.iterdir()} == {"tradeoff.txt", "tradeoff.json"}
+
+
 def test_command_refuses_a_file_that_is_not_there(blender, folder):
     path, inside = folder
     done = blender.run(

@@ -1,0 +1,135 @@
+"""What every operator with long work shares: progress, time left, Esc, errors, one at a time.
+
+An operator says in `begin` what the work is, a generator that yields the share that is done, and in
+`finish` what becomes of its result. A script's call runs through; a button's goes on in small
+steps, while the interface stays alive.
+"""
+
+from __future__ import annotations
+
+import time
+import traceback
+from typing import Any, ClassVar
+
+import bpy
+from bpy.props import StringProperty
+
+from ..scene import SceneError
+from ..tracer.certainty import AssumptionError
+from ..tracer.progress import Work, result_of
+
+STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
+PAUSE = 0.005  # seconds that the interface gets in between
+
+# What a user can do something about; all else is a fault of ours, and its traceback is wanted.
+_EXPECTED = (SceneError, OSError, AssumptionError)
+
+
+class LongWork:
+    """Mixed into an operator: the class gives its names, its `begin` and its `finish`."""
+
+    bl_options = {"UNDO"}  # what it leaves is one step
+
+    running: ClassVar[str] = ""  # the label of the one that is, in whichever window
+
+    directory: StringProperty(  # type: ignore[valid-type]
+        name="Folder",
+        subtype="DIR_PATH",
+        options={"SKIP_SAVE"},
+        description="Where to write what is found; nothing is written if empty",
+    )
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Return the work; what has to be done in one go is done here."""
+        raise NotImplementedError
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the result of the work; return what to report: 'INFO' or 'WARNING', and a text."""
+        raise NotImplementedError
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow one at a time."""
+        if LongWork.running:
+            cls.poll_message_set(f"{LongWork.running} is running: Esc cancels it")
+        return not LongWork.running
+
+    def execute(self, context: Any) -> set[str]:
+        """Run through, as a script wants it."""
+        try:
+            return self._end(context, result_of(self.begin(context)))
+        except Exception as error:
+            return self._fail(error)
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Begin, and go on while the interface stays alive."""
+        if bpy.app.background:
+            return self.execute(context)
+        try:
+            self._work = self.begin(context)
+        except Exception as error:
+            return self._fail(error)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(PAUSE, window=context.window)
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        self._began = time.monotonic()
+        LongWork.running = self.bl_label
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Any, event: Any) -> set[str]:
+        """Work for one step, or stop at Esc."""
+        if event.type == "ESC" and event.value == "PRESS":
+            self._clean_up(context)
+            self.report({"WARNING"}, f"{self.bl_label} was cancelled; nothing was changed")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        until = time.monotonic() + STEP
+        try:
+            while time.monotonic() < until:
+                share = next(self._work)
+        except StopIteration as stop:
+            self._clean_up(context)
+            try:
+                return self._end(context, stop.value)
+            except Exception as error:
+                return self._fail(error)
+        except Exception as error:
+            self._clean_up(context)
+            return self._fail(error)
+        self._show_progress(context, share)
+        return {"PASS_THROUGH"}  # the timers of others are theirs
+
+    def cancel(self, context: Any) -> None:
+        """Stop when Blender itself ends the operator, as at quitting or loading a file."""
+        self._clean_up(context)
+
+    def _show_progress(self, context: Any, share: float) -> None:
+        context.window_manager.progress_update(int(100 * share))
+        past = time.monotonic() - self._began
+        left = f"  {past * (1 - share) / share:.0f} s left" if share > 0.01 else ""
+        context.workspace.status_text_set(
+            f"{self.bl_label}: {int(100 * share)} %{left}  (Esc: cancel)"
+        )
+
+    def _clean_up(self, context: Any) -> None:
+        LongWork.running = ""
+        self._work.close()
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        if context.workspace:
+            context.workspace.status_text_set(None)
+
+    def _end(self, context: Any, result: Any) -> set[str]:
+        level, text = self.finish(context, result)
+        for area in context.window.screen.areas if context.window else ():
+            area.tag_redraw()
+        self.report({level}, text)
+        return {"FINISHED"}
+
+    def _fail(self, error: Exception) -> set[str]:
+        if not isinstance(error, _EXPECTED):
+            traceback.print_exc()
+        self.report({"ERROR"}, str(error) or type(error).__name__)
+        return {"CANCELLED"}

@@ -1,0 +1,91 @@
+"""The trade and the extremes, up to where Blender is no longer needed, and their files."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..images import MissingLibraryError
+from ..report import extremes as extremes_report
+from ..report import trade as trade_report
+from ..study import extremes, tradeoff
+from ..study.scenario import Scenario
+from ..study.scenarios import ALL
+from ..study.trade import NAMES, Trade
+from ..tracer.progress import Work
+from ..tracer.settings import Method
+from . import images
+from .compare import export_open_file
+
+EVERY = "ALL"  # in place of a scenario's name
+
+
+def trade(context: Any, width: int | None = None, samples: int = tradeoff.SAMPLES) -> Work[Trade]:
+    """Export the context's scene at once; return the work of measuring its trade.
+
+    The scene is exported as a render has it, in a window too: the numbers are those of `reftrace`.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    scene, manifest, _ = export_open_file(context)
+    return tradeoff.measure(scene, width, samples, manifest.scene)
+
+
+def write_trade(folder: Path, found: Trade) -> None:
+    """Write what `reftrace trade` writes; without Matplotlib all but the plot."""
+    try:
+        trade_report.write(folder, found, images.save_png)
+    except MissingLibraryError as error:
+        print(f"Reference Tracer: {error}")
+
+
+def trade_table(found: Trade) -> list[str]:
+    """Return the table that `reftrace trade` prints, by lines."""
+    return trade_report.table(found).splitlines()
+
+
+def run_extremes(scenario: str = EVERY, rays: int | None = None) -> Work[list[extremes.Row]]:
+    """Return the work of tracing every scenario, or all of one name, by every method."""
+    return extremes.measure(chosen(scenario), rays)
+
+
+def chosen(name: str) -> Sequence[Scenario]:
+    """Return the scenarios of a name; a map has one for each row."""
+    return [s for s in ALL if name in (EVERY, s.name)]
+
+
+def write_extremes(folder: Path, rows: Sequence[extremes.Row]) -> None:
+    """Write what `reftrace extremes` writes; without Matplotlib all but the pictures."""
+    try:
+        extremes_report.write(folder, rows, images.save_png)
+    except MissingLibraryError as error:
+        print(f"Reference Tracer: {error}")
+
+
+def extremes_table(rows: Sequence[extremes.Row]) -> list[str]:
+    """Return the table of breaking points, by lines."""
+    return extremes.breaking_table(rows).splitlines()
+
+
+def extremes_sentence(rows: Sequence[extremes.Row]) -> str:
+    """Return in one sentence whether the certified method holds, and which other holds longest."""
+    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
+    points = [p for p in extremes.breaking_points(rows) if Method(p.method).is_plain]
+    holds = Counter({(p.method, p.precision): 0 for p in points})
+    holds.update((p.method, p.precision) for p in points if p.never)
+    if holds:
+        [((method, precision), count)] = holds.most_common(1)
+        total = len({p.scenario for p in points})
+        sentence += (
+            f"; of the other methods, {NAMES[method]} in {precision} holds in the most sweeps: "
+            f"{count} of {total}"
+            if count
+            else f"; every other method breaks in each of {total} sweeps"
+        )
+    return sentence + "."

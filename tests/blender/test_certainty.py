@@ -1,0 +1,73 @@
+"""Certainty in Blender: the pass in a file, and what is said where nothing can be certified."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.engine import ENGINE
+from reference_tracer.tracer import certainty
+from reference_tracer.tracer.certainty import Certainty
+
+SIZE = 40
+
+
+@pytest.fixture
+def square(build):
+    """An orthographic view along a square's diagonal: the middle of the pixels there is on it."""
+    scene = build.scene(SIZE, SIZE)
+    scene.render.engine = ENGINE
+    build.square(size=2.0)
+    build.camera(type="ORTHO", ortho_scale=2.5)
+    return scene
+
+
+@pytest.fixture
+def broken(monkeypatch):
+    """A machine whose arithmetic allows no proof."""
+    wrong = ("rounding to nearest", np.add, certainty._ONE, certainty._ONE, certainty._ONE)
+    monkeypatch.setattr(certainty, "_CHECKS", (wrong,))
+
+
+def test_the_pass_says_how_each_pixel_was_decided(square, rendered):
+    found = rendered()["ViewLayer"]["Certainty"][..., 0]
+    diagonal = np.eye(SIZE, dtype=bool)
+    if (found[diagonal] == Certainty.BOUND).all():
+        diagonal = diagonal[::-1]  # the square's other one
+    inside = np.abs(np.arange(SIZE) - (SIZE - 1) / 2) < SIZE * 2.0 / 2.5 / 2
+    met = diagonal & inside & inside[:, None]
+    assert set(found[met]) == {Certainty.AMBIGUOUS}
+    assert set(found[~met]) <= {Certainty.BOUND, Certainty.EXACT}
+
+
+def test_a_plain_method_certifies_nothing(square, rendered):
+    square.reference_tracer.method = "textbook"
+    assert not rendered()["ViewLayer"]["Certainty"].any()
+
+
+def test_what_the_scene_required_is_in_the_log(square, rendered, capfd):
+    rendered()
+    assert "needed exact arithmetic" in capfd.readouterr().out
+
+
+def test_certified_fails_where_nothing_can_be(square, broken, rendered):
+    square.reference_tracer.method = "certified"
+    with pytest.raises(RuntimeError, match="nothing can be certified in this process"):
+        rendered()
+
+
+def test_automatic_falls_back_and_says_so(square, broken, rendered, capfd):
+    assert not rendered()["ViewLayer"]["Certainty"].any()
+    said = capfd.readouterr()
+    assert "Traced by watertight in float64, as nothing can be certified" in said.out + said.err
+
+
+@pytest.mark.parametrize("method", ["auto", "certified"])
+def test_the_operator_says_so_too(method, square, broken, capfd):
+    square.reference_tracer.method = method
+    if method == "certified":
+        with pytest.raises(RuntimeError, match="nothing can be certified"):
+            bpy.ops.reference_tracer.compare()
+    else:
+        assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
+        assert "traced by watertight in float64" in capfd.readouterr().out

@@ -1,0 +1,66 @@
+"""What a .blend stores of the settings: by numbers, so these must never change their meaning."""
+
+from __future__ import annotations
+
+import bpy
+import pytest
+from reference_tracer.blender.properties import (
+    JUDGES,
+    METHODS,
+    PRECISIONS,
+    SHADINGS,
+)
+from reference_tracer.tracer.settings import Method, Precision, Settings
+
+# As released. A line may be added, none changed or removed: files are out there.
+STORED = {
+    "method": {
+        "textbook": 0,
+        "textbook_literal": 1,
+        "moller_trumbore": 2,
+        "watertight": 3,
+        "certified": 4,
+        "auto": 5,
+    },
+    "precision": {"float64": 0, "float32": 1},
+    "judge": {"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2},
+    "shading": {"LIKE_FOR_LIKE": 0, "AS_IS": 1},
+}
+CASES = [(name, value) for name, values in STORED.items() for value in values]
+
+
+def test_numbers_are_those_that_were_released():
+    items = {"method": METHODS, "precision": PRECISIONS, "judge": JUDGES, "shading": SHADINGS}
+    assert {n: {i[0]: i[-1] for i in some} for n, some in items.items()} == STORED
+
+
+def test_every_method_and_precision_is_offered():
+    assert {i[0] for i in METHODS} == {m.value for m in Method}
+    assert {i[0] for i in PRECISIONS} == {p.value for p in Precision}
+
+
+@pytest.mark.parametrize(("name", "value"), CASES)
+def test_a_saved_choice_is_read_back(name, value, tmp_path):
+    path = str(tmp_path / "saved.blend")
+    setattr(bpy.context.scene.reference_tracer, name, value)
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    stored = bpy.context.scene.reference_tracer
+    assert getattr(stored, name) == value
+    number = stored.bl_rna.properties[name].enum_items[value].value
+    assert number == STORED[name][value]
+
+
+def test_a_scene_that_stores_nothing_is_certified_where_that_is_possible():
+    assert bpy.context.scene.reference_tracer.settings() == Settings("auto", "float64", 1)
+
+
+@pytest.mark.parametrize("method", list(Method))
+def test_a_precision_that_is_greyed_out_does_not_count(method):
+    stored = bpy.context.scene.reference_tracer
+    stored.method, stored.precision, stored.samples = method, "float32", 3
+    used = "float32" if method.is_plain else "float64"
+    assert stored.settings() == Settings(method, used, 3)
+    assert stored.has_precision == method.is_plain
+    assert stored.precision == "float32"  # for when the method is a plain one again

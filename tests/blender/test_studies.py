@@ -1,0 +1,175 @@
+"""The operators of the two studies, as a script calls them: files, pictures, the user's scene."""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import commands, images, results
+from reference_tracer.study.extremes import BreakingPoint
+from reference_tracer.study.trade import Trade
+
+from .test_unchanged import differences, state
+
+TRADE_FILES = {"tradeoff.txt", "tradeoff.json", "tradeoff.png"}
+SMALL = {"width": 16, "samples": 1}
+FEW = {"scenario": "closed_fan", "rays": 12}
+
+
+@pytest.fixture
+def solids(build, tmp_path):
+    scene = build.scene(64, 36)
+    build.solids()
+    build.corner_camera(lens=40)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    bpy.context.preferences.is_dirty = False
+    return scene
+
+
+@pytest.fixture
+def without_matplotlib(monkeypatch):
+    """A Python like that of Blender itself."""
+    for name in [n for n in sys.modules if n.split(".")[0] == "matplotlib"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+
+
+def names():
+    return {i.name for i in bpy.data.images}
+
+
+def pixels(name):
+    image = bpy.data.images[name]
+    width, height = image.size
+    return np.array(image.pixels[:], np.float32).reshape(height, width, 4)
+
+
+def test_trade_shows_its_table_and_plot_and_changes_nothing(solids):
+    before = state()
+    assert bpy.ops.reference_tracer.trade(**SMALL) == {"FINISHED"}
+    found = results.latest(Trade, solids)
+    assert len(found.content.whole) == 9
+    assert found.content.whole[0].width == 16
+    assert found.lines == (found.content.advice,)
+    assert names() == {images.TRADE}
+    plot = pixels(images.TRADE)
+    assert plot.shape == (1080, 1920, 4)
+    assert not bpy.data.images[images.TRADE].is_float  # so that no view transform changes it
+    assert plot[0, 0].tolist() == [1, 1, 1, 1] and plot.std() > 0.05
+    bpy.data.images.remove(bpy.data.images[images.TRADE])
+    assert differences(before, state()) == []
+
+
+def test_trade_writes_what_reftrace_does(solids, tmp_path):
+    bpy.ops.reference_tracer.trade(directory=str(tmp_path / "out"), **SMALL)
+    assert {p.name for p in (tmp_path / "out").iterdir()} == TRADE_FILES
+    found = json.loads((tmp_path / "out" / "tradeoff.json").read_text(encoding="utf-8"))
+    assert found["scene"] == solids.name
+    assert found["advice"] == results.latest(Trade, solids).content.advice
+    assert {row["width"] for row in found["rows"]} == {4, 8, 16}
+
+
+def test_trade_of_a_scene_that_cannot_be_traced(solids):
+    solids.camera = None
+    before = state()
+    with pytest.raises(RuntimeError, match="has no camera"):
+        bpy.ops.reference_tracer.trade(**SMALL)
+    assert differences(before, state()) == []
+    assert results.latest(Trade, solids) is None
+
+
+def test_extremes_shows_its_table_and_pictures_and_changes_nothing(solids):
+    before = state()
+    assert bpy.ops.reference_tracer.extremes(**FEW) == {"FINISHED"}
+    points = results.latest(BreakingPoint, solids).content
+    assert {p.scenario for p in points} == {"closed_fan"}
+    assert [p.never for p in points if p.method == "certified"] == [True]
+    assert names() == {"Reference Tracer Breaking Points", "Reference Tracer Sweeps 1"}
+    for name in names():
+        assert pixels(name).std() > 0.05
+        bpy.data.images.remove(bpy.data.images[name])
+    assert differences(before, state()) == []
+
+
+def test_extremes_shows_a_map_of_two_scales(solids):
+    bpy.ops.reference_tracer.extremes(scenario="angle_and_aspect", rays=6)
+    assert names() == {"Reference Tracer Map Angle And Aspect"}
+    assert results.latest(BreakingPoint, solids).content == ()
+
+
+def test_extremes_writes_what_reftrace_does(solids, tmp_path):
+    bpy.ops.reference_tracer.extremes(directory=str(tmp_path / "out"), **FEW)
+    assert {p.name for p in (tmp_path / "out").iterdir()} == {
+        "extremes.txt",
+        "extremes.json",
+        "breaking_points.png",
+        "sweeps_1.png",
+    }
+
+
+@pytest.mark.parametrize(
+    ("run", "options", "kind", "files"),
+    [
+        ("trade", SMALL, Trade, TRADE_FILES - {"tradeoff.png"}),
+        ("extremes", FEW, BreakingPoint, {"extremes.txt", "extremes.json"}),
+    ],
+)
+def test_without_matplotlib_all_but_the_pictures(
+    run, options, kind, files, solids, tmp_path, without_matplotlib, capfd
+):
+    operator = getattr(bpy.ops.reference_tracer, run)
+    assert operator(directory=str(tmp_path / "out"), **options) == {"FINISHED"}
+    assert {p.name for p in (tmp_path / "out").iterdir()} == files
+    assert names() == set()
+    found = results.latest(kind, solids)
+    assert found.content
+    _, line = found.lines
+    assert sys.executable in line and f"reftrace {run}" in line
+    assert line in capfd.readouterr().out
+
+
+@pytest.mark.parametrize(("run", "options"), [("trade", SMALL), ("extremes", FEW)])
+def test_a_folder_that_cannot_be_written_is_known_before_the_work(run, options, solids, tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(RuntimeError, match="is a file"):
+        getattr(bpy.ops.reference_tracer, run)(directory=str(tmp_path / "file"), **options)
+
+
+def test_results_go_with_their_file(solids):
+    bpy.ops.reference_tracer.trade(**SMALL)
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    assert results.latest(Trade, bpy.context.scene) is None
+
+
+def test_the_commands(solids, tmp_path, capsys):
+    out = tmp_path / "out"
+    trade = ["trade", "--out", str(out), "--width", "16", "--samples", "1"]
+    assert commands.run(trade) == 0
+    assert {p.name for p in out.iterdir()} == TRADE_FILES
+    assert "float32" in capsys.readouterr().out
+    assert commands.run([*trade[:-1], "65"]) == 4
+    assert "samples is 65" in capsys.readouterr().err
+    assert commands.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
+    assert "--rays is 0" in capsys.readouterr().err
+    solids.camera = None
+    assert commands.run(trade) == 4
+    assert "has no camera" in capsys.readouterr().err
+
+
+def test_the_command_for_the_trade_needs_a_file(build, tmp_path, capsys):
+    build.camera()
+    assert commands.run(["trade", "--out", str(tmp_path / "out")]) == 4
+    assert "no file is open" in capsys.readouterr().err
+
+
+def test_the_command_for_the_extremes_runs_all(tmp_path, monkeypatch, capsys):
+    """All of them take minutes: what is left of them here is one."""
+    from reference_tracer.blender import studies
+
+    monkeypatch.setattr(studies, "ALL", [s for s in studies.ALL if s.name == "closed_fan"])
+    assert commands.run(["extremes", "--out", str(tmp_path / "out"), "--rays", "12"]) == 0
+    assert "closed" in capsys.readouterr().out.lower()
+    assert (tmp_path / "out" / "extremes.json").is_file()

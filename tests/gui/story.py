@@ -1,0 +1,172 @@
+"""What stories share: the window, the keyboard, waiting, and what must stay as it was.
+
+A story is a generator: it yields how many seconds to wait, and Blender draws and handles events
+meanwhile. What it notes is written to out/gui/NAME.json when it ends, and Blender quits.
+"""
+
+import hashlib
+import json
+import subprocess
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+
+OUT = Path("/project/out/gui")
+SIDEBAR_TAB = ("1308", "233")  # ours, in a window of 1600 x 900
+noted = {}
+
+
+def window():
+    return bpy.context.window_manager.windows[0]
+
+
+def press(key):
+    """Press a key as a keyboard does, with the pointer over the 3D view."""
+    subprocess.run(["xdotool", "mousemove", "500", "350", "key", key], check=True)
+
+
+def screenshot(name):
+    subprocess.run(["import", "-window", "root", str(OUT / f"{name}.png")], check=True)
+
+
+def data_blocks():
+    return {
+        name: sorted(x.name_full for x in getattr(bpy.data, name))
+        for name in (
+            "scenes",
+            "objects",
+            "meshes",
+            "materials",
+            "images",
+            "collections",
+            "worlds",
+            "node_groups",
+        )
+    }
+
+
+def settings():
+    """Everything of the user's that a comparison could have touched."""
+    scene, preferences = window().scene, bpy.context.preferences
+    out = {
+        "scene": scene.name,
+        "view_layer": window().view_layer.name,
+        "viewport_aa": preferences.system.viewport_aa,
+        "dirty": preferences.is_dirty,
+    }
+    shading = [a.spaces.active.shading for a in window().screen.areas if a.type == "VIEW_3D"]
+    for name, owner in (
+        ("render", scene.render),
+        ("display", scene.display),
+        ("shading", scene.display.shading),
+        ("view", scene.view_settings),
+        ("image", scene.render.image_settings),
+        *((f"3d{k}", s) for k, s in enumerate(shading)),
+    ):
+        for prop in owner.bl_rna.properties:
+            if prop.type in ("BOOLEAN", "INT", "FLOAT", "ENUM", "STRING"):
+                value = getattr(owner, prop.identifier)
+                out[f"{name}.{prop.identifier}"] = repr(
+                    list(value) if getattr(prop, "is_array", False) else value
+                )
+    return out
+
+
+def render_result():
+    """A digest of the user's last render, read through a file as a user would save it."""
+    image = bpy.data.images.get("Render Result")
+    if image is None:
+        return None
+    path = OUT / "render_result.png"
+    path.unlink(missing_ok=True)
+    image.save_render(str(path), scene=window().scene)
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def until(condition, seconds=60):
+    """Wait for something; an error if it does not come."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            raise TimeoutError(condition.__name__)
+        yield 0.05
+
+
+def reports():
+    """What the Info editor lists."""
+    area = window().screen.areas[0]
+    area.type = "INFO"
+    with bpy.context.temp_override(window=window(), area=area, region=area.regions[-1]):
+        bpy.ops.info.select_all(action="SELECT")
+        bpy.ops.info.report_copy()
+    return bpy.context.window_manager.clipboard
+
+
+def module(name):
+    """A module of the installed extension."""
+    return sys.modules[f"bl_ext.user_default.reference_tracer.addon.{name}"]
+
+
+def result(kind="compare.comparison.Comparison"):
+    """The latest result of a kind, by its class."""
+    path, name = kind.rsplit(".", 1)
+    return module("blender.results").latest(getattr(module(path), name), window().scene)
+
+
+def compared():
+    return result() is not None
+
+
+def invoke(name, **options):
+    """Press the button of an operator; undo is as for a button, which a script's call is not."""
+    with bpy.context.temp_override(window=window()):
+        return getattr(bpy.ops.reference_tracer, name)("INVOKE_DEFAULT", True, **options)
+
+
+def press_compare():
+    return invoke("compare")
+
+
+def running():
+    """Our operators that are."""
+    return [
+        o.bl_idname for o in window().modal_operators if "reference_tracer" in o.bl_idname.lower()
+    ]
+
+
+def open_tab():
+    """Click on our tab of the sidebar."""
+    for action in (["mousemove", *SIDEBAR_TAB], ["mousedown", "1"], ["mouseup", "1"]):
+        subprocess.run(["xdotool", *action], check=True)
+        yield 0.3
+    yield 1
+
+
+def show_panel():
+    for area in window().screen.areas:
+        if area.type == "VIEW_3D":
+            area.spaces.active.show_region_ui = True
+        if area.type == "PROPERTIES":
+            area.spaces.active.context = "RENDER"
+
+
+def play(stories):
+    """Play the story that the command line names."""
+    name = sys.argv[sys.argv.index("--") + 1]
+    story = next(s for s in stories if s.__name__ == name)()
+
+    def go():
+        try:
+            return next(story)
+        except StopIteration:
+            pass
+        except BaseException:
+            noted["error"] = traceback.format_exc()
+        (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
+        bpy.ops.wm.quit_blender()
+        return None
+
+    bpy.app.timers.register(go, first_interval=2, persistent=True)

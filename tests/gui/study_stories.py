@@ -1,0 +1,198 @@
+"""What a user does with the two studies, played in Blender's window: see `story.py`."""
+
+import subprocess
+import sys
+import time
+from importlib.util import find_spec
+from pathlib import Path
+
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
+
+from story import (
+    compared,
+    data_blocks,
+    invoke,
+    noted,
+    open_tab,
+    play,
+    press,
+    render_result,
+    result,
+    running,
+    screenshot,
+    settings,
+    show_panel,
+    until,
+    window,
+)
+
+TRADE, EXTREMES = "study.trade.Trade", "study.extreme_rows.BreakingPoint"
+SMALL = {"width": 48, "samples": 2}
+
+
+def add_matplotlib():
+    """Lend Blender the Matplotlib of the project's environment, if it has the same Python."""
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    sys.path.append(f"/project/.venv/lib/{version}/site-packages")
+    noted["matplotlib"] = find_spec("matplotlib") is not None
+
+
+def note_changes(before):
+    after = settings(), data_blocks(), render_result()
+    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
+    noted["new"] = {
+        k: sorted(set(v) - set(before[1][k])) for k, v in after[1].items() if v != before[1][k]
+    }
+    noted["render_result_kept"] = before[2] == after[2]
+
+
+def show_study(name, picture):
+    """Open a panel of our tab by its header."""
+    window().scene.render.engine = "REFERENCE_TRACER"
+    show_panel()
+    yield 0.5
+    yield from open_tab()
+    subprocess.run(["xdotool", "mousemove", *PANELS[name], "click", "1"], check=True)
+    yield 1
+    screenshot(picture)
+
+
+PANELS = {"trade": ("1100", "280"), "extremes": ("1100", "307")}  # headers, both closed
+
+
+def show_image(name, picture):
+    """Give the 3D view's place to an image."""
+    [area] = [a for a in window().screen.areas if a.type == "VIEW_3D"]
+    area.type = "IMAGE_EDITOR"
+    area.spaces.active.image = bpy.data.images.get(name)
+    yield 0.5
+    with bpy.context.temp_override(window=window(), area=area, region=area.regions[-1]):
+        bpy.ops.image.view_all(fit_view=True)
+    yield 1
+    screenshot(picture)
+
+
+def images():
+    return {
+        i.name: [list(i.size), float(np.ptp(np.array(i.pixels[:])))]
+        for i in bpy.data.images
+        if i.name.startswith("Reference Tracer")
+    }
+
+
+def study(name, kind, **options):
+    """Press a button, look at it run, and at what it shows."""
+    yield 1
+    bpy.ops.render.render()  # the user's own last render must survive
+    before = settings(), data_blocks(), render_result()
+    noted["pressed"] = list(invoke(name, **options))
+    yield 5
+    noted["running"] = running()
+    noted["others"] = [
+        operator.poll()
+        for operator in (bpy.ops.reference_tracer.compare, bpy.ops.reference_tracer.trade)
+    ]
+    screenshot(f"{name}_running")
+
+    def found():
+        return result(kind)
+
+    yield from until(found, 280)
+    yield 1
+    note_changes(before)
+    noted["lines"] = list(result(kind).lines)
+    noted["images"] = images()
+    yield from show_study(name, name)
+
+
+def trade():
+    """The trade in Blender as it is installed: without Matplotlib, the table is shown."""
+    yield from study("trade", TRADE, **SMALL)
+    noted["rows"] = len(result(TRADE).content.whole)
+    noted["advice"] = result(TRADE).content.advice
+
+
+def trade_with_plot():
+    """With Matplotlib the plot is an image, and the image editor shows it."""
+    add_matplotlib()
+    for area in window().screen.areas:
+        if area.type == "DOPESHEET_EDITOR":
+            area.type = "IMAGE_EDITOR"
+    yield from study("trade", TRADE, **SMALL)
+    noted["shown"] = [
+        a.spaces.active.image.name
+        for a in window().screen.areas
+        if a.type == "IMAGE_EDITOR" and a.spaces.active.image
+    ]
+    yield from show_image("Reference Tracer Trade", "trade_plot")
+
+
+def extremes():
+    """All scenarios with few rays, and the maps as images."""
+    add_matplotlib()
+    yield from study("extremes", EXTREMES, rays=24)
+    yield from show_image("Reference Tracer Map Size And Distance", "extremes_map")
+    noted["points"] = [
+        [p.scenario, p.method, p.precision, p.never] for p in result(EXTREMES).content
+    ]
+
+
+def escape(name, kind, **options):
+    """Esc midway: stopped, and everything as before."""
+    yield 1
+    before = settings(), data_blocks(), render_result()
+    invoke(name, **options)
+    yield 2
+    noted["running"] = running()
+    pressed = time.monotonic()
+    press("Escape")
+
+    def stopped():
+        return not running()
+
+    yield from until(stopped)
+    noted["seconds_to_stop"] = time.monotonic() - pressed
+    note_changes(before)
+    noted["found"] = result(kind) is not None
+    noted["can_begin"] = bpy.ops.reference_tracer.trade.poll()
+
+
+def trade_escape():
+    yield from escape("trade", TRADE)
+
+
+def extremes_escape():
+    yield from escape("extremes", EXTREMES)
+
+
+def extreme_scene():
+    """A scenario as a scene: it is seen through its camera, compared there, and undone."""
+    yield 1
+    user = window().scene.name
+    noted["pressed"] = list(invoke("extreme_scene", scenario="far_from_origin", scale="1e8"))
+    yield 2
+    noted["scene"] = window().scene.name
+    noted["view"] = [
+        a.spaces.active.region_3d.view_perspective
+        for a in window().screen.areas
+        if a.type == "VIEW_3D"
+    ]
+    yield from show_study("extremes", "extreme_scene")
+    invoke("compare")
+    yield from until(compared)
+    yield 1
+    screenshot("extreme_scene_compared")
+    noted["comparison"] = result().content.to_dict()
+    noted["undone"] = []
+    for _ in range(2):  # the comparison, the scene
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.ed.undo()
+        yield 1
+        noted["undone"].append([[s.name for s in bpy.data.scenes], sorted(images())])
+    noted["user"] = user
+
+
+play((trade, trade_with_plot, extremes, trade_escape, extremes_escape, extreme_scene))

@@ -1,0 +1,86 @@
+"""The buttons of the two studies in the real window. Screenshots are left in out/gui."""
+
+import pytest
+
+pytestmark = pytest.mark.gui
+
+PICTURES = {
+    "Reference Tracer Breaking Points",
+    "Reference Tracer Sweeps 1",
+    "Reference Tracer Sweeps 2",
+    "Reference Tracer Map Angle And Aspect",
+    "Reference Tracer Map Size And Distance",
+}
+
+
+@pytest.fixture
+def story(blender):
+    """Play a study's story, in a scene of few triangles."""
+
+    def play(name):
+        return blender.story(name, scene="exercise_triangle", file="study_stories")
+
+    return play
+
+
+def assert_ran(noted, name):
+    """It ran while the interface was alive, alone, and changed nothing but our own images."""
+    assert noted["pressed"] == ["RUNNING_MODAL"]
+    assert noted["running"] == [f"REFERENCE_TRACER_OT_{name}"]
+    assert noted["others"] == [False, False]
+    assert noted["changed"] == {}
+    assert noted["new"] == ({"images": sorted(noted["images"])} if noted["images"] else {})
+    assert noted["render_result_kept"]
+    assert all(spread > 0 for _, spread in noted["images"].values())
+
+
+def test_trade_without_matplotlib_shows_its_table(story):
+    noted = story("trade")
+    assert_ran(noted, "trade")
+    assert noted["rows"] == 9
+    assert noted["images"] == {}
+    advice, why = noted["lines"]
+    assert advice == noted["advice"] and "float32" in advice
+    assert "-m pip install matplotlib" in why and "reftrace trade" in why
+
+
+def test_trade_shows_its_plot(story):
+    """With the Matplotlib of the project's environment, where it fits Blender's Python."""
+    noted = story("trade_with_plot")
+    assert_ran(noted, "trade")
+    if noted["matplotlib"]:
+        assert noted["images"].keys() == {"Reference Tracer Trade"} == set(noted["shown"])
+        assert len(noted["lines"]) == 1
+    else:
+        assert "-m pip install matplotlib" in noted["lines"][1]
+
+
+def test_extremes_shows_its_table_and_maps(story):
+    noted = story("extremes")
+    assert_ran(noted, "extremes")
+    assert noted["images"].keys() == (PICTURES if noted["matplotlib"] else set())
+    assert "Certified gets no ray wrong" in noted["lines"][0]
+    certified = [never for _, method, _, never in noted["points"] if method == "certified"]
+    assert len(certified) > 15 and all(certified)
+    assert not all(never for _, _, _, never in noted["points"])
+
+
+@pytest.mark.parametrize("name", ["trade", "extremes"])
+def test_escape_leaves_nothing(name, story):
+    noted = story(f"{name}_escape")
+    assert noted["running"] == [f"REFERENCE_TRACER_OT_{name}"]
+    assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
+    assert noted["changed"] == noted["new"] == {}
+    assert noted["render_result_kept"]
+    assert not noted["found"]
+    assert noted["can_begin"]
+
+
+def test_a_scenario_is_opened_compared_and_undone(story):
+    noted = story("extreme_scene")
+    assert noted["pressed"] == ["FINISHED"]
+    assert noted["scene"] == noted["comparison"]["scene"]["scene"] != noted["user"]
+    assert set(noted["view"]) == {"CAMERA"}
+    wrong = {m["method"]: m["wrong_pixels"] for m in noted["comparison"]["methods"]}
+    assert wrong["certified"] == 0
+    assert noted["undone"] == [[sorted([noted["user"], noted["scene"]]), []], [[noted["user"]], []]]
