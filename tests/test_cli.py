@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import subprocess
 import sys
@@ -12,11 +13,13 @@ import pytest
 import trimesh
 from PIL import Image
 from reference_tracer import __version__
-from reference_tracer.arguments import AGREE, INPUT_ERROR
+from reference_tracer.arguments import AGREE, INPUT_ERROR, settings_from
 from reference_tracer.cli import main
+from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.tracer import certainty
+from reference_tracer.tracer.settings import Settings
 
 SMALL = ["--width", "24", "--height", "16"]
 
@@ -358,3 +361,12 @@ def test_version_and_no_command(capsys):
     with pytest.raises(SystemExit) as stop:
         main([])
     assert stop.value.code == INPUT_ERROR and "--help" in capsys.readouterr().err
+
+
+def test_a_proven_method_takes_float64_whatever_is_stored():
+    stored = Settings("textbook", "float32")
+    for method in ("certified", "auto"):
+        found = settings_from(argparse.Namespace(method=method), stored)
+        assert (found.method, found.precision) == (method, "float64")
+        with pytest.raises(SceneError, match="float32"):
+            settings_from(argparse.Namespace(method=method, precision="float32"), Settings())

@@ -10,7 +10,7 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 from ..compare.comparison import Comparison
 from ..scene import SceneError
 from ..study import tradeoff
-from ..study.scenarios import MAPS, SCENARIOS
+from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from ..tracer.progress import Work
 from . import results, scenario_scene, studies
 from .compare import compare_to_folder, gather, made

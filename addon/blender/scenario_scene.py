@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Instance, Mesh, Scene, SceneError
 from ..study.extreme_rows import written
-from ..study.scenario import Scenario
-from ..study.scenarios import SCENARIOS
+from ..study.scenarios.scenario import Scenario
+from ..study.scenarios.sweeps import SCENARIOS
 from .engine import ENGINE
 from .scenario_camera import LEAST_CLIP, add_camera, shown_window
 

@@ -11,8 +11,8 @@ from ..images import MissingLibraryError
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
 from ..study import extremes, tradeoff
-from ..study.scenario import Scenario
-from ..study.scenarios import ALL
+from ..study.scenarios.scenario import Scenario
+from ..study.scenarios.sweeps import ALL
 from ..study.trade import NAMES, Trade
 from ..tracer.progress import Work
 from ..tracer.settings import Method

@@ -9,7 +9,7 @@ from bpy.props import EnumProperty, PointerProperty
 
 from ..study.extreme_rows import written
 from ..study.extremes import BreakingPoint
-from ..study.scenarios import SCENARIOS
+from ..study.scenarios.sweeps import SCENARIOS
 from ..study.trade import Row, Trade
 from ..tracer.settings import Method
 from . import results

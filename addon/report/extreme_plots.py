@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
-from ..study.scenario import Map
-from ..study.scenarios import SCENARIOS
+from ..study.scenarios.scenario import Map
+from ..study.scenarios.sweeps import SCENARIOS
 from . import plots
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..study.extremes import Row, breaking_points, breaking_table, table
-from ..study.scenarios import MAPS, SCENARIOS
+from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
 from .files import SavePng
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .scenarios import SCENARIOS
+from .scenarios.sweeps import SCENARIOS
 
 NAMES = {
     "textbook_literal": "literal",

@@ -24,8 +24,8 @@ from ..tracer.settings import Method, Precision, Settings
 from ..tracer.triangle import METHODS
 from ..tracer.visibility import within_clip
 from .extreme_rows import BreakingPoint, Row, breaking_points, breaking_table, table
-from .scenario import Scenario
-from .scenarios import ALL
+from .scenarios.scenario import Scenario
+from .scenarios.sweeps import ALL
 from .truth import Truth, crossings, judge_sample, keys, number, pixel_rays, sample, truth_of
 
 __all__ = [

@@ -9,7 +9,7 @@ from reference_tracer.blender.engine import ENGINE
 from reference_tracer.blender.scenario_camera import add_camera, shown_window
 from reference_tracer.blender.scenario_scene import CHANGED
 from reference_tracer.scene import Camera, ViewWindow
-from reference_tracer.study.scenarios import SCENARIOS
+from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.render import render
 
 from .test_unchanged import differences, state

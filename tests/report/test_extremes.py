@@ -11,7 +11,7 @@ import pytest
 from reference_tracer.images import MissingLibraryError, save_png
 from reference_tracer.report.extremes import picture_names, pictures, to_dict, write
 from reference_tracer.study.extreme_rows import Row
-from reference_tracer.study.scenarios import MAPS, SCENARIOS, quick
+from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS, quick
 
 KEYS = {"scenario", "scale", "method", "precision", "rays", "missed", "doubled", "wrong", "refused"}
 CHOICES = [("textbook", "float32"), ("textbook", "float64"), ("certified", "float64")]

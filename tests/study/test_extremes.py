@@ -9,7 +9,7 @@ import pytest
 from reference_tracer.study import extremes
 from reference_tracer.study.extreme_rows import Row, breaking_points, breaking_table, table, written
 from reference_tracer.study.extremes import measure
-from reference_tracer.study.scenarios import ALL, MAPS, SCENARIOS, quick
+from reference_tracer.study.scenarios.sweeps import ALL, MAPS, SCENARIOS, quick
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.certainty import Certainty
 from reference_tracer.tracer.hits import NOTHING

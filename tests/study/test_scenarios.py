@@ -8,10 +8,8 @@ import warnings
 import numpy as np
 import pytest
 from reference_tracer.scene import Scene
-from reference_tracer.study import scenario_parts as parts
-from reference_tracer.study import scenario_shapes as shapes
-from reference_tracer.study import scenario_views as views
-from reference_tracer.study.scenarios import ALL, MAPS, SCENARIOS, quick
+from reference_tracer.study.scenarios import parts, shapes, views
+from reference_tracer.study.scenarios.sweeps import ALL, MAPS, SCENARIOS, quick
 from reference_tracer.study.truth import pixel_rays
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.settings import Precision

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from . import scenario_shapes as shapes
-from . import scenario_views as views
+from . import shapes, views
+from .maps import MAPS
 from .scenario import QUICK_HEIGHT, QUICK_WIDTH, Scenario
-from .scenario_maps import MAPS
 
 _FAR = (0.0, 1e3, 148376.0, 1e6, 1e8, 1e10, 1e12, 1e14, 1e15)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..scene import Scene
+from ...scene import Scene
 
 WIDTH, HEIGHT = 32, 24  # pixels, so rays of a scene
 MAP_WIDTH, MAP_HEIGHT = 16, 12

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene import Mesh, Scene, ViewWindow
-from ..tracer.camera import camera_rays
-from .scenario_parts import (
+from ...scene import Mesh, Scene, ViewWindow
+from ...tracer.camera import camera_rays
+from .parts import (
     BESIDE,
     TURNED,
     TURNED_39,

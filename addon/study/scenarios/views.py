@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene import Mesh, Scene
-from .scenario_parts import BESIDE, TURNED, camera, moved, scene, sheet, sphere
+from ...scene import Mesh, Scene
+from .parts import BESIDE, TURNED, camera, moved, scene, sheet, sphere
 
 EYE = np.array((0.3, -0.2, 0.25))  # inside the sphere, not at its centre
 AWAY = np.array((1.0, 0.0083, -1.506))  # the direction of the centre in Embree's own test

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Camera, Instance, Mesh, Scene, ViewWindow
-from ..tracer.camera import camera_rays
+from ...scene import Camera, Instance, Mesh, Scene, ViewWindow
+from ...tracer.camera import camera_rays
 
 SEED = 20240611
 

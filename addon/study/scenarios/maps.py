@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from . import scenario_shapes as shapes
-from . import scenario_views as views
+from . import shapes, views
 from .scenario import MAP_HEIGHT, MAP_WIDTH, Build, Map, Scenario
 
 

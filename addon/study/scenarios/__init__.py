@@ -1,0 +1,1 @@
+"""The scenarios of numerical stability: `sweeps.py` lists them."""
