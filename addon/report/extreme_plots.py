@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.scenario import Map
 from ..study.scenarios.sweeps import SCENARIOS
+from ..study.trade import NAMES
 from . import plots
 
 if TYPE_CHECKING:
@@ -19,20 +20,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
 
-NAMES = {
-    "textbook_literal": "textbook,\nliteral",
-    "textbook": "textbook",
-    "moller_trumbore": "Möller–\nTrumbore",
-    "watertight": "watertight",
-    "certified": "certified",
-}
 # Of the sweeps: without the literal textbook, which loses half of all rays and hides the others.
-COLORS = {
-    "textbook": "#d55e00",
-    "moller_trumbore": "#0072b2",
-    "watertight": "#009e73",
-    "certified": "#7a3d9a",
-}
+COLORS = {m: color for m, color in plots.METHOD_COLORS.items() if m != "textbook_literal"}
 ACROSS = 4  # sweeps beside one another
 NEVER = "#d9eedd"  # of a cell or a map where nothing goes wrong
 _KNOWN = {s.name: s for s in SCENARIOS}
@@ -64,7 +53,8 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
             -0.12, y + 0.5, _scale_of(name), va="center", ha="right", color=_GREY, fontsize=11
         )
     for x, (method, precision) in enumerate(columns):
-        axes.text(x + 0.5, -1.0, NAMES[method], **_CENTRED, fontsize=13, fontweight="bold")
+        lines = NAMES[method].replace(" ", "\n").replace("–", "–\n")
+        axes.text(x + 0.5, -1.0, lines, **_CENTRED, fontsize=13, fontweight="bold")
         axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=_GREY)
     for p in points:
         x, y = columns.index((p.method, p.precision)), names.index(p.scenario)
@@ -103,10 +93,6 @@ def _scale_of(scenario: str) -> str:
     return f"{known.scale_name}{f', {known.unit}' if known.unit else ''}" if known else ""
 
 
-def _one_line(method: str) -> str:
-    return NAMES[method].replace("–\n", "–").replace("\n", " ")
-
-
 def _colormap() -> Colormap:
     """Return from pale yellow to dark red, with a colour for none and one for not known."""
     import matplotlib
@@ -124,7 +110,7 @@ def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[n
     for axes in grid[len(sweeps) :]:
         axes.set_axis_off()
     handles = [
-        grid[0].plot([], [], "o-", color=color, lw=2.5, ms=6, label=_one_line(method))[0]
+        grid[0].plot([], [], "o-", color=color, lw=2.5, ms=6, label=NAMES[method])[0]
         for method, color in COLORS.items()
     ]
     for label, style in (("float64", "-"), ("float32", ":")):
@@ -219,7 +205,7 @@ def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
             cells[others.index(r.across), scales.index(r.scale)] = r.share
     norm = PowerNorm(0.5, vmin=0.5 / max(r.rays for r in rows), vmax=1)  # below a ray: none
     image = axes.imshow(np.ma.masked_invalid(cells), cmap=_colormap(), norm=norm, aspect="auto")
-    title = f"{_one_line(rows[0].method)}, {rows[0].precision}"
+    title = f"{NAMES[rows[0].method]}, {rows[0].precision}"
     axes.set_title(title, fontsize=14, color=plots.INK)
     _ticks(axes.set_xticks, scales)
     axes.set_yticks(range(len(others)), [written(o) for o in others])

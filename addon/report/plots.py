@@ -20,6 +20,13 @@ if TYPE_CHECKING:
 WIDTH, HEIGHT = 1920, 1080  # pixels: what a projector shows
 DPI = 120
 INK, FAINT = "#222222", "#c8c8c8"
+METHOD_COLORS = {
+    "textbook_literal": "#b0723a",
+    "textbook": "#d55e00",
+    "moller_trumbore": "#0072b2",
+    "watertight": "#009e73",
+    "certified": "#7a3d9a",
+}
 
 
 def new_figure(width: int = WIDTH, height: int = HEIGHT) -> Figure:

@@ -14,13 +14,6 @@ from . import plots
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_COLORS = {
-    "textbook_literal": "#b0723a",
-    "textbook": "#d55e00",
-    "moller_trumbore": "#0072b2",
-    "watertight": "#009e73",
-    "certified": "#7a3d9a",
-}
 _GREY = "#666666"
 _BAND = (-0.9, 0.9)  # where the rows without a wrong pixel are, one below the other
 _Error = Callable[[Row], float]
@@ -41,7 +34,7 @@ def picture(trade: Trade) -> NDArray[np.uint8]:
     left, right = figure.subplots(1, 2)
     _wrong_pixels(left, trade)
     _coverage(right, trade)
-    labels = {NAMES[m]: {"color": _COLORS[m]} for m in _COLORS}
+    labels = {NAMES[m]: {"color": plots.METHOD_COLORS[m]} for m in plots.METHOD_COLORS}
     labels |= {"float64": {"color": _GREY}, "float32": {"color": _GREY, "mfc": "white"}}
     handles = [
         left.plot([], [], "o", markersize=13, mew=2.5, label=label, **style)[0]
@@ -88,7 +81,13 @@ def _wrong_pixels(axes: Axes, trade: Trade) -> None:
         return place.get(id(r), r.wrong_pixels)
 
     for r in rows:
-        axes.plot([r.fastest, r.slowest], [height(r)] * 2, color=_COLORS[r.method], lw=2, alpha=0.4)
+        axes.plot(
+            [r.fastest, r.slowest],
+            [height(r)] * 2,
+            color=plots.METHOD_COLORS[r.method],
+            lw=2,
+            alpha=0.4,
+        )
     _points(axes, rows, height, lambda r: r.best_pixels)
     for r in rows:
         if _is_named(r):
@@ -133,7 +132,7 @@ def _points(axes: Axes, rows: list[Row], error: _Error, best: Callable[[Row], bo
     line = [r.seconds for r in front], [error(r) for r in front]
     axes.plot(*line, color=plots.INK, lw=2.5, zorder=2)
     for r in rows:
-        color = _COLORS[r.method]
+        color = plots.METHOD_COLORS[r.method]
         fill = color if r.precision == "float64" else "white"
         size, z, alpha = (16, 4, 1.0) if best(r) else (10, 3, 0.7)
         axes.plot(
