@@ -9,7 +9,8 @@ the scene. With e1 = p2 - p1, e2 = p3 - p1, q = o - p1, and P = d x e2, Q = q x 
 
 Every float is a whole number times a power of two, so that all of these are whole numbers. A ray is
 moved by adding x v1 + x^2 v2 + ... to d, with x = 2^-k and k above the digits of anything that
-occurs: a genuine ray, small enough that nothing but what was zero changes its sign.
+occurs: a genuine ray, small enough that nothing but what was zero changes its sign. What a ray
+begins on is zero however it turns: so o is moved alike, by a y that is as small beside all that.
 """
 
 from __future__ import annotations
@@ -77,7 +78,7 @@ def judge_pairs(origins: NDArray, directions: NDArray, corners: NDArray) -> Judg
         hit = inside.copy()
         for k in np.flatnonzero(closed & ~inside):
             column = [[int(x) for x in w[:, k]] for w in (o, d, *points)]
-            hit[k] = meets(column[0], move(column[1], THE_RULE, column), *column[2:])
+            hit[k] = meets(*moved(*column[:2], column[2:], THE_RULE))
         side = np.where(inside, INSIDE, np.where(closed, EDGE, OUTSIDE)).astype(np.int8)
         parts.append((side, hit, depth, det, scale - direction_scale))
     return Judgement(*(np.concatenate(column) for column in zip(*parts, strict=True)))
@@ -107,14 +108,24 @@ def meets(o, d, p1, p2, p3) -> bool:
     return min(u, v, det - u - v) > 0 or max(u, v, det - u - v) < 0
 
 
-def move(d, by: Sequence, others: Sequence) -> list[int]:
-    """Return (d + x by[0] + x^2 by[1] + ...) / x^len(by), x small beside all integers involved."""
-    digits = max(abs(x) for v in (d, *by, *others) for x in v).bit_length()
-    k = 8 * digits + 64  # a comparison of two t has products of six of them
-    moved = list(d)
-    for v in by:
-        moved = [(a << k) + b for a, b in zip(moved, v, strict=True)]
-    return moved
+def moved(o, d, points: Sequence, by: Sequence) -> list[list[int]]:
+    """Return o, d and points with the ray moved along `by`, all lengths times one power of two."""
+    d = move(d, by, [o, d, *by, *points])
+    k = _shift([o, d, *by, *points])
+    return [move(o, by, [], k), d, *([x << k * len(by) for x in p] for p in points)]
+
+
+def move(v, by: Sequence, beside: Sequence, k: int = 0) -> list[int]:
+    """Return (v + x by[0] + x^2 by[1] + ...) / x^len(by), x = 2^-k small beside all of these."""
+    k = k or _shift(beside)
+    for step in by:
+        v = [(a << k) + b for a, b in zip(v, step, strict=True)]
+    return list(v)
+
+
+def _shift(vectors: Sequence) -> int:
+    digits = max(abs(x) for v in vectors for x in v).bit_length()
+    return 8 * digits + 64  # a comparison of two t has products of six of them
 
 
 @dataclass(frozen=True)
@@ -208,13 +219,19 @@ def _sight(o, d, corners, meetings: list) -> Sight:
     for normal in _turning(origin, d, solids):
         along = _cross(normal, d)  # d moved along it stays on the boundary; `normal` leaves it
         for s, r in product((1, -1), repeat=2):
-            by = ([s * x for x in along], [r * x for x in normal])
-            may.add(_moved_sight(origin, d, solids, by))
+            beside = [s * x for x in along], [r * x for x in normal]
+            by = move([0, 0, 0], beside, (*beside, origin, d, *(p for _, q in solids for p in q)))
+            may.add(_moved_sight(origin, d, solids, (by,)))
     return Sight(seen, frozenset(may), touched)
 
 
 def _moved_sight(o, d, solids, by) -> tuple[int, int]:
-    d = move(d, by, [p for _, s in solids for p in (o, *s)])
+    points = [p for _, s in solids for p in (s if len(s) == 3 else s[:1])]
+    o, d, *points = moved(o, d, points, by)
+    rest = iter(points)
+    solids = [
+        (n, [next(rest) for _ in s] if len(s) == 3 else [next(rest), s[1]]) for n, s in solids
+    ]
     best = None
     for name, solid in solids:
         if len(solid) == 2:
@@ -238,12 +255,13 @@ def _turning(o, d, solids) -> set[tuple[int, ...]]:
             continue
         e1, e2, q = _sub(solid[1], solid[0]), _sub(solid[2], solid[0]), _sub(o, solid[0])
         u, v, det = _cross(e2, q), _cross(q, e1), _cross(e2, e1)
-        found |= {tuple(m) for m in (u, v, _sub(_sub(det, u), v)) if _dot(d, m) == 0}
+        edges = (u, e2), (v, e1), (_sub(_sub(det, u), v), _sub(e2, e1))
+        found |= {tuple(m if any(m) else _cross(e, d)) for m, e in edges if _dot(d, m) == 0}
         levels.append((_dot(e2, v), det))
     for (depth1, n1), (depth2, n2) in combinations(levels, 2):
         w = [depth1 * b - depth2 * a for a, b in zip(n1, n2, strict=True)]
         if _dot(d, w) == 0:
-            found.add(tuple(w))
+            found.add(tuple(w if any(w) or depth1 else _cross(_cross(n1, n2), d)))
     return {m for m in found if any(m)}
 
 

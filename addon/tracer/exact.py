@@ -15,6 +15,11 @@ sign of e is then that of the first of e, m_x, m_y, m_z that is not zero. As tha
 for all triangles, a surface without gaps is met exactly once. Two hits at the same t are ordered by
 the same ray; where even that ties, they lie in one plane, and the lower name is seen.
 
+Where m itself is zero, the ray begins on the line of an edge, and no direction takes it off. A ray
+does not meet what it begins on, unless an orthographic camera sees behind itself. Then o is moved
+as well, infinitely less: m_ab becomes y (1, y, y^2) x (a - b), and its sign is that of
+((a - b) x d)_x, and so on. Two hits at t = 0 are ordered alike.
+
 Source: Edelsbrunner and Mücke, "Simulation of simplicity", 1990, for the direction of a ray.
 """
 
@@ -33,6 +38,10 @@ Whole = tuple[int, int, int]
 Moves = Sequence[Whole]
 
 PERTURBATION: Moves = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+ZERO: Whole = (0, 0, 0)
+
+
+_Triangle = tuple[int, Whole, tuple[Whole, ...], tuple[Whole, ...]]
 
 
 class Meeting(NamedTuple):
@@ -43,6 +52,7 @@ class Meeting(NamedTuple):
     normal: Whole  # n
     edges: tuple[int, ...]  # e_ab, e_bc, e_ca; none of a plane
     sides: tuple[Whole, ...]  # m_ab, m_bc, m_ca
+    spans: tuple[Whole, ...]  # a - b, b - c, c - a
     direction: Whole  # of the ray
 
     @property
@@ -54,23 +64,25 @@ class Meeting(NamedTuple):
         """Return whether the ray that is infinitesimally moved meets it."""
         if not self.on_edge:
             return True
-        signs = {_sign(e, m, moves) for e, m in zip(self.edges, self.sides, strict=True)}
+        parts = zip(self.edges, self.sides, self.spans, strict=True)
+        signs = {_sign(*part, self.direction, moves) for part in parts}
         return signs in ({1}, {-1})
 
 
 def compare(first: Meeting, second: Meeting, moves: Moves = PERTURBATION) -> int:
     """Return the sign of t1 - t2 for the moved ray; 0 only for what lies in one plane."""
     apart = first.depth * second.towards - second.depth * first.towards
-    sign = _sign(apart, crossing(first, second), moves)
+    sign = _sign(apart, *crossing(first, second), first.direction, moves)
     return sign if (first.towards > 0) == (second.towards > 0) else -sign
 
 
-def crossing(first: Meeting, second: Meeting) -> Whole:
-    """Return T1 n2 - T2 n1: how the order of two surfaces depends on the ray's direction."""
-    return tuple(
+def crossing(first: Meeting, second: Meeting) -> tuple[Whole, Whole]:
+    """Return T1 n2 - T2 n1 and, at t = 0, n1 x n2: how the order depends on the moved ray."""
+    w = tuple(
         first.depth * n2 - second.depth * n1
         for n1, n2 in zip(first.normal, second.normal, strict=True)
     )
+    return w, ZERO if first.depth else _cross(first.normal, second.normal)
 
 
 class Batch:
@@ -112,7 +124,7 @@ class Batch:
         self._shift = exponent - direction_exponent  # t = T / D 2^shift
         self._start, self._end = (self._limit(value) for value in (start, end))
         self._open = start == 0
-        self._known: dict[int, tuple[int, Whole, tuple[Whole, ...]]] = {}
+        self._known: dict[int, _Triangle] = {}
 
     def meeting(self, ray: int, surface: int) -> Meeting | None:
         """Return where a ray meets a surface within the clip range; None where it does not.
@@ -123,12 +135,12 @@ class Batch:
         o = self._origins[ray if len(self._origins) > 1 else 0]
         if surface < len(self._planes):
             depth, n = self._plane(o, surface)
-            return self._seen(Meeting(depth, _dot(d, n), n, (), (), d))
-        depth, n, sides = self._triangle(o, surface)
+            return self._seen(Meeting(depth, _dot(d, n), n, (), (), (), d))
+        depth, n, sides, spans = self._triangle(o, surface)
         edges = tuple(_dot(d, m) for m in sides)
         if min(edges) < 0 < max(edges):
             return None
-        return self._seen(Meeting(depth, sum(edges), n, edges, sides, d))
+        return self._seen(Meeting(depth, sum(edges), n, edges, sides, spans, d))
 
     def of_first_ray(self, surface: int) -> tuple[int, int, Whole]:
         """Return T, D and n of a surface, whether or not the first ray meets it."""
@@ -136,8 +148,8 @@ class Batch:
         depth, n, *_ = find(self._origins[0], surface)
         return depth, _dot(self._directions[0], n), n
 
-    def _triangle(self, o: Whole, surface: int) -> tuple[int, Whole, tuple[Whole, ...]]:
-        """Return T, n, and m of each edge; found once where all rays have one origin."""
+    def _triangle(self, o: Whole, surface: int) -> _Triangle:
+        """Return T, n, and of each edge m and span; found once where all rays share o."""
         known = self._known.get(surface)
         if known:
             return known
@@ -145,7 +157,8 @@ class Batch:
         ox, oy, oz = o
         a, b, c = ((x - ox, y - oy, z - oz) for x, y, z in (v[k] for v in self._corners))
         sides = _cross(a, b), _cross(b, c), _cross(c, a)
-        found = _dot(a, sides[1]), tuple(map(sum, zip(*sides, strict=True))), sides
+        spans = _sub(a, b), _sub(b, c), _sub(c, a)
+        found = _dot(a, sides[1]), tuple(map(sum, zip(*sides, strict=True))), sides, spans
         if len(self._origins) == 1:
             self._known[surface] = found
         return found
@@ -197,13 +210,25 @@ def gap(first: Meeting, second: Meeting) -> int:
     return gap if (first.towards > 0) == (second.towards > 0) else -gap
 
 
-def _sign(value: int, otherwise: Whole, moves: Moves) -> int:
-    """Return the sign of value + x otherwise . moves[0] + ..., for an infinitesimal x > 0."""
+def _sign(value: int, m: Whole, span: Whole, d: Whole, moves: Moves) -> int:
+    """Return the sign of value + x m . moves[0] + ..., for an infinitesimal x > 0.
+
+    Where value and m are zero it is that of (span x d) . moves[0] + ..., as above.
+    """
     for move in moves:
         if value:
             break
-        value = _dot(otherwise, move)
+        value = _dot(m, move)
+    if not value and m == ZERO:
+        for move in moves:
+            for along in (d, *moves):
+                value = value or _dot(_cross(span, along), move)
     return (value > 0) - (value < 0)
+
+
+def turning(m: Whole, span: Whole, d: Whole) -> Whole:
+    """Return what a move is multiplied by where the ray as it is decides nothing."""
+    return _cross(span, d) if m == ZERO else m
 
 
 def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
@@ -215,6 +240,10 @@ def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
     whole = (mantissa * 2.0**53).astype(np.int64)  # exact: a mantissa has 53 digits
     columns = zip(whole.T.tolist(), (exponent - least).T.tolist(), strict=True)
     return [tuple(m << e for m, e in zip(row, by, strict=True)) for row, by in columns], least - 53
+
+
+def _sub(a: Whole, b: Whole) -> Whole:
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 def _dot(a: Whole, b: Whole) -> int:

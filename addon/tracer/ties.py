@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cmp_to_key
 
-from .exact import PERTURBATION, Meeting, Moves, Whole, compare, crossing, gap
+from .exact import PERTURBATION, Meeting, Moves, Whole, compare, crossing, gap, turning
 from .hits import Name
 
 
@@ -58,10 +58,13 @@ def _ways(meetings: Sequence[Meeting]) -> list[Whole]:
     which two surfaces cross that it meets there: lines through one point, seen along the ray. There
     is a way between every two that follow one another.
     """
-    lines = [m for met in meetings for e, m in zip(met.edges, met.sides, strict=True) if e == 0]
+    lines = []
     for k, met in enumerate(meetings):
+        edges = zip(met.edges, met.sides, met.spans, strict=True)
+        lines += [(m, span) for e, m, span in edges if e == 0]
         lines += [crossing(met, other) for other in meetings[:k] if gap(met, other) == 0]
     d = meetings[0].direction
+    lines = [turning(*line, d) for line in lines]
     along = max(range(3), key=lambda axis: abs(d[axis]))  # not needed: moves along d change nothing
     x, y = (along + 1) % 3, (along + 2) % 3
     rays = [(-s * m[y], s * m[x]) for m in lines if m[x] or m[y] for s in (1, -1)]
