@@ -78,7 +78,8 @@ def judge_pairs(origins: NDArray, directions: NDArray, corners: NDArray) -> Judg
         hit = inside.copy()
         for k in np.flatnonzero(closed & ~inside):
             column = [[int(x) for x in w[:, k]] for w in (o, d, *points)]
-            hit[k] = meets(*moved(*column[:2], column[2:], THE_RULE))
+            origin, direction, [solid] = moved(*column[:2], [column[2:]], THE_RULE)
+            hit[k] = meets(origin, direction, *solid)
         side = np.where(inside, INSIDE, np.where(closed, EDGE, OUTSIDE)).astype(np.int8)
         parts.append((side, hit, depth, det, scale - direction_scale))
     return Judgement(*(np.concatenate(column) for column in zip(*parts, strict=True)))
@@ -108,11 +109,27 @@ def meets(o, d, p1, p2, p3) -> bool:
     return min(u, v, det - u - v) > 0 or max(u, v, det - u - v) < 0
 
 
-def moved(o, d, points: Sequence, by: Sequence) -> list[list[int]]:
-    """Return o, d and points with the ray moved along `by`, all lengths times one power of two."""
+def moved(o, d, solids: Sequence, by: Sequence) -> tuple[list[int], list[int], list]:
+    """Return o, d and solids with the ray moved along `by`, all lengths times one power of two.
+
+    Solids are three corners each, or a point and a normal. Unless the ray begins on one of them,
+    moving o as well would change nothing but the time this takes.
+    """
+    points = [p for s in solids for p in (s if len(s) == 3 else s[:1])]
+    begins = any(_dot(_sub(s[0], o), _normal(s)) == 0 for s in solids)
     d = move(d, by, [o, d, *by, *points])
+    if not begins:
+        return o, d, list(solids)
     k = _shift([o, d, *by, *points])
-    return [move(o, by, [], k), d, *([x << k * len(by) for x in p] for p in points)]
+    grown = [[[x << k * len(by) for x in p] for p in s] for s in solids]
+    grown = [s if len(s) == 3 else [s[0], old[1]] for s, old in zip(grown, solids, strict=True)]
+    return move(o, by, [], k), d, grown
+
+
+def _normal(solid: Sequence):
+    if len(solid) == 2:
+        return solid[1]
+    return _cross(_sub(solid[1], solid[0]), _sub(solid[2], solid[0]))
 
 
 def move(v, by: Sequence, beside: Sequence, k: int = 0) -> list[int]:
@@ -220,18 +237,14 @@ def _sight(o, d, corners, meetings: list) -> Sight:
         along = _cross(normal, d)  # d moved along it stays on the boundary; `normal` leaves it
         for s, r in product((1, -1), repeat=2):
             beside = [s * x for x in along], [r * x for x in normal]
-            by = move([0, 0, 0], beside, (*beside, origin, d, *(p for _, q in solids for p in q)))
-            may.add(_moved_sight(origin, d, solids, (by,)))
+            by = (move([0, 0, 0], beside, beside),)  # one way: o, where it moves, goes along with d
+            may.add(_moved_sight(origin, d, solids, by))
     return Sight(seen, frozenset(may), touched)
 
 
 def _moved_sight(o, d, solids, by) -> tuple[int, int]:
-    points = [p for _, s in solids for p in (s if len(s) == 3 else s[:1])]
-    o, d, *points = moved(o, d, points, by)
-    rest = iter(points)
-    solids = [
-        (n, [next(rest) for _ in s] if len(s) == 3 else [next(rest), s[1]]) for n, s in solids
-    ]
+    o, d, shapes = moved(o, d, [s for _, s in solids], by)
+    solids = [(name, s) for (name, _), s in zip(solids, shapes, strict=True)]
     best = None
     for name, solid in solids:
         if len(solid) == 2:
