@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+OUTSIDE = "outside the view"
+
 
 @dataclass(frozen=True)
 class ObjectEntry:
@@ -23,6 +25,7 @@ class ObjectEntry:
     triangles: int = 0  # of its meshes
     vertices: int = 0
     instances: int = 0
+    outside: int = 0  # instances wholly outside the view, which are not exported
     traced_triangles: int = 0  # over all instances
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
@@ -96,8 +99,15 @@ class Manifest:
             if e.empty_slots:
                 out.append(f"  {e.name}: {e.empty_slots} empty material slots, shown in grey")
         out += [
-            f"  skipped {e.name} ({e.type}): {e.reason}" for e in self.objects if not e.exported
+            f"  skipped {e.name} ({e.type}): {e.reason}"
+            for e in self.objects
+            if not (e.exported or e.outside)
         ]
+        if unseen := [e for e in self.objects if e.outside]:
+            out.append(
+                f"  outside the view, and not needed: {sum(e.outside for e in unseen):,} instances "
+                f"of {len(unseen):,} objects, {sum(not e.exported for e in unseen):,} of them whole"
+            )
         for u in self.unmodelled:
             out.append(
                 f"  not modelled: {u.object}: {u.feature}" + (f" ({u.detail})" if u.detail else "")

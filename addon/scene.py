@@ -198,7 +198,7 @@ class Mesh:
                 raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
             _store(self, "corner_colors", _locked(colors))
         _store(self, "vertices", _locked(vertices))
-        _store(self, "triangles", _locked(triangles.astype(np.int32)))
+        _store(self, "triangles", _locked(triangles.astype(np.int32, copy=False)))
         _store(self, "slots", _locked(slots))
 
 
@@ -333,9 +333,9 @@ def drop_non_finite(
     keep : (n,) bool
         False for triangles that touched such a vertex.
     """
-    finite = np.isfinite(vertices).all(axis=1)
-    if finite.all():
+    if np.isfinite(vertices).all():
         return vertices, np.ones(len(triangles), bool)
+    finite = np.isfinite(vertices).all(axis=1)
     return np.where(finite[:, None], vertices, vertices.dtype.type(0)), finite[triangles].all(
         axis=1
     )

@@ -23,7 +23,7 @@ OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
 
 
 def instance_colors(
-    obj: Any, color_type: str, single: Any, materials: list[Any] | None = None
+    obj: Any, color_type: str, single: Any, materials: list[Any]
 ) -> NDArray[np.float32]:
     """Return (k, 4) float32: the colour of each material slot, at least one.
 
@@ -37,8 +37,8 @@ def instance_colors(
         not modelled, and shows the material's colour.
     single : (3,) float
         The colour under 'SINGLE'.
-    materials : list of bpy.types.Material or None, optional
-        By slot; by default those of the object's mesh.
+    materials : list of bpy.types.Material or None
+        By slot.
     """
     if color_type == "SINGLE":
         return np.array([(*single, 1.0)], np.float32)
@@ -48,8 +48,6 @@ def instance_colors(
         color_type = WITHOUT_ATTRIBUTE
     if color_type == "OBJECT":
         return np.array([obj.color], np.float32)
-    if materials is None:
-        materials = slot_materials(obj)
     return np.array([m.diffuse_color if m else GREY for m in materials] or [GREY], np.float32)
 
 

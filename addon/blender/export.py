@@ -1,43 +1,30 @@
 """An evaluated Blender scene -> `scene.Scene` and its `Manifest`.
 
 The depsgraph says what is visible and evaluated, for the viewport or for a render as its mode has
-it, and hands out every object that has triangles as a mesh: text, curves, surfaces, metaballs and
-what geometry nodes make, with all instances. Nothing of bpy is held in what is returned.
+it. Triangles are read of the meshes that a ray can meet: what lies wholly outside the view is
+counted, and left out. Nothing of bpy is held in what is returned.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any
 
 import bpy
 import numpy as np
+from numpy.typing import NDArray
 
-from ..manifest import Manifest, ObjectEntry, Unmodelled
-from ..scene import Instance, Mesh, Plane, Scene
+from ..manifest import OUTSIDE, Manifest, ObjectEntry
+from ..scene import Camera, Instance, Mesh, Plane, Scene
 from ..scene_files import diagnose, merged
 from .camera import export_camera
-from .colors import background, instance_colors, slot_materials
+from .colors import background
 from .meshes import export_mesh
-from .temporary import judge_of, user_scene
-from .unmodelled import of_object, of_scene
+from .temporary import user_scene
+from .unmodelled import of_scene
+from .view_volume import outside
+from .visible import Met, Seen, Shown, visible
 
 _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
-
-
-@dataclass
-class _Seen:
-    """What an object has shown so far."""
-
-    type: str
-    index: int = -1  # in Scene.objects, once it shows something
-    mesh_keys: dict[int, None] = field(default_factory=dict)  # in the order in which they came
-    instances: int = 0
-    triangles: int = 0  # over all instances
-    left_out: int = 0
-    planes: int = 0
-    empty_slots: int = 0
-    features: dict[str, Unmodelled] = field(default_factory=dict)
 
 
 def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
@@ -57,74 +44,89 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
     """
     scene = depsgraph.scene_eval
     camera = export_camera(scene)
-    viewport, judge = depsgraph.mode == "VIEWPORT", judge_of(depsgraph.scene)
-    shading = scene.display.shading
-    meshes: dict[int, tuple[Mesh, int]] = {}  # by address; with the triangles left out
+    seen, shown, met = visible(depsgraph)
+    matrices = np.array([s.matrix for s in shown]).reshape(-1, 4, 4)
+    unseen = _outside(camera, shown, matrices, met)
+    meshes = _read(depsgraph, shown, unseen, met)
     numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
-    seen: dict[str, _Seen] = {}
+    # Numbered in the order in which they come, in the view or not: it stays when the camera moves.
+    objects: dict[str, int] = {}
     instances: list[Instance] = []
     planes: list[Plane] = []
-    for item in depsgraph.object_instances:
-        obj = item.object
-        name = obj.original.name_full
-        matrix = np.array(item.matrix_world, dtype=np.float64)
-        # The depsgraph hands out what only the eye of a collection hides.
-        owner = (item.parent if item.is_instance else obj).original
-        if viewport and not owner.visible_get(view_layer=depsgraph.view_layer):
-            continue
-        entry = seen.setdefault(name, _Seen(obj.original.type))
-        if not item.show_self:
-            continue
-        finite = np.isfinite(matrix).all()
-        for u in of_object(
-            obj, item.matrix_world, shading, depsgraph.view_layer, depsgraph.mode, judge
-        ):
-            _widen(entry.features, u)
-        if obj.original.reference_tracer.infinite_plane:
+    all_finite = np.isfinite(matrices).all(axis=(1, 2))
+    for (name, key, matrix, colors), out, finite in zip(shown, unseen, all_finite, strict=True):
+        entry = seen[name]
+        if key is None:
             if finite and matrix[:3, :2].any(axis=0).all():
-                _number(entry, seen)
-                planes.append(_plane(obj, matrix, entry.index, shading))
+                planes.append(_plane(objects.setdefault(name, len(objects)), matrix, colors[0]))
                 entry.planes += 1
             else:
                 entry.left_out += 1
             continue
-        if obj.type != "MESH" or (viewport and obj.display_type in ("WIRE", "BOUNDS")):
+        if out:
+            objects.setdefault(name, len(objects))
+            entry.outside += 1
             continue
-        key = obj.data.as_pointer()
-        if key not in meshes:
-            meshes[key] = export_mesh(obj.data, name, shading.color_type == "VERTEX")
         mesh, left_out = meshes[key]
         entry.left_out += left_out if finite else len(mesh.triangles) + left_out
         if not finite or not len(mesh.triangles):
             continue
-        _number(entry, seen)
         entry.mesh_keys.setdefault(key)
         entry.instances += 1
         entry.triangles += len(mesh.triangles)
-        if shading.color_type == "MATERIAL":
-            entry.empty_slots = max(entry.empty_slots, slot_materials(obj).count(None))
-        colors = instance_colors(obj, shading.color_type, shading.single_color)
         number = numbers.setdefault(key, len(numbers))
-        instances.append(Instance(number, entry.index, matrix, colors))
+        instances.append(Instance(number, objects.setdefault(name, len(objects)), matrix, colors))
     instances.sort(key=lambda i: i.object)
-    objects = sorted((e.index, n) for n, e in seen.items() if e.index >= 0)
-    out = Scene(
+    out_scene = Scene(
         camera=camera,
         meshes=tuple(meshes[key][0] for key in numbers),
         instances=tuple(instances),
         planes=tuple(planes),
         background=background(scene),
-        objects=tuple(n for _, n in objects),
+        objects=tuple(objects),
     )
-    return out, _manifest(depsgraph, camera.name, seen, meshes, diagnosis)
+    return out_scene, _manifest(depsgraph, camera.name, seen, meshes, diagnosis)
 
 
-def _number(entry: _Seen, seen: dict[str, _Seen]) -> None:
-    if entry.index < 0:
-        entry.index = 1 + max(e.index for e in seen.values())
+def _outside(
+    camera: Camera, shown: list[Shown], matrices: NDArray[np.float64], met: dict[int, Met]
+) -> NDArray[np.bool_]:
+    """Return which appearances no ray of the camera can meet; an infinite plane is none."""
+    boxes = {}
+    for key, mesh in met.items():
+        across = mesh.vertices.T.copy()  # one behind the other they are looked at much faster
+        if across.size:
+            boxes[key] = across.min(axis=1), across.max(axis=1)
+    on_mesh = [n for n, s in enumerate(shown) if s.key is not None]
+    out = np.zeros(len(shown), bool)
+    if on_mesh:
+        low, high = np.swapaxes([boxes[shown[n].key] for n in on_mesh], 0, 1)
+        out[on_mesh] = outside(camera, low, high, matrices[on_mesh])
+    return out
 
 
-def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
+def _read(
+    depsgraph: Any, shown: list[Shown], unseen: NDArray[np.bool_], met: dict[int, Met]
+) -> dict[int, tuple[Mesh, int]]:
+    """Return the meshes that are not wholly unseen, by address, and the triangles left out."""
+    wanted = {s.key for s, out in zip(shown, unseen, strict=True) if not out} - {None}
+    with_colors = depsgraph.scene_eval.display.shading.color_type == "VERTEX"
+    meshes: dict[int, tuple[Mesh, int]] = {}
+    # Asked for again, as an instance's data is only sure to be there while it is handed out.
+    for item in depsgraph.object_instances if wanted else ():
+        if item.object.type != "MESH":
+            continue
+        mesh = item.object.data
+        key = mesh.as_pointer()
+        if key in wanted:
+            wanted.remove(key)
+            meshes[key] = export_mesh(mesh, met[key].vertices, met[key].name, with_colors)
+            if not wanted:
+                break
+    return meshes
+
+
+def _plane(index: int, matrix: np.ndarray, color: NDArray[np.float32]) -> Plane:
     """Return a plane through the object's origin, its normal the object's own +Z axis.
 
     The plane holds the object's X and Y axes, so under shear its normal is their cross product.
@@ -132,18 +134,7 @@ def _plane(obj: Any, matrix: np.ndarray, index: int, shading: Any) -> Plane:
     normal = np.cross(matrix[:3, 0], matrix[:3, 1])
     if (normal * matrix[:3, 2]).sum() < 0:  # mirrored
         normal = -normal
-    colors = instance_colors(obj, shading.color_type, shading.single_color, [obj.active_material])
-    return Plane(index, matrix[:3, 3], normal, colors[0])
-
-
-def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
-    """Keep one entry a feature, its bounds around all the object's instances."""
-    key = found.feature + found.detail
-    if key in features and found.bounds is not None and features[key].bounds is not None:
-        both = np.stack((features[key].bounds, found.bounds))
-        bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
-        found = Unmodelled(found.object, found.feature, found.detail, bounds)
-    features[key] = found
+    return Plane(index, matrix[:3, 3], normal, color)
 
 
 def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest:
@@ -156,16 +147,17 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
             for key, (mesh, _) in zip(e.mesh_keys, own, strict=True):
                 if key not in diagnoses:
                     diagnoses[key] = diagnose(mesh)
-        shown = e.index >= 0
+        shown = bool(e.instances or e.planes)
         entries.append(
             ObjectEntry(
                 name=name,
                 type="INFINITE_PLANE" if e.planes else e.type,
                 exported=shown,
-                reason="" if shown else _no_triangles(e),
+                reason="" if shown else _nothing(e),
                 triangles=sum(len(m.triangles) for m, _ in own),
                 vertices=sum(len(m.vertices) for m, _ in own),
                 instances=e.instances + e.planes,
+                outside=e.outside,
                 left_out=e.left_out,
                 empty_slots=e.empty_slots,
                 diagnosis=merged([diagnoses[k] for k in e.mesh_keys if k in diagnoses]),
@@ -190,7 +182,9 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
     )
 
 
-def _no_triangles(entry: _Seen) -> str:
+def _nothing(entry: Seen) -> str:
+    if entry.outside:
+        return OUTSIDE
     if entry.left_out:
         return "all its triangles have a vertex or a matrix that is not finite"
     if entry.type in _NO_SURFACE:

@@ -17,19 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Plane, Scene
-from ..tracer.camera import pixel_size
 from .colors import random_color
-
-BEYOND = 2  # pixels that a polygon reaches beyond the picture, so that its rim is never seen
-DEPTHS = 0.99, 1.01  # of the clip range, for the same reason: Blender's own clipping decides
+from .view_volume import corners as volume_corners
 
 
 def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
     """Return the corners, in order, of where a plane cuts the view volume: (k, 3) world space.
 
-    k is 0 where it does not, and at most 6.
+    k is 0 where it does not, and at most 6. The volume is enlarged: a polygon's rim is never seen.
     """
-    corners = _view_volume(camera)
+    corners = volume_corners(camera)
     height = ((corners - plane.point) * plane.normal).sum(axis=1)
     points = []
     for a in range(8):
@@ -51,22 +48,6 @@ def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
             )
         )
     ]
-
-
-def _view_volume(camera: Camera) -> NDArray[np.float64]:
-    """Return the eight corners of the (slightly enlarged) view volume, bits: x, y, depth."""
-    w, (dx, dy) = camera.window, pixel_size(camera)
-    out = []
-    for depth in (camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]):
-        for y in (w.bottom - BEYOND * dy, w.top + BEYOND * dy):
-            for x in (w.left - BEYOND * dx, w.right + BEYOND * dx):
-                scale = 1 if camera.orthographic else depth
-                out.append(
-                    camera.origin
-                    + scale * (x * camera.right + y * camera.up)
-                    + depth * camera.forward
-                )
-    return np.array(out)
 
 
 @contextmanager

@@ -38,6 +38,10 @@ class Build:
         bpy.context.scene.camera = obj
         return obj
 
+    def far_camera(self) -> Any:
+        """A camera that sees everything within ten metres of the origin: all of it is exported."""
+        return self.camera((0.0, 0.0, 50.0), lens=18)
+
     def mesh(self, name: str, vertices: Any, faces: Any, link: bool = True) -> Any:
         mesh = bpy.data.meshes.new(name)
         mesh.from_pydata([tuple(map(float, v)) for v in vertices], [], [tuple(f) for f in faces])

@@ -126,7 +126,7 @@ def test_curves_have_the_resolution_of_the_mode(build, export):
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("name", ["negative", "sheared", "zero", "rotated"])
 def test_world_vertices_are_blenders_in_float64(name, mode, build, export):
-    build.camera()
+    build.far_camera()
     cube = build.cube(
         location=(1.1, -2.2, 3.3),
         rotation=(0.3, 0.7, 1.9),

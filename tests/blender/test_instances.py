@@ -37,7 +37,7 @@ def blenders_places() -> np.ndarray:
 
 @pytest.mark.parametrize("mode", MODES)
 def test_linked_objects_share_their_mesh(mode, build, export):
-    build.camera()
+    build.far_camera()
     cube = build.cube()
     for number in range(3):
         copy = build.link(bpy.data.objects.new(f"Copy {number}", cube.data))
@@ -51,7 +51,7 @@ def test_linked_objects_share_their_mesh(mode, build, export):
 
 @pytest.mark.parametrize("mode", MODES)
 def test_collection_instances(mode, build, export, entries):
-    build.camera()
+    build.far_camera()
     inner = build.collection("Inner", build.cube(link=False, location=(1, 0, 0)))
     nested = build.empty("Nested", location=(0, 2, 0))
     nested.instance_type, nested.instance_collection = "COLLECTION", inner
@@ -79,7 +79,7 @@ def test_collection_instances(mode, build, export, entries):
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("shown", ["object", "primitive"])
 def test_geometry_node_instances(shown, mode, build, export):
-    build.camera()
+    build.far_camera()
     points = build.mesh("Points", np.random.default_rng(6).uniform(-2, 2, (40, 3)), [])
     source = build.cube("Source", link=False)
     build.instances_on_points(points, source if shown == "object" else "GeometryNodeMeshCube")
@@ -92,7 +92,7 @@ def test_geometry_node_instances(shown, mode, build, export):
 
 @pytest.mark.parametrize("mode", MODES)
 def test_a_mesh_that_nothing_shows_is_not_carried(mode, build, export):
-    build.camera()
+    build.far_camera()
     build.mesh("Points", [(0, 0, 0)], [])
     build.square("Lost").location.x = np.nan
     build.square("Kept")
@@ -103,7 +103,7 @@ def test_a_mesh_that_nothing_shows_is_not_carried(mode, build, export):
 
 @pytest.mark.parametrize("mode", MODES)
 def test_realised_geometry_is_one_mesh(mode, build, export):
-    build.camera()
+    build.far_camera()
     points = build.mesh("Points", [(x, 0, 0) for x in range(5)], [])
     build.instances_on_points(points, "GeometryNodeMeshCube")
     tree = points.modifiers[0].node_group
@@ -118,7 +118,7 @@ def test_realised_geometry_is_one_mesh(mode, build, export):
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("kind", ["HAIR", "EMITTER"])
 def test_particle_instances(kind, mode, build, export, entries):
-    build.camera()
+    build.far_camera()
     ground, source = build.square("Ground", 4), build.cube("Source", 0.2, location=(9, 9, 9))
     ground.modifiers.new("Particles", "PARTICLE_SYSTEM")
     settings = ground.particle_systems[0].settings
@@ -140,7 +140,7 @@ def test_particle_instances(kind, mode, build, export, entries):
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize("kind", ["VERTS", "FACES"])
 def test_instances_on_vertices_and_faces(kind, mode, build, export):
-    build.camera()
+    build.far_camera()
     parent, child = build.cube("Parent", 4), build.square("Child", 0.5)
     child.parent = parent
     parent.instance_type = kind
@@ -155,7 +155,7 @@ def test_instances_on_vertices_and_faces(kind, mode, build, export):
 
 
 def test_the_instancer_is_shown_in_the_mode_that_says_so(build, export):
-    build.camera()
+    build.far_camera()
     parent, child = build.cube("Parent", 4), build.square("Child", 0.5)
     child.parent = parent
     parent.instance_type = "VERTS"
@@ -169,7 +169,7 @@ def test_the_instancer_is_shown_in_the_mode_that_says_so(build, export):
 
 def test_meshes_that_differ_are_not_shared(build, export):
     """One mesh datablock, but a modifier on one of its users."""
-    build.camera()
+    build.far_camera()
     cube = build.cube()
     second = build.link(bpy.data.objects.new("Second", cube.data))
     second.modifiers.new("Array", "ARRAY").count = 3
@@ -181,7 +181,7 @@ def test_meshes_that_differ_are_not_shared(build, export):
 
 
 def test_no_reference_to_blenders_data_is_kept(build, export):
-    build.camera()
+    build.far_camera()
     cube = build.cube()
     scene, _ = export.viewport()
     before = scene.meshes[0].vertices.copy()

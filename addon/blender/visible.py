@@ -1,0 +1,115 @@
+"""An evaluated depsgraph -> what is visible in it: every appearance of a mesh or infinite plane.
+
+The depsgraph hands out every object that has triangles as a mesh: text, curves, surfaces, metaballs
+and what geometry nodes make, with all instances. What is asked of Blender for each of ten thousand
+instances is kept little.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..manifest import Unmodelled
+from .colors import instance_colors, slot_materials
+from .meshes import read_vertices
+from .temporary import judge_of
+from .unmodelled import of_object
+
+
+@dataclass
+class Seen:
+    """What an object has shown so far."""
+
+    type: str
+    is_plane: bool
+    mesh_keys: dict[int, None] = field(default_factory=dict)  # in the order in which they came
+    instances: int = 0
+    outside: int = 0  # instances that no ray can meet: not exported
+    triangles: int = 0  # over all instances
+    left_out: int = 0
+    planes: int = 0
+    empty_slots: int = 0
+    features: dict[str, Unmodelled] = field(default_factory=dict)
+
+
+class Shown(NamedTuple):
+    """One appearance of an object: of a mesh, by its address, or as an infinite plane."""
+
+    name: str
+    key: int | None
+    matrix: NDArray[np.float64]
+    colors: NDArray[np.float32]
+
+
+class Met(NamedTuple):
+    """A mesh as it was first met, before it is known whether it is outside the view."""
+
+    name: str
+    vertices: NDArray[np.float32]  # none where there is no face
+
+
+def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met]]:
+    """Return by name what is visible, every appearance of it, and the meshes by address."""
+    viewport, layer = depsgraph.mode == "VIEWPORT", depsgraph.view_layer
+    judge, shading = judge_of(depsgraph.scene), depsgraph.scene_eval.display.shading
+    color_type = shading.color_type
+    seen: dict[str, Seen] = {}
+    shown: list[Shown] = []
+    met: dict[int, Met] = {}
+    # Instances of one mesh by one object look the same, but for the colour that each may inherit.
+    modelled: set[tuple] = set()  # as a whole
+    all_colors: dict[tuple, NDArray[np.float32]] = {}
+    for item in depsgraph.object_instances:
+        obj = item.object
+        name = obj.original.name_full
+        # The depsgraph hands out what only the eye of a collection hides.
+        owner = (item.parent if item.is_instance else obj).original
+        if viewport and not owner.visible_get(view_layer=layer):
+            continue
+        if name not in seen:
+            original = obj.original
+            seen[name] = Seen(original.type, original.reference_tracer.infinite_plane)
+        entry = seen[name]
+        if not item.show_self:
+            continue
+        mesh = obj.data if obj.type == "MESH" else None
+        key = mesh.as_pointer() if mesh else None
+        look = name, key, obj.color[:] if color_type in ("OBJECT", "VERTEX") else None
+        if look not in modelled:
+            found = list(of_object(obj, item.matrix_world, shading, layer, depsgraph.mode, judge))
+            for u in found:
+                _widen(entry.features, u)
+            if not found:
+                modelled.add(look)
+        if entry.is_plane:
+            key = None
+        elif not mesh or (viewport and obj.display_type in ("WIRE", "BOUNDS")):
+            continue
+        else:
+            if key not in met:
+                faces = len(mesh.polygons)
+                met[key] = Met(name, read_vertices(mesh) if faces else np.zeros((0, 3)))
+            if not len(met[key].vertices):
+                continue
+        if look not in all_colors:
+            materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
+            all_colors[look] = instance_colors(obj, color_type, shading.single_color, materials)
+            if color_type == "MATERIAL" and not entry.is_plane:
+                entry.empty_slots = max(entry.empty_slots, materials.count(None))
+        matrix = np.array(item.matrix_world, dtype=np.float64)
+        shown.append(Shown(name, key, matrix, all_colors[look]))
+    return seen, shown, met
+
+
+def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
+    """Keep one entry a feature, its bounds around all the object's instances."""
+    key = found.feature + found.detail
+    if key in features and found.bounds is not None and features[key].bounds is not None:
+        both = np.stack((features[key].bounds, found.bounds))
+        bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
+        found = Unmodelled(found.object, found.feature, found.detail, bounds)
+    features[key] = found
