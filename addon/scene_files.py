@@ -6,12 +6,14 @@ A .npz is read without pickle: it can hold numbers and nothing that runs.
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from collections.abc import Generator
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from .manifest import Manifest
 from .scene import (
     Camera,
     Instance,
@@ -45,8 +47,27 @@ def diagnose(mesh: Mesh) -> dict[str, Any]:
         "closed": bool(whole.is_watertight),
         "consistent_winding": bool(whole.is_winding_consistent),
         "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
-        "duplicate_faces": int(len(faces) - len(np.unique(sorted_faces, axis=0))),
+        "duplicate_faces": len(faces) - len(trimesh.grouping.unique_rows(sorted_faces)[0]),
     }
+
+
+def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manifest]:
+    """Return a manifest with the diagnosis of every object's meshes that the scene has.
+
+    Yields 0 after each mesh: it is the first of longer work.
+    """
+    diagnoses = []
+    for mesh in scene.meshes:
+        diagnoses.append(diagnose(mesh))
+        yield 0.0
+    own: dict[str, dict[int, None]] = {}
+    for instance in scene.instances:
+        own.setdefault(scene.objects[instance.object], {})[instance.mesh] = None
+    entries = tuple(
+        replace(e, diagnosis=merged([diagnoses[mesh] for mesh in own.get(e.name, ())]))
+        for e in manifest.objects
+    )
+    return replace(manifest, objects=entries)
 
 
 def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:

@@ -42,6 +42,7 @@ def manifest():
                 left_out=7,
             ),
             ObjectEntry("Hair", "CURVES", False, "has no triangles"),
+            ObjectEntry("Behind", "MESH", False, "outside the view", outside=3000),
         ),
         unmodelled=(
             Unmodelled("Glass", "transparency", "alpha 0.5", np.array([[0, 0, 0], [1, 2, 3.0]])),
@@ -53,18 +54,19 @@ def manifest():
 
 def test_lines_name_everything(manifest):
     first, *rest = manifest.lines()
-    for word in ("2 of 3 objects", "1,230 triangles", "viewport", "'Cam.001'"):
+    for word in ("2 of 4 objects", "1,230 triangles", "viewport", "'Cam.001'"):
         assert word in first
     for words in (
         ("Torn", "7 triangles left out"),
         ("Cube", "2 empty material slots"),
         ("skipped Hair (CURVES)", "has no triangles"),
+        ("outside the view", "3,000 instances of 1 objects", "1 of them whole"),
         ("Glass", "transparency", "alpha 0.5"),
         ("Cam.001", "depth of field"),
         ("sequencer",),
     ):
         assert sum(all(word in line for word in words) for line in rest) == 1
-    assert len(rest) == 6
+    assert len(rest) == 7
 
 
 def test_json_holds_everything(manifest):
@@ -79,7 +81,7 @@ def test_json_holds_everything(manifest):
         "evaluation": "VIEWPORT",
         "camera": "Cam.001",
     }
-    assert [o["name"] for o in again["objects"]] == ["Cube", "Torn", "Hair"]
+    assert [o["name"] for o in again["objects"]] == ["Cube", "Torn", "Hair", "Behind"]
     assert again["objects"][0]["diagnosis"] == {"closed": True}
     assert (
         again["objects"][2] | {"exported": False, "reason": "has no triangles"}

@@ -20,6 +20,7 @@ from ..compare.comparison import Comparison, trace_and_compare
 from ..manifest import Manifest
 from ..report import files
 from ..scene import Scene
+from ..scene_files import diagnosed
 from ..tracer.progress import Work
 from ..tracer.settings import Settings
 from . import images
@@ -50,9 +51,12 @@ class Gathered:
     blender: dict[str, Any]
 
     def steps(self) -> Work[Comparison]:
-        """Return the work that is left."""
-        return trace_and_compare(
-            self.scene, self.manifest, self.settings, self.picture, self.blender
+        """Do the work that is left; yields the share of it that is done."""
+        manifest = yield from diagnosed(self.scene, self.manifest)
+        return (
+            yield from trace_and_compare(
+                self.scene, manifest, self.settings, self.picture, self.blender
+            )
         )
 
 
@@ -94,7 +98,7 @@ def gather(
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, source, like_for_like)
         if source == "viewport":
             with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
-                exported, manifest = export(bpy.context.evaluated_depsgraph_get(), diagnosis=True)
+                exported, manifest = export(bpy.context.evaluated_depsgraph_get())
         else:
             exported, manifest = export_for_render(tmp)
         if not like_for_like:

@@ -62,7 +62,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         """Render one view layer of one frame."""
         try:
             if _captured is not None and is_temporary(depsgraph.scene):
-                _captured.append(export(depsgraph, diagnosis=True))
+                _captured.append(export(depsgraph))
                 return
             self._trace(depsgraph)
         except (SceneError, ValueError, AssumptionError) as error:

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ..manifest import OUTSIDE, Manifest, ObjectEntry
 from ..scene import Camera, Instance, Mesh, Plane, Scene
-from ..scene_files import diagnose, merged
 from .camera import export_camera
 from .colors import background
 from .meshes import export_mesh
@@ -27,15 +26,13 @@ from .visible import Met, Seen, Shown, visible
 _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
 
 
-def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
+def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     """Return what the tracer is to see of an evaluated depsgraph, and the account of it.
 
     Parameters
     ----------
     depsgraph : bpy.types.Depsgraph
         Its mode decides on visibility and modifier levels.
-    diagnosis : bool
-        Whether the manifest is to hold trimesh's diagnosis of every mesh.
 
     Raises
     ------
@@ -85,7 +82,7 @@ def export(depsgraph: Any, diagnosis: bool = False) -> tuple[Scene, Manifest]:
         background=background(scene),
         objects=tuple(objects),
     )
-    return out_scene, _manifest(depsgraph, camera.name, seen, meshes, diagnosis)
+    return out_scene, _manifest(depsgraph, camera.name, seen, meshes)
 
 
 def _outside(
@@ -137,16 +134,11 @@ def _plane(index: int, matrix: np.ndarray, color: NDArray[np.float32]) -> Plane:
     return Plane(index, matrix[:3, 3], normal, color)
 
 
-def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest:
+def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
     scene, layer = user_scene(depsgraph.scene), depsgraph.view_layer
-    diagnoses: dict[int, dict] = {}
     entries = []
     for name, e in seen.items():
         own = [meshes[k] for k in e.mesh_keys]
-        if diagnosis:
-            for key, (mesh, _) in zip(e.mesh_keys, own, strict=True):
-                if key not in diagnoses:
-                    diagnoses[key] = diagnose(mesh)
         shown = bool(e.instances or e.planes)
         entries.append(
             ObjectEntry(
@@ -160,7 +152,6 @@ def _manifest(depsgraph, camera: str, seen, meshes, diagnosis: bool) -> Manifest
                 outside=e.outside,
                 left_out=e.left_out,
                 empty_slots=e.empty_slots,
-                diagnosis=merged([diagnoses[k] for k in e.mesh_keys if k in diagnoses]),
                 traced_triangles=e.triangles,
             )
         )

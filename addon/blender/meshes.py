@@ -61,14 +61,14 @@ def export_mesh(
 
 def _slots(mesh: Any) -> NDArray[np.int32] | None:
     """Return each triangle's material slot, (n,); None where all show the first."""
-    attribute = mesh.attributes.get("material_index")
-    if mesh.is_editmode:
-        slots = _read(mesh.loop_triangles, "material_index", 1, np.int32)
-    elif attribute is None or (attribute.domain, attribute.data_type) != ("FACE", "INT"):
-        return None
-    else:
+    attribute = None if mesh.is_editmode else mesh.attributes.get("material_index")
+    if attribute and (attribute.domain, attribute.data_type) == ("FACE", "INT"):
         face = _read(mesh.loop_triangle_polygons, "value", 1, np.int32)
         slots = _read(attribute.data, "value", 1, np.int32)[face.ravel()]
+    elif attribute or mesh.is_editmode:  # Blender converts another kind, which is rare
+        slots = _read(mesh.loop_triangles, "material_index", 1, np.int32)
+    else:
+        return None
     return np.maximum(slots.ravel(), 0)
 
 

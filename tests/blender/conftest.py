@@ -42,8 +42,8 @@ def build() -> Build:
     return Build()
 
 
-def _export_viewport(diagnosis: bool = False):
-    return export_depsgraph(bpy.context.evaluated_depsgraph_get(), diagnosis)
+def _export_viewport():
+    return export_depsgraph(bpy.context.evaluated_depsgraph_get())
 
 
 def _export_render():

@@ -7,6 +7,8 @@ import math
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.scene_files import diagnosed
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.vector import transform_points
 
 MODES = ("VIEWPORT", "RENDER")
@@ -236,7 +238,7 @@ def test_the_manifest_counts_and_diagnoses(mode, build, export, entries):
     build.camera()
     build.cube()
     build.square()
-    found = entries(export.modes[mode](*([True] if mode == "VIEWPORT" else []))[1])
+    found = entries(result_of(diagnosed(*export.modes[mode]())))
     assert (found["Cube"].triangles, found["Cube"].vertices, found["Cube"].instances) == (12, 8, 1)
     assert found["Cube"].diagnosis == {
         "closed": True,
@@ -245,3 +247,39 @@ def test_the_manifest_counts_and_diagnoses(mode, build, export, entries):
         "duplicate_faces": 0,
     }
     assert found["Square"].diagnosis["closed"] is False
+
+
+@pytest.mark.parametrize("kind", ["FACE INT", "POINT FLOAT"])
+def test_slots_are_those_of_the_loop_triangles(kind, build, export):
+    """An attribute by that name may be of another kind: Blender converts it."""
+    build.camera()
+    mesh = build.cube().data
+    domain, data_type = kind.split()
+    attribute = mesh.attributes.new("material_index", data_type, domain)
+    attribute.data.foreach_set("value", np.arange(len(attribute.data)))
+    (exported,) = export.viewport()[0].meshes
+    assert exported.slots.tolist() == [t.material_index for t in mesh.loop_triangles]
+    assert len(set(exported.slots)) > 1
+
+
+def test_the_mesh_in_the_editor_is_exported_as_its_modifiers_make_it(build, export):
+    build.camera()
+    cube = build.cube(location=(0.3, 0, 0))
+    cube.modifiers.new("Array", "ARRAY").count = 2
+    before = exported_corners(export.viewport()[0], "Cube")
+    bpy.context.view_layer.objects.active = cube
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        scene, _ = export.viewport()
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+    np.testing.assert_array_equal(exported_corners(scene, "Cube"), before)
+
+
+@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "RANDOM", "VERTEX"])
+def test_color_attributes_are_carried_only_where_they_are_shown(color_type, build, export):
+    build.scene(color_type=color_type)
+    build.camera()
+    build.color_attribute(build.cube(), "CORNER")
+    (mesh,) = export.viewport()[0].meshes
+    assert (mesh.corner_colors is not None) == (color_type == "VERTEX")
