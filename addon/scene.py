@@ -262,7 +262,8 @@ class Scene:
     background : (4,) float32
         Linear RGBA of a pixel that sees nothing; alpha 0 for a transparent film.
     objects : tuple of str
-        Names, by the `object` index of instances and planes.
+        Names, by the `object` index of instances and planes. Some may have none: they are there,
+        but outside the view.
     """
 
     camera: Camera
