@@ -201,6 +201,24 @@ class Mesh:
         _store(self, "triangles", _locked(triangles.astype(np.int32, copy=False)))
         _store(self, "slots", _locked(slots))
 
+    @cached_property
+    def bounds(self) -> NDArray[np.float64]:
+        """Lowest and highest coordinates of the vertices, (2, 3); zero where there are none."""
+        v = self.vertices
+        if not len(v):
+            return np.zeros((2, 3))
+        # Rows of some hundred numbers are compared many times faster than rows of three.
+        long = v[: len(v) // 64 * 64].reshape(-1, 3 * 64)
+        rest = v[len(v) // 64 * 64 :]
+        ends = []
+        for end in (np.min, np.max):
+            ends.append(
+                end(np.concatenate((end(long, axis=0).reshape(-1, 3), rest)), axis=0)
+                if len(long)
+                else end(rest, axis=0)
+            )
+        return np.array(ends, np.float64)
+
 
 @dataclass(frozen=True, eq=False)
 class Instance:
@@ -288,6 +306,11 @@ class Scene:
     def instance_meshes(self) -> NDArray[np.intp]:
         """Which mesh each instance shows, (k,)."""
         return np.array([i.mesh for i in self.instances], np.intp)
+
+    @cached_property
+    def instance_objects(self) -> NDArray[np.int32]:
+        """Which object each instance and plane is, and -1 at the end, for nothing: (k + 1,)."""
+        return np.array([*(i.object for i in (*self.instances, *self.planes)), -1], np.int32)
 
     @cached_property
     def instance_matrices(self) -> NDArray[np.float64]:

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Camera
+from ..scene import Camera, Region
 from .vector import Vectors
 
 
@@ -47,6 +47,27 @@ def pixel_size(camera: Camera) -> tuple[float, float]:
     """Return width and height of a pixel on the view window's plane."""
     w = camera.window
     return (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
+
+
+def film_positions(
+    tile: Region, dx: NDArray[np.floating] | float, dy: NDArray[np.floating] | float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
+
+    In pixels of the whole picture, row by row from the tile's lowest.
+    """
+    return film_positions_of(tile, np.arange(tile.width * tile.height), dx, dy)
+
+
+def film_positions_of(
+    tile: Region,
+    pixel: NDArray[np.integer],
+    dx: NDArray[np.floating] | float = 0.0,
+    dy: NDArray[np.floating] | float = 0.0,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the same of some of the tile's pixels, by their numbers (n,)."""
+    y, x = np.divmod(pixel.astype(np.int32), np.int32(tile.width))
+    return (x + tile.x0) + 0.5 + dx, (y + tile.y0) + 0.5 + dy
 
 
 def camera_rays(

@@ -3,7 +3,7 @@
 In come a scene and a camera; out go (pixel, triangle) pairs, which the ray/triangle test decides.
 A pair may be proposed in vain, but one whose ray truly hits is never left out: the box of pixels
 around a projected triangle is widened by a bound on every rounding error that could move it
-(`_SAFETY`). What a test in float32 says to hit far beside an edge-on sliver, by noise, may be.
+(`SAFETY`). What a test in float32 says to hit far beside an edge-on sliver, by noise, may be.
 """
 
 from __future__ import annotations
@@ -21,12 +21,15 @@ from .vector import transform_points
 
 BATCH = 1 << 14  # triangles looked at together: a few milliseconds of work, some MiB
 
-# Camera-space coordinates and rays are off by at most a few roundings of each of their terms:
-# one for v - o, five for each dot product, at most ten for the dual basis, three for a ray's
-# direction, two for its origin (and one for v and o each when they are cast to float32).
-# 64 roundings cover them while the axes' determinant is above MIN_DETERMINANT.
-_SAFETY = 64
-MIN_DETERMINANT = 1 / 8
+# Camera-space coordinates and rays are off by at most a few roundings, of half an eps each, of all
+# their terms: one for v - o, five for each dot product, three for a ray's direction, two for its
+# origin (and one for v and o each when they are cast to float32); and those of the dual basis, less
+# than a hundred while the axes are about of unit length and far from a plane (`has_sound_axes`).
+# Then the terms of all three coordinates together are not smaller than v and o themselves, and 64
+# eps of them cover all. _TINY is far above what gradual underflow may lose.
+SAFETY = 64
+MIN_DETERMINANT, LENGTHS = 1 / 8, (0.5, 2.0)
+_TINY = 2.0**-1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,6 +137,16 @@ def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> World
     return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
 
 
+def has_sound_axes(camera: Camera) -> bool:
+    """Return whether the bounds of this file hold for a camera's axes."""
+    axes = np.stack((camera.right, camera.up, camera.forward))
+    with np.errstate(all="ignore"):
+        lengths = np.sqrt((axes * axes).sum(axis=1))
+        fits = (lengths > LENGTHS[0]) & (lengths < LENGTHS[1])
+        return bool(fits.all() and abs(np.linalg.det(axes)) >= MIN_DETERMINANT)
+
+
+@np.errstate(all="ignore")  # what overflows has no bounds
 def pixel_bounds(
     camera: Camera, corners: NDArray[np.floating], reach: float = 0.0
 ) -> NDArray[np.int32]:
@@ -153,12 +166,12 @@ def pixel_bounds(
         x0 >= x1 or y0 >= y1.
     """
     region, count = camera.region, corners.shape[2]
-    axes = np.stack((camera.right, camera.up, camera.forward))
-    if abs(np.linalg.det(axes)) < MIN_DETERMINANT:
+    if not has_sound_axes(camera):
         return _everywhere(region, count)
     flat = np.concatenate(list(corners), axis=1).astype(np.float64)
     xyz, magnitude = project(camera, flat)
-    error = (_SAFETY * np.finfo(corners.dtype).eps * magnitude.sum(axis=0)).reshape(3, count)
+    error = SAFETY * np.finfo(corners.dtype).eps * magnitude.sum(axis=0) + _TINY
+    error = error.reshape(3, count)
     x, y, depth = xyz.reshape(3, 3, count)
     error = error.max(axis=0)
     nearest, farthest = depth.min(axis=0) - error, depth.max(axis=0) + error
@@ -179,7 +192,7 @@ def pixel_bounds(
             )
         with np.errstate(invalid="ignore", over="ignore"):
             # A film position near `start` comes from cancelling against it.
-            slack = reach + _SAFETY * np.finfo(corners.dtype).eps * (
+            slack = reach + SAFETY * np.finfo(corners.dtype).eps * (
                 abs(start / size) + camera.width + camera.height
             )
             bounds[2 * axis] = _pixel(
@@ -251,7 +264,7 @@ def pairs(
     if not len(some):
         return
     # A run is one row of one box: first its triangle and row, then its pixels.
-    triangle, row = _spread(some, (y1 - y0)[some])
+    triangle, row = spread(some, (y1 - y0)[some])
     row += y0[triangle]
     start = (row - tile.y0) * tile.width + (x0[triangle] - tile.x0)
     length = (x1 - x0)[triangle]
@@ -260,12 +273,12 @@ def pairs(
     while first < len(length):
         done = ends[first - 1] if first else 0
         last = max(first + 1, int(np.searchsorted(ends, done + limit, side="right")))
-        run, step = _spread(np.arange(first, last), length[first:last])
+        run, step = spread(np.arange(first, last), length[first:last])
         yield start[run] + step, triangle[run]
         first = last
 
 
-def _spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Repeat each item `count` times; the second array numbers its copies from 0."""
     repeated = np.repeat(items, counts)
     ends = np.cumsum(counts)

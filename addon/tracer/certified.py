@@ -23,7 +23,6 @@ from .hits import Hits, Statistics
 from .progress import Work, result_of
 from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
 from .settle import by_bound, by_numbers, by_order, by_ray
-from .vector import Vectors
 
 _PAIRS = 1 << 15  # that `nearest` tests at a time
 
@@ -64,8 +63,8 @@ class Contest:
         for k, (point, normal) in enumerate(planes):
             with np.errstate(all="ignore"):
                 depths = plane_depths(rays, point[:, None], normal[:, None])
-                edges, sure = np.zeros((3, self._count)), np.ones(self._count, bool)
-                found = self._possible(every, np.full(self._count, k), edges, depths, sure)
+                sure = np.ones(self._count, bool)
+                found = self._possible(every, np.full(self._count, k), depths, sure)
             self._kept.append(found)
 
     def enter(self, some: Pairs) -> None:
@@ -79,9 +78,9 @@ class Contest:
             if prepared is None:  # rays that share nothing: each pair by itself
                 prepared = FromPoint(rays.origins, np.abs(rays.directions), some.corners)
                 row = np.arange(len(row))
-            edges, sure, possible = _sides(prepared, row, rays)
+            sure, possible = _sides(prepared, row, rays)
             depths = prepared.depths(row[possible], rays.take(possible))
-            found = self._possible(some.pixel[possible], some.row[possible], edges, depths, sure)
+            found = self._possible(some.pixel[possible], some.row[possible], depths, sure)
         self._of_batch.append(found)
 
     def hits(self, statistics: Statistics) -> Work[Hits]:
@@ -99,9 +98,9 @@ class Contest:
         clear = alone & (found.doubt == SURE)
         triangles = WorldTriangles.joined(self._triangles)
         surfaces = Surfaces(self._planes, self._first_plane, triangles)
-        with np.errstate(all="ignore"):
-            by_bound(hits, self._rays, surfaces, found.take(np.flatnonzero(clear)))
-        yield 1.0
+        some = found.take(np.flatnonzero(clear))
+        for _ in by_bound(hits, self._rays, surfaces, some.ray, some.surface):
+            yield 1.0
         rest = found.take(np.flatnonzero(~clear))
         with np.errstate(all="ignore"):
             rest = by_order(hits, self._rays, surfaces, self._clip, rest, statistics.reasons)
@@ -122,13 +121,13 @@ class Contest:
                 return Parallel(d, *ends, corners)
         return None
 
-    def _possible(self, ray, surface, edges: Vectors, depths: Depths, sure) -> Candidates:
+    def _possible(self, ray, surface, depths: Depths, sure) -> Candidates:
         """Return what may be in the clip range, and not behind what surely is."""
         low, high, outside, doubt = _in_range(depths, sure, *self._clip)
         certain = np.flatnonzero(doubt == SURE)
         np.minimum.at(self._farthest, ray[certain], high[certain])
         keep = np.flatnonzero(~outside & (low <= self._farthest[ray]))
-        return Candidates(ray, surface, low, high, edges, doubt).take(keep)
+        return Candidates(ray, surface, low, high, doubt).take(keep)
 
     def _end_batch(self) -> None:
         """Keep of the current batch only the triangles that candidates are left of."""
@@ -168,7 +167,7 @@ def decide(
     every = np.arange(corners.shape[2])
     with np.errstate(all="ignore"):  # what overflows is not known, and goes to whole numbers
         prepared = FromPoint(rays.origins, np.abs(rays.directions), corners)
-        _, sure, possible = _sides(prepared, every, rays)
+        sure, possible = _sides(prepared, every, rays)
         depths = prepared.depths(possible, rays.take(possible))
         _, _, outside, doubt = _in_range(depths, sure, start, end)
     hit[possible] = ~outside & (doubt == SURE)
@@ -201,12 +200,12 @@ def nearest(
 
 
 def _sides(prepared: FromPoint | Parallel, row: NDArray, rays: Rays):
-    """Return the edge functions of pairs that may be hits, which surely are, and which pairs."""
+    """Return which of the pairs that may be hits surely are, and which pairs may be."""
     edges, error = prepared.edges(row, rays)
     low, high = edges.min(axis=0), edges.max(axis=0)
     possible = np.flatnonzero(~((low < -error) & (high > error)))
     sure = ((low > error) | (high < -error))[possible]
-    return edges[:, possible], sure, possible
+    return sure, possible
 
 
 def _in_range(depths: Depths, sure: NDArray[np.bool_], start: float, end: float):

@@ -82,6 +82,11 @@ class Frame:
                 wrong.flat[pixel] = name not in may
         return wrong
 
+    def arrays(self) -> dict[str, NDArray]:
+        """Return the arrays of a value a pixel, by name."""
+        passes = self.passes()
+        return {name: passes[name] for name in passes if name not in ("depth", "rows_done")}
+
     def passes(self) -> dict[str, NDArray]:
         """Return every output by name, in the order in which they are declared."""
         names = (

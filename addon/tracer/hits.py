@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -26,6 +29,14 @@ class Statistics:
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
+    stages: Counter[str] = field(default_factory=Counter)  # seconds of the parts of certified work
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Count the time of what happens inside as one of the stages."""
+        began = time.perf_counter()
+        yield
+        self.stages[name] += time.perf_counter() - began
 
     @property
     def pairs_exact(self) -> int:
@@ -77,7 +88,20 @@ class Hits:
             np.full(count, certainty, np.uint8),
         )
 
-    def take(self, index: NDArray) -> Hits:
+    @classmethod
+    def joined(cls, parts: Sequence[Hits]) -> Hits:
+        """Return the hits of several sets of rays, one after the other, as those of one."""
+        if len(parts) == 1:
+            return parts[0]
+        names = ("t", "instance", "triangle", "s", "certainty")
+        out = cls(*(np.concatenate([getattr(p, n) for p in parts], axis=-1) for n in names))
+        first = 0
+        for part in parts:
+            out.ties.update((first + ray, names) for ray, names in part.ties.items())
+            first += len(part.t)
+        return out
+
+    def take(self, index: NDArray | slice) -> Hits:
         """Return the hits of the rays at `index`, without their ties."""
         return Hits(
             self.t[index],

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
+import numpy as np
+
 T = TypeVar("T")
 Work = Generator[float, None, T]
 
@@ -31,3 +33,14 @@ def scaled(work: Work[T], start: float, size: float) -> Work[T]:
         except StopIteration as stop:
             return stop.value
         yield start + size * share
+
+
+def quiet(work: Work[T]) -> Work[T]:
+    """Run work without numpy's warnings: what over- or underflows is not known, and found out."""
+    while True:
+        with np.errstate(all="ignore"):
+            try:
+                share = next(work)
+            except StopIteration as stop:
+                return stop.value
+        yield share

@@ -15,17 +15,21 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import shading
-from .camera import camera_rays
+from .camera import camera_rays, film_positions_of
 from .certainty import AssumptionError, check_assumptions
 from .frame import Frame
-from .hits import Hits
-from .progress import Work, scaled
+from .hits import NOTHING, Hits, Statistics
+from .pieces import refused
+from .progress import Work, result_of, scaled
 from .settings import Method, Precision, Settings
-from .visibility import Plan, film_positions, plan, trace_tile
+from .sweep import sweep
+from .visibility import plan, trace_tile
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
 PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
+PLAIN_PIXELS = 1 << 18  # of a band that is traced by a plain method
+BYTES_PER_PIXEL = 224  # of a band: depth buffer, what is kept, hits
 _WHOLE = 0.999  # of the progress, until the picture is whole
 
 
@@ -82,21 +86,54 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
             yield share
 
 
+def trace(scene: Scene, settings: Settings, statistics: Statistics | None = None) -> Hits:
+    """Return what the rays through the centres of the region's pixels meet, and nothing else.
+
+    Parameters
+    ----------
+    scene : Scene
+    settings : Settings
+        Of which the samples do not count.
+    statistics : Statistics, optional
+        To count in.
+
+    Returns
+    -------
+    Hits
+        Of the region's pixels, row by row from the lowest.
+    """
+    statistics = statistics or Statistics()
+    tracer = result_of(_tracer(scene, _resolved(settings, statistics), 0.0, statistics))
+    parts = bands(scene.camera, settings)
+    return Hits.joined([result_of(tracer(band, 0.0, 0.0)) for band in parts])
+
+
 def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
-    settings = _resolved(settings, frame)
+    settings = _resolved(settings, frame.statistics)
     frame.statistics.triangles = scene.triangle_count
     offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
     reach = max((abs(o) for offset in offsets for o in offset), default=0.0)
-    made = yield from plan(scene, settings, reach)
-    frame.statistics.refused = made.refused
-    all_tiles = tiles(scene.camera)
-    for number, tile in enumerate(all_tiles):
-        tracing = _trace(made, tile, offsets, frame)
-        yield from scaled(tracing, _WHOLE * number / len(all_tiles), _WHOLE / len(all_tiles))
+    tracer = yield from _tracer(scene, settings, reach, frame.statistics)
+    parts = bands(scene.camera, settings)
+    for number, band in enumerate(parts):
+        tracing = _band(scene, settings, tracer, band, offsets, frame)
+        yield from scaled(tracing, _WHOLE * number / len(parts), _WHOLE / len(parts))
     yield 1.0
 
 
-def _resolved(settings: Settings, frame: Frame) -> Settings:
+def _tracer(
+    scene: Scene, settings: Settings, reach: float, statistics: Statistics
+) -> Work[Callable[[Region, float, float], Work[Hits]]]:
+    """Prepare the settings' method; yields 0, as nothing is traced yet."""
+    if not settings.method.is_plain:
+        statistics.refused = refused(scene)
+        return lambda band, dx, dy: sweep(scene, band, settings.memory // 2, dx, dy, statistics)
+    made = yield from plan(scene, settings, reach)
+    statistics.refused = made.refused
+    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics)
+
+
+def _resolved(settings: Settings, statistics: Statistics) -> Settings:
     """Return settings with a method that is one: `auto` is certified, where that is possible."""
     if not settings.method.is_plain:
         try:
@@ -106,23 +143,26 @@ def _resolved(settings: Settings, frame: Frame) -> Settings:
             if settings.method != Method.AUTO:
                 raise
             settings = replace(settings, method=Method.WATERTIGHT, precision=Precision.FLOAT64)
-            frame.statistics.notes.append(f"traced by watertight in float64, as {error}")
-    frame.statistics.method = settings.method.value
+            statistics.notes.append(f"traced by watertight in float64, as {error}")
+    statistics.method = settings.method.value
     return settings
 
 
-def _trace(made: Plan, tile: Region, offsets: list, frame: Frame) -> Work[None]:
-    """Trace a tile through its pixels' centres and, for its colour, at these offsets from them."""
+def _band(
+    scene: Scene, settings: Settings, tracer, band: Region, offsets: list, frame: Frame
+) -> Work[None]:
+    """Trace a band through its pixels' centres and, for its colour, at these offsets from them."""
     share = 1 / (1 + len(offsets))
-    centre = yield from scaled(trace_tile(made, tile, statistics=frame.statistics), 0.0, share)
-    color = (
-        np.zeros((tile.width * tile.height, 4)) if offsets else shading.colors(made.scene, centre)
-    )
+    hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
+    color = None
     for number, (dx, dy) in enumerate(offsets, start=1):
-        tracing = trace_tile(made, tile, dx, dy, frame.statistics)
-        hits = yield from scaled(tracing, number * share, share)
-        color += shading.colors(made.scene, hits) / len(offsets)
-    _write(made, frame, tile, centre, color)
+        other = yield from scaled(tracer(band, dx, dy), number * share, share)
+        if color is None:
+            color = np.zeros((len(hits.t), 4))
+        for part in _parts(len(hits.t)):
+            color[part] += shading.colors(scene, other.take(part)) / len(offsets)
+            yield (number + 1) * share
+    yield from _write(scene, settings, frame, band, hits, color)
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:
@@ -132,29 +172,59 @@ def sample_offsets(samples: int) -> list[tuple[float, float]]:
 
 
 def tiles(camera: Camera) -> list[Region]:
-    """Split the camera's region into bands of whole rows, from the lowest."""
-    r = camera.region
-    rows = max(1, min(ROWS, PIXELS // r.width))
+    """Split the camera's region into tiles of whole rows, from the lowest."""
+    return _rows(camera.region, max(1, min(ROWS, PIXELS // camera.region.width)))
+
+
+def bands(camera: Camera, settings: Settings) -> list[Region]:
+    """Split the camera's region into bands that are traced together, from the lowest.
+
+    The higher they are, the less often a triangle is looked at; memory limits it, and where nothing
+    is culled behind what is seen, the wish to see the picture grow.
+    """
+    pixels = settings.memory // BYTES_PER_PIXEL
+    if settings.method.is_plain:
+        pixels = min(pixels, PLAIN_PIXELS)
+    return _rows(camera.region, max(1, pixels // camera.region.width))
+
+
+def _rows(r: Region, rows: int) -> list[Region]:
     return [Region(r.x0, y, r.x1, min(y + rows, r.y1)) for y in range(r.y0, r.y1, rows)]
 
 
-def _write(plan: Plan, frame: Frame, tile: Region, hits: Hits, color: NDArray) -> None:
-    """Enter a tile's colour, and what the rays through its pixels' centres met."""
-    scene = plan.scene
-    rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
-    rays = camera_rays(scene.camera, *film_positions(tile, 0.0, 0.0), plan.settings.precision.dtype)
-    for target, value in (
-        (frame.color, color),
-        (frame.t, hits.t),
-        (frame.position, shading.positions(rays, hits)),
-        (frame.normal, shading.normals(scene, hits)),
-        (frame.barycentrics, hits.s.T),
-        (frame.object_index, shading.objects(scene, hits)),
-        (frame.instance_index, hits.instance),
-        (frame.triangle_index, hits.triangle),
-        (frame.certainty, hits.certainty),
-    ):
-        target[rows] = np.asarray(value).reshape(target[rows].shape)
-    first = rows.start * tile.width
+def _parts(count: int) -> list[slice]:
+    return [slice(first, first + PIXELS // 4) for first in range(0, count, PIXELS // 4)]
+
+
+def _write(
+    scene: Scene, settings: Settings, frame: Frame, band: Region, hits: Hits, color: NDArray | None
+) -> Work[None]:
+    """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
+    rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
+    # The rows of an array of the whole region: views of it, one pixel a row.
+    targets = {n: v[rows].reshape(len(hits.t), *v.shape[2:]) for n, v in frame.arrays().items()}
+    for part in _parts(len(hits.t)):
+        with frame.statistics.stage("shade"):
+            targets["color"][part] = scene.background if color is None else color[part]
+            targets["certainty"][part] = hits.certainty[part]
+            seen = part.start + np.flatnonzero(hits.instance[part] != NOTHING)
+            if len(seen):
+                some = hits.take(seen)
+                film = film_positions_of(band, seen)
+                rays = camera_rays(scene.camera, *film, settings.precision.dtype)
+                if color is None:
+                    targets["color"][seen] = shading.colors(scene, some)
+                for name, value in (
+                    ("t", some.t),
+                    ("position", shading.positions(rays, some)),
+                    ("normal", shading.normals(scene, some)),
+                    ("barycentrics", some.s.T),
+                    ("object_index", shading.objects(scene, some)),
+                    ("instance_index", some.instance),
+                    ("triangle_index", some.triangle),
+                ):
+                    targets[name][seen] = value
+        yield 1.0
+    first = rows.start * band.width
     frame.ties.update((first + pixel, names) for pixel, names in hits.ties.items())
     frame.rows_done[rows] = True

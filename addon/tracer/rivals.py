@@ -12,8 +12,6 @@ from . import exact
 from .camera import Rays
 from .candidates import WorldTriangles
 from .hits import NOTHING
-from .rounding import round_t, triangle_normals
-from .vector import Vectors
 
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
@@ -24,14 +22,13 @@ class Candidates:
     """c hits that may be the nearest of their ray.
 
     `surface` (c,) says of which of the contest's surfaces; `low` and `high` (c,) enclose t;
-    `edges` (3, c) are e_ab, e_bc, e_ca; `doubt` (c,) is what is not known.
+    `doubt` (c,) is what is not known.
     """
 
     ray: NDArray[np.intp]
     surface: NDArray[np.intp]
     low: NDArray[np.float64]
     high: NDArray[np.float64]
-    edges: Vectors
     doubt: NDArray[np.uint8]
 
     def take(self, index: NDArray) -> Candidates:
@@ -60,37 +57,38 @@ class Surfaces:
         """Return all planes, and of the triangles those at `index` (which counts planes)."""
         return replace(self, triangles=self.triangles.take(index - len(self.planes)))
 
-    def name(self, surface: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle of surfaces, (c,) each."""
+    def only(self, surface: NDArray[np.integer]) -> tuple[Surfaces, NDArray[np.intp]]:
+        """Return all planes, and the triangles among these surfaces, with their numbers there."""
+        planes, count = len(self.planes), self.triangles.corners.shape[2]
+        occurs = np.zeros(planes + count, bool)
+        occurs[surface] = occurs[:planes] = True
+        return self.take(np.flatnonzero(occurs)[planes:]), (np.cumsum(occurs) - 1)[surface]
+
+    def name(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle of every surface."""
         count = len(self.planes)
         instance = np.r_[self.first_plane + np.arange(count), self.triangles.instance]
         triangle = np.r_[np.full(count, NOTHING), self.triangles.triangle]
-        return instance[surface].astype(np.int32), triangle[surface].astype(np.int32)
+        return instance.astype(np.int32), triangle.astype(np.int32)
 
-    def round_t(self, rays: Rays, surface: NDArray) -> tuple[NDArray, NDArray[np.bool_]]:
-        """Return t of p rays with these surfaces, and whether it surely is rounded correctly."""
-        corners = self.triangles.corners
-        (high, low), size = triangle_normals(corners)
-        if self.planes:
-            points, normals = (np.array(v, np.float64).T for v in zip(*self.planes, strict=True))
-            high, low = np.hstack((normals, high)), np.hstack((np.zeros_like(normals), low))
-            return round_t(
-                rays,
-                surface,
-                np.hstack((points, corners[0])),
-                (high, low),
-                np.hstack((np.abs(normals), size)),
-            )
-        return round_t(rays, surface, corners[0], (high, low), size)
+    def names(self, surface: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle of surfaces, (c,) each."""
+        instance, triangle = self.name()
+        return instance[surface], triangle[surface]
 
     def numbers(
-        self, rays: Rays, found: Candidates, start: float = -np.inf, end: float = np.inf
+        self,
+        rays: Rays,
+        ray: NDArray[np.intp],
+        surface: NDArray[np.intp],
+        start: float = -np.inf,
+        end: float = np.inf,
     ) -> Numbers:
-        """Return candidates as whole numbers."""
-        which, ray = np.unique(found.ray, return_inverse=True)
+        """Return pairs of a ray and a surface, (c,) each, as whole numbers."""
+        which, ray = np.unique(ray, return_inverse=True)
         planes = len(self.planes)
         used, surface = np.unique(
-            np.r_[np.arange(planes), found.surface], return_inverse=True
+            np.r_[np.arange(planes), surface], return_inverse=True
         )  # every plane stays, so that planes keep their numbers
         some = self.take(used[planes:])
         batch = exact.Batch(rays.take(which), some.triangles.corners, self.planes, start, end)

@@ -1,7 +1,17 @@
-"""t = T / D, rounded to the nearest float64.
+"""t = T / D of rays and surfaces that they surely hit, rounded to the nearest float64.
 
-With twice the digits (`double_double.py`) the same bound as in `bounds.py` holds, with that
-arithmetic's error in place of 2^-53: in almost every case it leaves a single float64 to round to.
+T = (p - o) . n and D = d . n are sums of three products each. Vectors are split into a high half of
+25 digits and the rest (`error_free.halves`), so that what the high halves make is exact, and all
+else is some 2^-25 of it: with its own roundings a scalar product v . n is off by at most
+
+    V (N + 3 M) 2^-72
+
+for powers of two V > |v|, N > |n|, in the largest component, and M, the product of those of the
+two sides that n is the cross product of: 6 products of at most 2^-25 V N each, with at most 6
+roundings; the rest of n, with one; and the error of n, which is likewise at most 2^-72 M.
+
+The quotient is corrected by what is left of T - t D; then there is almost always a single float64
+that it may be rounded to (Ziv's test), and it is.
 """
 
 from __future__ import annotations
@@ -9,101 +19,122 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from . import double_double as dd
-from .bounds import BOUND, SLACK, U, cross_magnitude
+from .bounds import U
 from .camera import Rays
-from .vector import Vectors, dot
+from .error_free import Pair, fast_two_sum, halves, power_above, two_product, two_sum
+from .vector import Vectors
 
-_BOUND = BOUND / U * dd.ERROR
-_LOOSE = 1 + 2.0**-48  # the bound's own few roundings
-_CHUNK = 1 << 13  # rays at a time: their temporaries stay in a core's cache
+_DOT = 2.0**-72
+_QUOTIENT = 32 * U * U  # of the correction's own roundings, relative to t
+_LEAST = 2.0**-950  # of what T and D are made of: below, products lose digits to underflow
+_LOOSE = 1 + 2.0**-40  # the bounds' own roundings
 
 Floats = NDArray[np.float64]
-Doubles = tuple[Vectors, Vectors]  # high and low, (3, m) each
+Sum = tuple[Floats, Floats, Floats]  # high, low, error
 
 
-def triangle_normals(corners: NDArray[np.float64]) -> tuple[Doubles, Vectors]:
-    """Return n = (b - a) x (c - a) of triangles (3, 3, m), and the magnitude of its terms."""
-    a, b, c = corners
-    u, v = dd.two_sum(b, -a), dd.two_sum(c, -a)
-    n = [
-        dd.add(
-            dd.multiply(_component(u, i), _component(v, j)),
-            dd.negative(dd.multiply(_component(u, j), _component(v, i))),
-        )
-        for i, j in ((1, 2), (2, 0), (0, 1))
-    ]
-    high, low = (np.stack(part) for part in zip(*n, strict=True))
-    return (high, low), cross_magnitude(np.abs(u[0]), np.abs(v[0]))
-
-
-def round_t(
-    rays: Rays, surface: NDArray[np.intp], point: Vectors, normal: Doubles, size: Vectors
-) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return t of p rays with the planes of surfaces, and whether it surely is the nearest float64.
+class Quotients:
+    """The planes of m surfaces, prepared for rays that share an origin, a direction, or nothing.
 
     Parameters
     ----------
     rays : Rays
-        p rays.
-    surface : (p,) int
-        Which of the m surfaces each ray meets.
+        Of which the shared vector, and the first origin, are used.
     point : (3, m) float64
-        A point of each surface's plane.
-    normal, size
-        As :func:`triangle_normals` returns them.
+        A point of each plane.
+    normal : Pair of (3, m) float64
+        n, high and low.
+    error : (m,) float64
+        M; 0 where n has no error.
     """
-    t, sure = np.empty(len(surface)), np.empty(len(surface), bool)
-    shared = None
-    with np.errstate(all="ignore"):  # what overflows is not sure
-        if rays.origins.shape[1] == 1:
-            shared = np.stack(_depth(rays.origins, point, normal, size))
-        for start in range(0, len(surface), _CHUNK):
-            part = slice(start, start + _CHUNK)
-            rows = surface[part]
-            some = rays.take(np.arange(len(surface))[part])
-            n = normal[0].take(rows, axis=1), normal[1].take(rows, axis=1)
-            magnitude = size.take(rows, axis=1)
-            if shared is None:
-                depth = _depth(some.origins, point.take(rows, axis=1), n, magnitude)
-            else:
-                depth = shared.take(rows, axis=1)
-            t[part], sure[part] = _quotient(depth, _towards(some.directions, n, magnitude))
+
+    def __init__(self, rays: Rays, point: Vectors, normal: Pair, error: Floats) -> None:
+        self._one_origin = rays.origins.shape[1] == 1
+        self._one_direction = rays.directions.shape[1] == 1
+        self._origin, self._point = rays.origins[:, :1], point
+        high, low = normal
+        unit = power_above(high)
+        coarse, fine = halves(high, unit)
+        self._normals = np.concatenate((coarse, fine + low, ((unit + 3 * error) * _DOT)[None]))
+        every = np.arange(point.shape[1])
+        self._fixed = ()
+        if self._one_origin or self._one_direction:
+            depth = self._dot(*two_sum(point, -self._origin), every)
+            self._fixed = depth if self._one_origin else (*depth, *self._along(rays, every))
+            self._fixed = np.stack(self._fixed)
+
+    @classmethod
+    def of(cls, rays: Rays, corners: NDArray[np.float64], planes: tuple = ()) -> Quotients:
+        """Prepare infinite planes, (point, normal) each, then triangles, corners (3, 3, m)."""
+        a, b, c = corners
+        normal, error = _cross(two_sum(b, -a), two_sum(c, -a))
+        error = np.where(error > _LEAST, error, np.inf)
+        if not planes:
+            return cls(rays, a, normal, error)
+        points, normals = (np.array(v, np.float64).T for v in zip(*planes, strict=True))
+        nothing = np.zeros_like(normals)
+        whole = tuple(np.hstack(v) for v in zip((normals, nothing), normal, strict=True))
+        return cls(rays, np.hstack((points, a)), whole, np.r_[nothing[0], error])
+
+    def meet(self, rays: Rays, surface: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
+        """Return t of p rays with surfaces, and whether it surely is the nearest float64."""
+        if self._one_origin:
+            depth = tuple(self._fixed.take(surface, axis=1))
+            return _quotient(depth, self._along(rays, surface))
+        if not self._one_direction:
+            point = self._point.take(surface, axis=1)
+            depth = self._dot(*two_sum(point, -rays.origins), surface)
+            return _quotient(depth, self._along(rays, surface))
+        high, low, error, *towards = self._fixed.take(surface, axis=1)
+        moved = self._dot(*two_sum(rays.origins, -self._origin), surface)
+        high, rest = two_sum(high, -moved[0])
+        depth = *two_sum(high, rest + (low - moved[1])), error + moved[2]
+        return _quotient(depth, tuple(towards))
+
+    def _along(self, rays: Rays, surface: NDArray[np.intp]) -> Sum:
+        return self._dot(rays.directions, 0.0, surface)
+
+    def _dot(self, v: Vectors, rest: Vectors | float, surface: NDArray[np.intp]) -> Sum:
+        """Return (v + rest) . n."""
+        unit = power_above(v)
+        coarse, fine = halves(v, unit)
+        fine = fine + rest
+        nx, ny, nz, mx, my, mz, error = self._normals.take(surface, axis=1)
+        exact = coarse[0] * nx + coarse[1] * ny + coarse[2] * nz
+        small = (
+            (coarse[0] * mx + fine[0] * (nx + mx))
+            + (coarse[1] * my + fine[1] * (ny + my))
+            + (coarse[2] * mz + fine[2] * (nz + mz))
+        )
+        error = error * unit
+        error = np.where(error > _LEAST * _DOT, error, np.inf)
+        return *two_sum(exact, small), error
+
+
+def _cross(u: Pair, v: Pair) -> tuple[Pair, Floats]:
+    """Return u x v as high + low, and M, the product of the powers of two above u and v."""
+    units = power_above(u[0]), power_above(v[0])
+    (uh, ul), (vh, vl) = (halves(w[0], unit) for w, unit in zip((u, v), units, strict=True))
+    ul, vl = ul + u[1], vl + v[1]
+    high, low = np.empty_like(uh), np.empty_like(uh)
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        exact = uh[i] * vh[j] - uh[j] * vh[i]
+        small = (uh[i] * vl[j] + ul[i] * v[0][j]) - (uh[j] * vl[i] + ul[j] * v[0][i])
+        high[k], low[k] = two_sum(exact, small)
+    return (high, low), units[0] * units[1]
+
+
+def _quotient(depth: Sum, towards: Sum) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return T / D as a float64, and whether no other is as near."""
+    high, low, depth_error = depth
+    under, rest, towards_error = towards
+    first = high / under
+    product, lost = two_product(first, under)
+    left = ((high - product) - lost) + (low - first * rest)
+    t, beyond = fast_two_sum(first, left / under)
+    size = np.abs(first)
+    error = (size * towards_error + depth_error) / (np.abs(under) - towards_error)
+    error = (error + _QUOTIENT * size) * _LOOSE
+    sure = (np.abs(under) > 2 * towards_error) & (np.abs(high) > _LEAST) & (size > _LEAST)
+    sure &= (t + (beyond + error) == t) & (t + (beyond - error) == t)
     return t, sure
-
-
-def _depth(origins: Vectors, point: Vectors, normal: Doubles, size: Vectors) -> tuple[Floats, ...]:
-    """Return T = (p - o) . n as high, low and error."""
-    arm = dd.two_sum(point, -origins)
-    terms = [dd.multiply(_component(arm, k), _component(normal, k)) for k in range(3)]
-    return (*_sum(terms), _error(np.abs(arm[0]), size))
-
-
-def _towards(directions: Vectors, normal: Doubles, size: Vectors) -> tuple[Floats, ...]:
-    """Return D = d . n as high, low and error."""
-    terms = [dd.scale(_component(normal, k), directions[k]) for k in range(3)]
-    return (*_sum(terms), _error(np.abs(directions), size))
-
-
-def _quotient(depth, towards) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return T / D as a float64, and whether no other is as near (Ziv's test)."""
-    *over, depth_error = depth
-    *under, towards_error = towards
-    t, rest = dd.divide(tuple(over), tuple(under))
-    size = np.abs(under[0]) * (1 - 2 * U)
-    error = (np.abs(t) * towards_error + depth_error) / (size - towards_error)
-    error = (error + 2 * dd.ERROR * np.abs(t)) * _LOOSE + SLACK
-    sure = (size > towards_error) & (t + (rest + error) == t) & (t + (rest - error) == t)
-    return t, sure
-
-
-def _error(w: Vectors, size: Vectors) -> Floats:
-    return _BOUND * dot(w, size) + SLACK * (1 + w[0] + w[1] + w[2])
-
-
-def _sum(terms: list[dd.Pair]) -> dd.Pair:
-    return dd.add(dd.add(terms[0], terms[1]), terms[2])
-
-
-def _component(x: Doubles, k: int) -> dd.Pair:
-    return x[0][k], x[1][k]

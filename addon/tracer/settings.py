@@ -65,7 +65,7 @@ class Settings:
     method: Method | str = Method.AUTO
     precision: Precision | str = Precision.FLOAT64
     samples: int = 1
-    memory: int = 256 << 20
+    memory: int = 512 << 20
 
     def __post_init__(self) -> None:
         for name, kind in (("method", Method), ("precision", Precision)):

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,29 +18,24 @@ from .camera import Rays
 from .certainty import Certainty
 from .hits import NOTHING, Hits, Name
 from .reasons import Reason, of_doubts
+from .resolve import TOGETHER, Prepared
 from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
 from .ties import nearest
 
 _TOGETHER = 1 << 11  # candidates that whole numbers decide at a time: some ten milliseconds
 
 
-def by_bound(hits: Hits, rays: Rays, surfaces: Surfaces, found: Candidates) -> None:
-    """Enter rays that have one candidate, which surely is a hit: only t has to be rounded."""
-    used = np.zeros(len(surfaces.planes) + surfaces.triangles.corners.shape[2], bool)
-    used[found.surface] = used[: len(surfaces.planes)] = True
-    surface = (np.cumsum(used) - 1)[found.surface]
-    some = surfaces.take(np.flatnonzero(used)[len(surfaces.planes) :])
-    t, sure = some.round_t(rays.take(found.ray), surface)
-    unsure = np.flatnonzero(~sure)
-    for part in np.split(unsure, range(_TOGETHER, len(unsure), _TOGETHER)):
-        numbers = surfaces.numbers(rays, found.take(part))
-        t[part] = [numbers.batch.t(numbers.meeting(k)) for k in range(len(part))]
-    hits.t[found.ray] = t
-    hits.instance[found.ray], hits.triangle[found.ray] = surfaces.name(found.surface)
-    ab, bc, ca = found.edges
-    whole = ab + bc + ca
-    weights = np.stack((bc, ca, ab)) / np.where(whole == 0, 1, whole)  # 0 of a plane
-    hits.s[:, found.ray] = weights
+def by_bound(
+    hits: Hits, rays: Rays, surfaces: Surfaces, ray: NDArray[np.intp], surface: NDArray[np.intp]
+) -> Iterator[None]:
+    """Enter what rays surely hit first, in small steps: only t and the barycentrics are open."""
+    surfaces, surface = surfaces.only(surface)
+    prepared = Prepared(rays, surfaces)
+    for first in range(0, len(ray), TOGETHER):
+        part = slice(first, first + TOGETHER)
+        prepared.enter(hits, ray[part], rays.take(ray[part]), surface[part])
+        yield
+    prepared.finish(hits, rays.take)
 
 
 def by_order(
@@ -61,8 +55,8 @@ def by_order(
         return found
     rest = found.take(np.flatnonzero(doubtful[found.ray]))
     found = found.take(np.flatnonzero(~doubtful[found.ray]))
-    found = found.take(np.lexsort((*surfaces.name(found.surface)[::-1], found.ray)))
-    numbers = surfaces.numbers(rays, replace(found, ray=np.zeros_like(found.ray)))
+    found = found.take(np.lexsort((*surfaces.names(found.surface)[::-1], found.ray)))
+    numbers = surfaces.numbers(rays, np.zeros_like(found.ray), found.surface)
     surface = np.array(numbers.surface)
     # The first of each ray is its champion, and meets one more of the ray's in every round.
     start = np.flatnonzero(np.diff(found.ray, prepend=-1))
@@ -86,7 +80,8 @@ def by_order(
     coplanar = int((lost & tied).sum())
     reasons += Counter({Reason.COPLANAR: coplanar, Reason.CLOSE: int(lost.sum()) - coplanar})
     won = found.take(champion[decided])
-    by_bound(hits, rays, surfaces, won)
+    for _ in by_bound(hits, rays, surfaces, won.ray, won.surface):
+        pass
     hits.certainty[won.ray] = Certainty.EXACT
     ambiguous = np.flatnonzero(lost & tied)
     _tie(hits, surfaces, found, np.r_[champion[np.unique(of_ray[ambiguous])], ambiguous])
@@ -96,7 +91,7 @@ def by_order(
 def _tie(hits: Hits, surfaces: Surfaces, found: Candidates, index: NDArray[np.intp]) -> None:
     """Enter candidates that lie in one plane as ties of their ray."""
     members: dict[int, tuple[Name, ...]] = {}
-    names = zip(*(v.tolist() for v in surfaces.name(found.surface[index])), strict=True)
+    names = zip(*(v.tolist() for v in surfaces.names(found.surface[index])), strict=True)
     for ray, name in zip(found.ray[index].tolist(), names, strict=True):
         members[ray] = (*members.get(ray, ()), name)
     sets = {names: frozenset(names) for names in set(members.values())}  # shared by many rays
@@ -127,8 +122,8 @@ def by_numbers(
 
     Counts why each candidate had to be looked at.
     """
-    numbers = surfaces.numbers(rays, found, *clip)
-    names = list(zip(*(v.tolist() for v in surfaces.name(found.surface)), strict=True))
+    numbers = surfaces.numbers(rays, found.ray, found.surface, *clip)
+    names = list(zip(*(v.tolist() for v in surfaces.names(found.surface)), strict=True))
     groups: dict[int, list[tuple[int, exact.Meeting | None]]] = {}
     for k, ray in enumerate(found.ray.tolist()):
         groups.setdefault(ray, []).append((k, numbers.meeting(k)))

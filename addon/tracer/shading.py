@@ -23,7 +23,8 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     The colour of a triangle is that of its material slot; where the mesh has corner colours, the
     barycentrics weigh them.
     """
-    out = np.tile(scene.background, (len(hits.t), 1))
+    out = np.empty((len(hits.t), 4), np.float32)
+    out[:] = scene.background
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         out[hits.instance == index] = infinite.color
     for mesh, rows in _by_mesh(scene, hits):
@@ -53,11 +54,15 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         n[:, hits.instance == index] = infinite.normal[:, None]
     for mesh, rows in _by_mesh(scene, hits):
-        matrices = scene.instance_matrices[..., hits.instance[rows]]
+        which = hits.instance[rows]
+        if (which == which[0]).all():
+            which = which[:1]
+        matrices = scene.instance_matrices[..., which]
         corners = mesh.triangles[hits.triangle[rows]].T
         p1, p2, p3 = (transform_points(matrices, mesh.vertices[c].T) for c in corners)
         x, y, z = map(_near_1, matrices[:3, :3].swapaxes(0, 1))  # where the object's axes go
         mirrored = dot(cross(x, y), z) < 0
+        p1, p2, p3 = (p * 2.0**-2 for p in (p1, p2, p3))  # their differences do not overflow
         n[:, rows] = cross(_near_1(p2 - p1), _near_1(p3 - p1)) * np.where(mirrored, -1, 1)
     n = _near_1(n)
     length = np.sqrt(dot(n, n))
@@ -80,8 +85,7 @@ def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
 
 def objects(scene: Scene, hits: Hits) -> NDArray[np.int32]:
     """Return the index into `scene.objects` of what each ray sees, (n,); NOTHING for nothing."""
-    of = [i.object for i in (*scene.instances, *scene.planes)]
-    return np.array([*of, NOTHING], np.int32)[hits.instance]
+    return scene.instance_objects[hits.instance]
 
 
 def _by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:

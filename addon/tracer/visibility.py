@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import plane
-from .camera import Rays, camera_rays
+from .camera import Rays, camera_rays, film_positions
 from .candidates import Batch, Pairs, batches, pairs, pixel_bounds, within, world_triangles
-from .certified import Contest
 from .hits import NOTHING, Hits, Statistics
 from .progress import Work
 from .settings import Settings
@@ -124,22 +123,13 @@ def trace_tile(
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
     statistics.pairs_tested += len(scene.planes) * len(hits.t)
-    contest = None
-    if settings.method.is_plain:
-        test_planes(scene, rays, hits)
-    else:
-        planes = [(p.point, p.normal) for p in scene.planes]
-        clip = scene.camera.clip_start, scene.camera.clip_end
-        contest = Contest(rays, planes, len(scene.instances), *clip)
+    test_planes(scene, rays, hits)
     for share, some in candidates(plan, tile):
         if some is not None:
             statistics.pairs_tested += len(some.pixel)
-            if contest:
-                contest.enter(some)
-            else:
-                test_pairs(scene, settings, rays, some, hits)
+            test_pairs(scene, settings, rays, some, hits)
         yield share
-    return (yield from contest.hits(statistics)) if contest else hits
+    return hits
 
 
 def test_pairs(
@@ -188,42 +178,31 @@ def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
         return (t >= camera.clip_start) & (t <= camera.clip_end)
 
 
-def film_positions(
-    tile: Region, dx: NDArray[np.floating] | float, dy: NDArray[np.floating] | float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
-
-    In pixels of the whole picture, row by row from the tile's lowest.
-    """
-    x, y = np.meshgrid(np.arange(tile.x0, tile.x1), np.arange(tile.y0, tile.y1))
-    return x.ravel() + 0.5 + dx, y.ravel() + 0.5 + dy
-
-
 def _keep_nearest(hits: Hits, after: Hits | None, pixel, t, instance, triangle, s: Vectors) -> None:
     """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
     if after is not None:
-        behind = np.flatnonzero(_precedes(after, pixel, t, instance, triangle))
+        behind = np.flatnonzero(_behind(pixel, t, instance, triangle, after))
         pixel, t, instance, triangle, s = (
-            pixel[behind],
-            t[behind],
-            instance[behind],
-            triangle[behind],
-            s[:, behind],
+            v.take(behind, axis=-1) for v in (pixel, t, instance, triangle, s)
         )
-    if not len(pixel):
-        return
-    order = np.lexsort((triangle, instance, t, pixel))
-    sorted_pixel = pixel[order]
-    order = order[np.flatnonzero(np.r_[True, sorted_pixel[1:] != sorted_pixel[:-1]])]
-    pixel, t, instance, triangle = pixel[order], t[order], instance[order], triangle[order]
-    nearer = ~_precedes(hits, pixel, t, instance, triangle)
-    where = pixel[nearer]
-    hits.t[where], hits.instance[where] = t[nearer], instance[nearer]
-    hits.triangle[where], hits.s[:, where] = triangle[nearer], s[:, order[nearer]]
+    # Of several writes to one pixel the last one stays: so those that are nearer come again, the
+    # other way round, as many may be sorted.
+    while len(pixel):
+        nearer = np.flatnonzero(_before(pixel, t, instance, triangle, hits))[::-1]
+        pixel, t, instance, triangle, s = (
+            v.take(nearer, axis=-1) for v in (pixel, t, instance, triangle, s)
+        )
+        hits.t[pixel], hits.instance[pixel], hits.triangle[pixel] = t, instance, triangle
+        hits.s[:, pixel] = s
 
 
-def _precedes(first: Hits, pixel, t, instance, triangle) -> NDArray[np.bool_]:
-    """Whether `first` comes before each hit of its pixel, in the order of t, instance, triangle."""
-    t0, i0, k0 = first.t[pixel], first.instance[pixel], first.triangle[pixel]
-    same = t0 == t
-    return (t0 < t) | (same & ((i0 < instance) | ((i0 == instance) & (k0 < triangle))))
+def _before(pixel, t, instance, triangle, hits: Hits) -> NDArray[np.bool_]:
+    """Whether each hit comes before what its pixel has, in the order of t, instance, triangle."""
+    t0, i0, k0 = hits.t[pixel], hits.instance[pixel], hits.triangle[pixel]
+    return (t < t0) | ((t == t0) & ((instance < i0) | ((instance == i0) & (triangle < k0))))
+
+
+def _behind(pixel, t, instance, triangle, hits: Hits) -> NDArray[np.bool_]:
+    """Whether each comes after what its pixel has."""
+    t0, i0, k0 = hits.t[pixel], hits.instance[pixel], hits.triangle[pixel]
+    return (t > t0) | ((t == t0) & ((instance > i0) | ((instance == i0) & (triangle > k0))))

@@ -124,7 +124,7 @@ def test_extreme_scale(make, rng):
         rng,
         np.array(points) * scale,
         triangles,
-        half=2 * scale,
+        orthographic=False,
         clip_start=scale,
         clip_end=9 * scale,
     )

@@ -158,7 +158,7 @@ def test_an_empty_scene_is_its_background(make, background, samples):
 def busy(make, monkeypatch):
     """Return a scene whose picture takes many small steps."""
     monkeypatch.setattr(visibility, "PAIRS", 100)
-    monkeypatch.setattr(rendering, "ROWS", 4)
+    monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (4 * 40))  # 4 rows
     camera = make.camera(40, 30, half=0.3, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
     return make.scene(camera, make.mesh(SHAPES["torus"]), make.mesh(SHAPES["box"]))
 
@@ -175,7 +175,7 @@ def test_progress_rises_to_1_at_the_end(busy, samples):
 def test_steps_are_small(busy):
     frame = Frame.empty(busy.camera)
     tested = [0]
-    for _ in steps(busy, Settings(), frame):
+    for _ in steps(busy, Settings("moller_trumbore"), frame):
         tested.append(frame.statistics.pairs_tested)
     assert max(np.diff(tested)) <= visibility.PAIRS + busy.camera.region.width
     assert tested[-1] > 20 * visibility.PAIRS
