@@ -10,6 +10,7 @@ import numpy as np
 
 from ..study.trade import Row, Trade
 from .files import SavePng
+from .folders import replacing
 from .trade_plot import picture
 
 SCHEMA = "reference_tracer.tradeoff/1"
@@ -86,7 +87,7 @@ def _row(r: Row) -> dict[str, Any]:
 
 
 def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
-    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.png`, in this order.
+    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.png`, all or none.
 
     Parameters
     ----------
@@ -103,10 +104,8 @@ def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
     OSError
         If the folder cannot be written.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    (directory / PLOT).unlink(missing_ok=True)  # an earlier one would pass for this trade's
-    (directory / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
     text = json.dumps(to_dict(trade), indent=2, allow_nan=False)
-    (directory / JSON).write_text(text + "\n", encoding="utf-8")
-    save_png(directory / PLOT, picture(trade))
+    with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
+        (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
+        (new / JSON).write_text(text + "\n", encoding="utf-8")
+        save_png(new / PLOT, picture(trade))
