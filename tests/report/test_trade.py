@@ -62,7 +62,7 @@ def test_table(trade):
     assert "160 x 90 pixels, 4 x 4 rays each" in lines
     head, first = lines[0], lines[lines.index("160 x 90 pixels, one ray each") + 1]
     assert first.split()[:3] == ["textbook_literal", "float32", "0.0400"]
-    assert "(0.0360 - 0.0480)" in first and "3,742 (25.99%) *" in first and "11.0" in first
+    assert "(0.0360 - 0.0480)" in first and "3,742  (25.99%) *" in first and "11.0" in first
     assert head.index("precision") == first.index("float32")
     assert head.index("(min") == first.index("(0.0360")
     assert "16 x 16 rays a pixel" in text and lines[-1] == trade.advice
@@ -70,6 +70,23 @@ def test_table(trade):
     assert len(rows) == len(trade.rows)
     stars = sum(r.best_pixels + r.best_coverage for r in trade.rows)
     assert sum(line.count("*") for line in rows) == stars
+
+
+def test_table_keeps_its_columns_apart(trade):
+    """Whatever the numbers are, the columns begin and end below one another."""
+    large = [
+        replace(r, seconds=1234.5, rounds=(1200.0, 1234.5, 1300.25), wrong_pixels=w, width=3840)
+        for r, w in zip(trade.rows, (133_064, 8_294_400, 7, *(0,) * 99), strict=False)
+    ]
+    large = [replace(r, height=2160, peak_bytes=123 << 30) for r in large]
+    for rows in (large, [large[0], *trade.rows[1:]], [replace(large[0], largest_t_error=None)]):
+        lines = table(replace(trade, rows=rows)).splitlines()
+        found = [line for line in lines if line.startswith(tuple(m.value for m in Method))]
+        assert len({line.index(")") for line in found}) == 1
+        assert len({line.index("%") for line in found}) == 1
+        for line in found:
+            assert all(line[k + 1 : k + 2] in (" ", "") for k, c in enumerate(line) if c == ")")
+            assert 13 <= len(line.removesuffix(" *").replace("%) *", "%)").split()) <= 13
 
 
 @pytest.fixture
