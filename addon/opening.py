@@ -89,7 +89,8 @@ def open_blend(path: Path) -> Iterator[Any]:
                     filepath=str(path.resolve()), load_ui=False, use_scripts=False
                 )
             except RuntimeError as error:
-                raise SceneError(f"'{path}' cannot be opened: {error}") from error
+                reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
+                raise SceneError(f"'{path}' cannot be opened: {reason}") from error
         yield bpy
     finally:
         registration.unregister()
