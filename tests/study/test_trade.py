@@ -153,8 +153,8 @@ def ladder(**seconds_and_wrong):
             {"certified": (0.5, 0)},
             "is faster than textbook in float32 (no wrong pixels), the next that loses no hits",
         ),
-        ({"watertight_float64": (0.8, 1)}, "than watertight in float64 (1 wrong pixel), the"),
-        ({"watertight_float64": (0.8, 2500)}, "than watertight in float64 (2,500 wrong pixels)"),
+        ({"watertight_float64": (0.8, 1)}, "as watertight in float64 (1 wrong pixel), the fastest"),
+        ({"watertight_float64": (0.8, 2500)}, "as watertight in float64 (2,500 wrong pixels)"),
         # What is printed in the exercise is fast and wrong; it's no rival.
         ({"textbook_literal_float32": (0.1, 7000)}, "longer than textbook in float32"),
     ],
