@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer import images
-from reference_tracer.report import plots
+from reference_tracer.report import plots, trade_plot
 from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, picture, table, write
 from reference_tracer.study.trade import Row, Trade, mark
 from reference_tracer.tracer.settings import Method, Precision
@@ -182,3 +182,25 @@ def test_without_matplotlib_all_else_is_written(trade, tmp_path, monkeypatch):
     with pytest.raises(images.MissingLibraryError, match=r"pip install 'reference_tracer\[plots\]"):
         write(tmp_path, trade, images.save_png)
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted([TABLE, JSON])
+
+
+def test_names_in_a_plot_are_apart_or_left_out():
+    """Also where all that is named is at one point."""
+    axes = plots.new_figure().subplots()
+    axes.plot([0.0, 1.0], [0.0, 1.0])
+    trade_plot._label(axes, [(0.5, 0.5, f"a name, number {k}") for k in range(20)])
+    boxes = [t.get_window_extent() for t in axes.texts]
+    assert 5 <= len(boxes) < 20
+    assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
+def test_the_headline_has_the_scenes_name(trade):
+    lines = trade_plot._headline(replace(trade, advice="word " * 60)).splitlines()
+    assert lines[0].startswith("a scene.blend: word") and max(map(len, lines)) <= 132
+
+
+@pytest.mark.parametrize("low, high", [(1.0, 1.01), (0.03, 0.1), (1e-3, 1.0), (1e-6, 1e4)])
+def test_ticks_are_few_but_some(low, high):
+    axes = plots.new_figure().subplots()
+    plots.log_ticks(axes.xaxis, low, high)
+    assert 2 <= sum(low <= t <= high for t in axes.get_xticks()) <= 11
