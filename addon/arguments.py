@@ -11,13 +11,16 @@ from .scene import Camera, SceneError, ViewWindow, check_size
 from .tracer.settings import Method, Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
+INTERRUPTED = 130  # as shells have it: 128 and the number of the signal
 
 EXIT_CODES = """exit codes:
   0  the pictures agree
   1  warnings: something is not modelled, or not decidable
   2  differences that no cause explains
   3  the sizes of the pictures do not match
-  4  the input is wrong, or cannot be read"""
+  4  the input is wrong, or cannot be read
+  130  interrupted by Ctrl-C"""
+_PLAIN = ", ".join(m for m in Method if m.is_plain)
 
 
 class Parser(argparse.ArgumentParser):
@@ -66,33 +69,76 @@ def add_judge(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def check(options: argparse.Namespace) -> None:
+    """Find what is wrong with the options themselves, before any work.
+
+    Raises
+    ------
+    SceneError
+        If a number is out of range, or a method does not come in the precision.
+    """
+    for name in ("width", "height", "rays"):
+        value = getattr(options, name, None)
+        if value is not None and value < 1:
+            raise SceneError(f"--{name} is {value}; it must be at least 1")
+    scene = getattr(options, "scene", None)
+    stores = scene is None or scene.suffix.lower() == ".blend"  # a method, which may be plain
+    settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
+
+
 def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
     """Return the stored settings with what the options say in their place.
 
     Raises
     ------
     SceneError
-        If a value is out of range.
+        If a value is out of range, or the method does not come in the precision.
     """
     chosen = {
         name: value
         for name in ("method", "precision", "samples")
         if (value := getattr(options, name, None)) is not None
     }
-    if not Method(chosen.get("method", stored.method)).is_plain:
-        chosen.setdefault("precision", Precision.FLOAT64)  # in place of one that is stored
+    method = Method(chosen.get("method", stored.method))
+    if not method.is_plain:  # float64 in place of another precision that is stored
+        if chosen.setdefault("precision", Precision.FLOAT64) != Precision.FLOAT64:
+            do = "name a --method with --precision float32"
+            if "method" in chosen:
+                do = "leave out --precision float32, or name another --method"
+            raise SceneError(f"{do}, one of {_PLAIN}: {method} is proven for float64 only")
     try:
         return Settings(**vars(stored) | chosen)
     except ValueError as error:
-        raise SceneError(str(error)) from error
+        raise SceneError(f"--{error}") from error
 
 
-def add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int = 540) -> None:
-    """Add a camera for files that have none; `default_size` is its picture's."""
+def words(error: BaseException) -> str:
+    """Return what a user is told of an error, in one line."""
+    text = " ".join(str(error).split())
+    if isinstance(error, MemoryError):
+        return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"
+    return text or type(error).__name__
+
+
+def add_camera(
+    parser: argparse.ArgumentParser, width: int = 960, height: int = 540, of_scenes: bool = False
+) -> None:
+    """Add a camera for files that have none; `default_size` is its picture's.
+
+    With `of_scenes`, the width is heard for scenes as well.
+    """
+    wide: dict = {"type": int, "metavar": "PIXELS", "help": f"default {width}"}
+    if of_scenes:
+        wide["help"] = (
+            "width of the largest picture, of a scene or a mesh; a scene's height follows "
+            f"(default {width}, or the scene's own width where that is less)"
+        )
+        parser.add_argument("--width", **wide)
     group = parser.add_argument_group(
         "camera of a mesh (by default one that frames it; a scene has its own)"
     )
-    group.add_argument("--width", type=int, metavar="PIXELS", help=f"default {width}")
+    if not of_scenes:
+        group.add_argument("--width", **wide)
     group.add_argument("--height", type=int, metavar="PIXELS", help=f"default {height}")
     group.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"), help="its position")
     group.add_argument(
@@ -114,7 +160,7 @@ def add_camera(parser: argparse.ArgumentParser, width: int = 960, height: int = 
         metavar="METRES",
         help="height of the picture of an orthographic camera, in place of --angle",
     )
-    parser.set_defaults(default_size=(width, height), heard=())
+    parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
 
 
 def camera_from(options: argparse.Namespace, width: int, height: int) -> Camera | None:

@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import traceback
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
-from . import __version__, images
+from . import __version__, images, interrupts
 from .arguments import (
     EXIT_CODES,
     INPUT_ERROR,
+    INTERRUPTED,
+    SIZES_DIFFER,
     Parser,
     add_camera,
     add_judge,
     add_settings,
+    check,
     settings_from,
+    words,
 )
+from .compare.comparison import SizeError
 from .opening import SOURCES, load, open_blend
-from .report import files
+from .report import files, folders
 from .scene import SceneError
 from .scene_files import save_scene
 from .tracer.certainty import AssumptionError
@@ -29,18 +35,29 @@ from .tracer.progress import result_of
 from .tracer.render import render
 from .tracer.settings import Settings
 
+_EXPECTED = (  # what a user can do something about
+    *(SceneError, SizeError, OSError, MemoryError),
+    *(images.MissingLibraryError, AssumptionError),
+)
+
 
 def main(argv: list[str] | None = None) -> int:
     """Run `reftrace`; returns the exit code."""
     options = _parser().parse_args(argv)
     try:
-        return options.run(options)
-    except (SceneError, OSError, images.MissingLibraryError, AssumptionError) as error:
-        print(f"reftrace: {error}", file=sys.stderr)
+        with interrupts.heard():
+            check(options)
+            return options.run(options)
+    except KeyboardInterrupt:
+        print("reftrace: interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except _EXPECTED as error:
+        print(f"reftrace: {words(error)}", file=sys.stderr)
+        return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
     except Exception as error:  # Python's own exit code for it, 1, means warnings here
         traceback.print_exc()
         print(f"reftrace: {type(error).__name__}: {error}", file=sys.stderr)
-    return INPUT_ERROR
+        return INPUT_ERROR
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -103,8 +120,7 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument(
         "--samples", type=int, metavar="N", help="measure up to N x N rays a pixel (default 4)"
     )
-    add_camera(sub, width=160, height=90)
-    sub.set_defaults(heard=("width",))
+    add_camera(sub, width=160, height=90, of_scenes=True)
 
     sub = command(
         _extremes,
@@ -128,33 +144,37 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _compare(options: argparse.Namespace) -> int:
-    try:
-        if options.scene.suffix.lower() != ".blend":
-            raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
-        with open_blend(options.scene):
-            from .blender.commands import compare_open_file
+    if options.out.startswith("//"):  # here it is the shell's: Blender's is beside the file
+        options.out = os.path.realpath(options.out)
+    with folders.made(Path(options.out)):
+        try:
+            if options.scene.suffix.lower() != ".blend":
+                raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
+            with open_blend(options.scene):
+                from .blender.commands import compare_open_file
 
-            with _progress() as progress:
-                return compare_open_file(options, progress)
-    except (SceneError, OSError) as error:
-        with suppress(OSError):
-            files.write_failure(options.out, error)
-        raise
+                with _progress() as progress:
+                    return compare_open_file(options, progress)
+        except Exception as error:
+            with suppress(OSError):
+                files.write_failure(options.out, error)
+            raise
 
 
 def _trace(options: argparse.Namespace) -> int:
     suffix = options.out.suffix.lower()
     if suffix not in (".png", ".exr"):
         raise SceneError(f"'{options.out}' must end in .png or .exr")
-    scene, stored = load(options)
-    settings = settings_from(options, stored)
-    with _progress() as progress:
-        frame = render(scene, settings, progress)
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    if suffix == ".png":
-        images.save_png(options.out, images.to_display(frame.color))
-    else:
-        images.save_exr(options.out, frame.passes())
+    with folders.made_for_file(options.out):
+        scene, stored = load(options)
+        settings = settings_from(options, stored)
+        with _progress() as progress:
+            frame = render(scene, settings, progress)
+        with folders.replacing_file(options.out) as new:
+            if suffix == ".png":
+                images.save_png(new, images.to_display(frame.color))
+            else:
+                images.save_exr(new, frame.passes())
     s = frame.statistics
     print(
         f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
@@ -170,15 +190,15 @@ def _trade(options: argparse.Namespace) -> int:
     from .report import trade as report
     from .study import tradeoff
 
-    scene, _ = load(options)
-    samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
-    _make(options.out)
-    with _progress() as progress:
-        work = tradeoff.measure(scene, options.width, samples, options.scene.name)
-        trade = result_of(work, progress)
-    print(report.table(trade))
-    if options.out:
-        _write(options.out, lambda: report.write(options.out, trade, images.save_png))
+    with folders.made(Path(options.out)) if options.out else nullcontext():
+        scene, _ = load(options)
+        samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
+        with _progress() as progress:
+            work = tradeoff.measure(scene, options.width, samples, options.scene.name)
+            trade = result_of(work, progress)
+        print(report.table(trade))
+        if options.out:
+            _write(options.out, lambda: report.write(options.out, trade, images.save_png))
     return 0
 
 
@@ -186,20 +206,12 @@ def _extremes(options: argparse.Namespace) -> int:
     from .report import extremes as report
     from .study import extremes
 
-    if options.rays is not None and options.rays < 1:
-        raise SceneError(f"--rays is {options.rays}; it must be at least 1")
-    _make(options.out)
-    with _progress() as progress:
-        rows = result_of(extremes.measure(rays=options.rays), progress)
-    print(extremes.breaking_table(rows))
-    _write(options.out, lambda: report.write(options.out, rows, images.save_png))
+    with folders.made(Path(options.out)):
+        with _progress() as progress:
+            rows = result_of(extremes.measure(rays=options.rays), progress)
+        print(extremes.breaking_table(rows))
+        _write(options.out, lambda: report.write(options.out, rows, images.save_png))
     return 0
-
-
-def _make(directory: str | None) -> None:
-    """Make a folder before the work that it is for, so that this is not in vain."""
-    if directory:
-        Path(directory).mkdir(parents=True, exist_ok=True)
 
 
 def _write(directory: str, write: Callable[[], None]) -> None:
@@ -217,9 +229,10 @@ def _export(options: argparse.Namespace) -> int:
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
     options.heard = ()
-    scene, _ = load(options)
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    save_scene(options.out, scene)
+    with folders.made_for_file(options.out):
+        scene, _ = load(options)
+        with folders.replacing_file(options.out) as new:
+            save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
     return 0
 
@@ -227,6 +240,7 @@ def _export(options: argparse.Namespace) -> int:
 @contextmanager
 def _progress() -> Iterator[Callable[[float], None]]:
     """Show a bar on standard error, if it is a terminal and tqdm is there."""
+    interrupts.check()
     try:
         from tqdm import tqdm
     except ImportError:
@@ -235,12 +249,13 @@ def _progress() -> Iterator[Callable[[float], None]]:
                 "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
                 file=sys.stderr,
             )
-        yield lambda share: None
+        yield lambda share: interrupts.check()
         return
     layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
     with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
 
         def show(share: float) -> None:
+            interrupts.check()
             bar.update(share - bar.n)
 
         yield show

@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from . import interrupts
 from .arguments import camera_from, refuse
 from .scene import Scene, SceneError
 from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, scene_of_meshes
@@ -34,7 +35,10 @@ def load(options: argparse.Namespace) -> tuple[Scene, Settings]:
     suffix = path.suffix.lower()
     if suffix not in MESH_SUFFIXES:
         own = {"width", "height", "eye", "target", "angle", "ortho_scale"} - set(options.heard)
-        refuse(options, tuple(sorted(own)), f"is for meshes: '{path}' has its own camera")
+        why = f"is for meshes: '{path}' has its own camera"
+        if "width" in options.heard:
+            why += "; --width sets the size of its picture, and the height follows"
+        refuse(options, tuple(sorted(own)), why)
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
@@ -67,20 +71,26 @@ def open_blend(path: Path) -> Iterator[Any]:
     """
     if not path.is_file():
         raise SceneError(f"there is no file '{path}'")
-    try:
-        import bpy
-    except ImportError as error:
-        raise SceneError(
-            f"a .blend needs Blender as a module: pip install 'reference_tracer[blender]' ({error})"
-        ) from error
-    from .blender import registration
-
-    registration.register()
-    try:
+    with interrupts.held():
         try:
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
-        except RuntimeError as error:
-            raise SceneError(f"'{path}' cannot be opened: {error}") from error
+            import bpy
+        except ImportError as error:
+            raise SceneError(
+                "a .blend needs Blender as a module: pip install 'reference_tracer[blender]' "
+                f"({error})"
+            ) from error
+        from .blender import registration
+
+        registration.register()
+    try:
+        with interrupts.held():
+            try:
+                bpy.ops.wm.open_mainfile(
+                    filepath=str(path.resolve()), load_ui=False, use_scripts=False
+                )
+            except RuntimeError as error:
+                reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
+                raise SceneError(f"'{path}' cannot be opened: {reason}") from error
         yield bpy
     finally:
         registration.unregister()

@@ -117,8 +117,9 @@ def load_scene(path: str | Path) -> Scene:
     Raises
     ------
     SceneError
-        If the file is none, or its content does not fit.
+        If there is no such file, it is no scene, or its content does not fit.
     """
+    _check_is_file(path)
     try:
         with np.load(path, allow_pickle=False) as stored:
             data = dict(stored)
@@ -168,6 +169,11 @@ def load_scene(path: str | Path) -> Scene:
         raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
 
 
+def _check_is_file(path: str | Path) -> None:
+    if not Path(path).is_file():
+        raise SceneError(f"there is no file '{path}'")
+
+
 def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
     """Read the meshes of an OBJ, PLY, STL or GLB file.
 
@@ -179,11 +185,12 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
     Raises
     ------
     SceneError
-        If the file cannot be read or holds no triangle.
+        If there is no such file, it cannot be read, or it holds no triangle.
     """
     import trimesh
 
     path = Path(path)
+    _check_is_file(path)
     try:
         loaded = trimesh.load(
             path,
@@ -211,7 +218,15 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
 def scene_of_meshes(
     meshes: list[tuple[Mesh, np.ndarray]], camera: Camera | None, width: int, height: int
 ) -> Scene:
-    """Return a scene of meshes, each in its own grey, seen by `camera` or by one framing them."""
+    """Return a scene of meshes, each in its own grey, seen by `camera` or by one framing them.
+
+    Raises
+    ------
+    SceneError
+        If there are no meshes, or the picture has no pixel.
+    """
+    if not meshes:
+        raise SceneError("There are no meshes to make a scene of: load_meshes gives some.")
     greys = np.linspace(0.8, 0.3, len(meshes))
     instances = tuple(
         Instance(k, k, matrix, np.array([[g, g, g, 1]], np.float32))

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import argparse
 import json
+import signal
 import subprocess
 import sys
+from contextlib import suppress
 
 import numpy as np
 import OpenEXR
 import pytest
 import trimesh
 from PIL import Image
-from reference_tracer import __version__
-from reference_tracer.arguments import AGREE, INPUT_ERROR, settings_from
+from reference_tracer import __version__, cli, interrupts
+from reference_tracer.arguments import AGREE, INPUT_ERROR, INTERRUPTED, settings_from
 from reference_tracer.cli import main
 from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import save_scene
-from reference_tracer.study import extremes
+from reference_tracer.study import extremes, tradeoff
 from reference_tracer.tracer import certainty
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 SMALL = ["--width", "24", "--height", "16"]
@@ -216,8 +219,8 @@ def test_trade_without_matplotlib(small_ball, tmp_path):
     [
         (["--samples", "0"], "samples is 0"),
         (["--samples", "65"], "samples is 65"),
-        (["--width", "0"], "0 x"),
-        (["--out", "small.ply"], "small.ply"),
+        (["--width", "0"], "--width is 0; it must be at least 1"),
+        (["--out", "small.ply"], "cannot write to the folder 'small.ply': it is a file"),
     ],
 )
 def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch):
@@ -236,7 +239,89 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--width", "20"]) == AGREE
     assert "20 x 12 pixels, one ray each" in capsys.readouterr().out
     assert main(["trade", str(tmp_path / "s.npz"), "--height", "9"]) == INPUT_ERROR
-    assert "--height" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "--height is for meshes" in said and "--width sets the size of its picture" in said
+
+
+def test_trade_help_says_whose_the_width_is(capsys):
+    with pytest.raises(SystemExit):
+        main(["trade", "--help"])
+    before, after = capsys.readouterr().out.split("camera of a mesh")
+    assert "width of the largest picture" in before and "--width" not in after
+
+
+def test_trade_of_nothing(make, tmp_path, capsys):
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
+    out = ["--samples", "1", "--out", str(tmp_path / "out")]
+    assert main(["trade", str(tmp_path / "s.npz"), *out]) == AGREE
+    assert "Nothing is seen" in capsys.readouterr().out
+    held = json.loads((tmp_path / "out" / "tradeoff.json").read_text(encoding="utf-8"))
+    assert {r["largest_t_error"] for r in held["rows"]} == {None}
+
+
+def refuse_memory(*args, **options):
+    raise MemoryError("Unable to allocate 1 TiB")
+
+
+def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(cli, "render", refuse_memory)
+    assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
+    assert not (tmp_path / "new").exists()
+
+
+def swallow(*args, **options):
+    """Be interrupted where nobody hears it, as in a callback of Blender's."""
+    with suppress(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+    yield 0.5
+    pytest.fail("the work went on")
+
+
+@pytest.fixture
+def interrupted_work(monkeypatch):
+    monkeypatch.setattr(extremes, "measure", swallow)
+    monkeypatch.setattr(tradeoff, "measure", swallow)
+    monkeypatch.setattr(cli, "render", lambda scene, settings, show: result_of(swallow(), show))
+
+
+@pytest.mark.usefixtures("interrupted_work")
+@pytest.mark.parametrize("command", ["trace", "trade", "extremes"])
+def test_interrupted(command, ball, tmp_path, capsys):
+    before = sorted(tmp_path.rglob("*"))
+    out = tmp_path / "new" / ("x.png" if command == "trace" else "out")
+    scene = [] if command == "extremes" else [str(ball)]
+    assert main([command, *scene, "--out", str(out)]) == INTERRUPTED == 130
+    assert capsys.readouterr().err.strip().splitlines()[-1] == "reftrace: interrupted"
+    assert sorted(tmp_path.rglob("*")) == before
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_interrupted_while_writing(ball, tmp_path, monkeypatch):
+    """The older picture is whole."""
+    assert trace(ball, tmp_path / "b.png") == AGREE
+    before = {p: p.read_bytes() for p in tmp_path.iterdir()}
+
+    def half(path, picture):
+        path.write_bytes(b"half")
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(cli.images, "save_png", half)
+    assert trace(ball, tmp_path / "b.png", "--method", "textbook_literal") == INTERRUPTED
+    assert {p: p.read_bytes() for p in tmp_path.iterdir()} == before
+
+
+def test_what_is_held_comes_at_its_end():
+    steps = []
+    with pytest.raises(KeyboardInterrupt), interrupts.heard():
+        with interrupts.held():
+            signal.raise_signal(signal.SIGINT)
+            steps.append("inside")
+        steps.append("after")
+    assert steps == ["inside"]
+    with interrupts.heard():
+        interrupts.check()  # of an earlier one nothing is left
 
 
 @pytest.fixture
@@ -284,15 +369,21 @@ BAD = {
         ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"],
         "orthographic scale",
     ),
-    "width 0": (["ball.ply", "--width", "0"], "0 x 16"),
-    "height below 0": (["ball.ply", "--height", "-5"], "24 x -5"),
-    "samples": (["ball.ply", "--samples", "0"], "samples"),
+    "width 0": (["ball.ply", "--width", "0"], "--width is 0; it must be at least 1"),
+    "height below 0": (["ball.ply", "--height", "-5"], "--height is -5; it must be at least 1"),
+    "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
+    "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
+    "float32 of auto": (["none.ply", "--precision", "float32"], "reftrace: name a --method with"),
+    "float32 of certified, whatever is stored": (
+        ["none.blend", "--precision", "float32", "--method", "certified"],
+        "reftrace: leave out --precision float32, or name another --method",
+    ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
     "not a number": (["ball.ply", "--width", "many"], "--width"),
     "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
     "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
     "out is a folder, EXR": (["ball.ply", "--out", "folder.exr"], "folder.exr"),
-    "out under a file": (["ball.ply", "--out", "words.txt/x.png"], "words.txt"),
+    "out under a file": (["none.ply", "--out", "words.txt/x.png"], "to the folder 'words.txt'"),
 }
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import trimesh
@@ -10,6 +12,7 @@ from reference_tracer.scene_files import (
     diagnose,
     framing_camera,
     load_meshes,
+    load_scene,
     scene_of_meshes,
 )
 from reference_tracer.tracer.camera import film_of
@@ -131,3 +134,24 @@ class TestDiagnose:
 
     def test_nothing(self):
         assert diagnose(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))["duplicate_faces"] == 0
+
+
+@pytest.mark.parametrize("load", [load_meshes, load_scene])
+@pytest.mark.parametrize("kind", [str, Path])
+def test_there_is_no_such_file(load, kind, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SceneError, match=r"^there is no file 'none\.ply'$"):
+        load(kind("none.ply"))
+
+
+def test_no_meshes():
+    with pytest.raises(SceneError, match="no meshes"):
+        scene_of_meshes([], None, 30, 20)
+
+
+@pytest.mark.parametrize("size, word", [((6.5, 4), "width .* is 6.5"), ((6, 4.0), "height .* 4.0")])
+def test_a_part_of_a_pixel(size, word):
+    box = Mesh(np.eye(3), [[0, 1, 2]])
+    with pytest.raises(SceneError, match=rf"{word}; it must be a whole number"):
+        scene_of_meshes([(box, np.eye(4))], None, *size)
+    assert scene_of_meshes([(box, np.eye(4))], None, np.int64(6), 4).camera.width == 6

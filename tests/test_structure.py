@@ -13,6 +13,7 @@ FLOORS = {
     "scene": 0,
     "manifest": 0,
     "images": 0,
+    "interrupts": 0,
     "tracer": 1,
     "scene_files": 1,
     "arguments": 1,

@@ -18,7 +18,9 @@ from ..arguments import (
     Parser,
     add_judge,
     add_settings,
+    check,
     settings_from,
+    words,
 )
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import SizeError
@@ -44,6 +46,7 @@ def run(argv: list[str]) -> int:
     except SystemExit as stop:
         return int(stop.code or 0)
     try:
+        check(options)
         return options.run(options)
     except Exception as error:
         return _said(error)
@@ -81,9 +84,11 @@ def _parser() -> Parser:
 def _compare(options: Any) -> int:
     try:
         _check_open()
-    except SceneError as error:
-        return failed(error, options.out)
-    return compare_open_file(options)
+        return compare_open_file(options)
+    except Exception as error:
+        with suppress(OSError):  # where it is the folder that cannot be written
+            files.write_failure(bpy.path.abspath(options.out), error)
+        raise
 
 
 def _trade(options: Any) -> int:
@@ -97,8 +102,6 @@ def _trade(options: Any) -> int:
 
 
 def _extremes(options: Any) -> int:
-    if options.rays is not None and options.rays < 1:
-        raise SceneError(f"--rays is {options.rays}; it must be at least 1")
     folder = made(options.out)
     rows = result_of(studies.run_extremes(rays=options.rays))
     studies.write_extremes(folder, rows)
@@ -118,34 +121,29 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     -------
     int
         The exit code.
+
+    Raises
+    ------
+    SceneError, SizeError, OSError, AssumptionError, MemoryError
+        What :func:`compare_to_folder` raises; the folder's JSON says why.
     """
-    try:
-        settings = settings_from(options, bpy.context.scene.reference_tracer.settings())
-        work = compare_to_folder(
-            bpy.context,
-            options.out,
-            settings=settings,
-            judge=options.judge.upper() if options.judge else None,
-            as_is=options.as_is or None,
-        )
-        comparison = result_of(work, progress)
-    except Exception as error:
-        return failed(error, options.out)
+    settings = settings_from(options, bpy.context.scene.reference_tracer.settings())
+    work = compare_to_folder(
+        bpy.context,
+        options.out,
+        settings=settings,
+        judge=options.judge.upper() if options.judge else None,
+        as_is=options.as_is or None,
+    )
+    comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     return VERDICT_CODES[comparison.verdict]
 
 
-def failed(error: Exception, directory: str) -> int:
-    """Say what went wrong, in words and in the folder's JSON; returns the exit code."""
-    with suppress(OSError):  # where it is the folder that cannot be written
-        files.write_failure(bpy.path.abspath(directory), error)
-    return _said(error)
-
-
 def _said(error: Exception) -> int:
-    if not isinstance(error, (SizeError, SceneError, OSError, AssumptionError)):
+    if not isinstance(error, (SizeError, SceneError, OSError, AssumptionError, MemoryError)):
         traceback.print_exception(error)
-    print(f"reference_tracer: {error}", file=sys.stderr)
+    print(f"reference_tracer: {words(error)}", file=sys.stderr)
     return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 

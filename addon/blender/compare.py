@@ -7,7 +7,7 @@ holds no reference to Blender's data, so that tracing may go on while the user w
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..compare.comparison import Comparison, trace_and_compare
 from ..manifest import Manifest
-from ..report import files
+from ..report import files, folders
 from ..scene import Scene
 from ..scene_files import diagnosed
 from ..tracer.progress import Work
@@ -134,13 +134,10 @@ def made(directory: str) -> Path:
     Raises
     ------
     OSError
-        If it cannot be made.
+        If it cannot be made or written.
     """
     folder = Path(bpy.path.abspath(directory))  # // is beside the file
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except FileExistsError as error:
-        raise OSError(f"'{folder}' is a file: name a folder for what is found") from error
+    folders.make(folder)
     return folder
 
 
@@ -157,7 +154,8 @@ def _failure_written(folder: Path) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        files.write_failure(folder, error)
+        with suppress(OSError):  # which may be what the error is
+            files.write_failure(folder, error)
         raise
 
 

@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import bpy
 from bpy.props import StringProperty
 
+from ..arguments import words
 from ..scene import SceneError
 from ..tracer.certainty import AssumptionError
 from ..tracer.progress import Work, result_of
@@ -22,7 +23,7 @@ STEP = 0.04  # seconds of work between two looks at the events: Esc is answered 
 PAUSE = 0.005  # seconds that the interface gets in between
 
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
-_EXPECTED = (SceneError, OSError, AssumptionError)
+_EXPECTED = (SceneError, OSError, AssumptionError, MemoryError)
 
 
 class LongWork:
@@ -131,5 +132,5 @@ class LongWork:
     def _fail(self, error: Exception) -> set[str]:
         if not isinstance(error, _EXPECTED):
             traceback.print_exc()
-        self.report({"ERROR"}, str(error) or type(error).__name__)
+        self.report({"ERROR"}, words(error))
         return {"CANCELLED"}

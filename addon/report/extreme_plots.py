@@ -24,6 +24,15 @@ if TYPE_CHECKING:
 COLORS = {m: color for m, color in plots.METHOD_COLORS.items() if m != "textbook_literal"}
 ACROSS = 4  # sweeps beside one another
 NEVER = "#d9eedd"  # of a cell or a map where nothing goes wrong
+DOUBLED = "#d5e0f0"  # where no ray is lost, but some cross too many triangles
+_INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
+# Of lines that cover one another, each shows inside the one before: width, size of its marks.
+_NESTED = {
+    "textbook": (6.0, 11.0),
+    "moller_trumbore": (4.0, 8.5),
+    "watertight": (2.4, 6.5),
+    "certified": (1.4, 4.5),
+}
 _KNOWN = {s.name: s for s in SCENARIOS}
 _GREY, _LEFT = "#777777", -4.65
 _CENTRED = {"ha": "center", "va": "center"}
@@ -41,11 +50,11 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
             scales[r.scenario].append(r.scale)
     columns = list(dict.fromkeys((p.method, p.precision) for p in points))
     names = list(scales)
-    figure = plots.new_figure(1920, 250 + 46 * len(names))
+    figure = plots.new_figure(1920, 320 + 46 * len(names))
     axes = figure.subplots()
     axes.set_axis_off()
     axes.set_xlim(-4.7, len(columns))
-    axes.set_ylim(len(names) + 0.9, -1.7)
+    axes.set_ylim(len(names) + 2.4, -1.7)
     for y, name in enumerate(names):
         known = _KNOWN.get(name)
         axes.text(_LEFT, y + 0.5, known.title if known else name, va="center", fontsize=13.5)
@@ -54,16 +63,12 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
         )
     for x, (method, precision) in enumerate(columns):
         lines = NAMES[method].replace(" ", "\n").replace("–", "–\n")
-        axes.text(x + 0.5, -1.0, lines, **_CENTRED, fontsize=13, fontweight="bold")
+        axes.text(x + 0.5, -1.0, lines, **_CENTRED, fontsize=11.5, fontweight="bold")
         axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=_GREY)
     for p in points:
         x, y = columns.index((p.method, p.precision)), names.index(p.scenario)
         _point(axes, x, y, p, scales[p.scenario])
-    note = (
-        "Dark: breaks early in the sweep; pale: late.   +  at some scale, a ray crosses more "
-        "triangles than there are."
-    )
-    axes.text(_LEFT, len(names) + 0.5, note, va="center", fontsize=12, color=_GREY)
+    _key(axes, len(names) + 0.3)
     _headline(
         figure,
         "Where each method breaks: the first scale at which a ray misses, or sees another surface",
@@ -74,7 +79,8 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
 def _point(axes: Axes, x: int, y: int, point: BreakingPoint, sweep: list[float]) -> None:
     from matplotlib.patches import Rectangle
 
-    text, color, ink = "never", NEVER, "#3d7a4a"
+    text, color = "never", NEVER if point.doubled is None else DOUBLED
+    ink = _INKS[color]
     if point.lost is not None:
         late = sweep.index(point.lost) / max(1, len(sweep) - 1)
         text, color = written(point.lost), _colormap()(0.85 - 0.8 * late)
@@ -84,8 +90,34 @@ def _point(axes: Axes, x: int, y: int, point: BreakingPoint, sweep: list[float])
     axes.text(x + 0.5, y + 0.5, text, **_CENTRED, color=ink, fontsize=13.5)
 
 
-def _headline(figure: Figure, text: str) -> None:
-    figure.suptitle(text, fontsize=18, x=0.01, ha="left", color=plots.INK)
+def _key(axes: Axes, y: float) -> None:
+    """Explain the colours and the plus, below the table."""
+    from matplotlib.patches import Rectangle
+
+    lines = (
+        ("1e5", _colormap()(0.3), "the first scale at which rays are lost: dark where it is early"),
+        (
+            "never",
+            NEVER,
+            "at no scale is a ray lost. (ulp: the distance from one float64 number to the next.)",
+        ),
+        (
+            "never +",
+            DOUBLED,
+            "no ray is lost, but at some scale a ray crosses more triangles than "
+            "there are. A + in other cells: that, too",
+        ),
+    )
+    for k, (text, color, meaning) in enumerate(lines):
+        at = y + 0.65 * k
+        axes.add_patch(Rectangle((_LEFT, at + 0.05), 0.7, 0.55, color=color, linewidth=0))
+        ink = _INKS.get(color, plots.INK)
+        axes.text(_LEFT + 0.35, at + 0.33, text, **_CENTRED, color=ink, fontsize=12)
+        axes.text(_LEFT + 0.8, at + 0.33, meaning, va="center", fontsize=12, color=_GREY)
+
+
+def _headline(figure: Figure, text: str, small: bool = False) -> None:
+    figure.suptitle(text, fontsize=14 if small else 18, x=0.01, ha="left", color=plots.INK)
 
 
 def _scale_of(scenario: str) -> str:
@@ -103,20 +135,26 @@ def _colormap() -> Colormap:
 def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[np.uint8]:
     """Return small multiples: of each scenario the share of lost rays over the scale."""
     down = -(-len(sweeps) // ACROSS)
-    figure = plots.new_figure(1920, 150 + 310 * down)
+    figure = plots.new_figure(1920, 200 + 310 * down)
     grid = figure.subplots(down, ACROSS, squeeze=False).ravel()
     for axes, rows in zip(grid, sweeps, strict=False):
         _sweep(axes, rows)
     for axes in grid[len(sweeps) :]:
         axes.set_axis_off()
     handles = [
-        grid[0].plot([], [], "o-", color=color, lw=2.5, ms=6, label=NAMES[method])[0]
-        for method, color in COLORS.items()
+        grid[0].plot([], [], "o-", color=color, lw=lw, ms=ms, label=NAMES[method])[0]
+        for (method, color), (lw, ms) in zip(COLORS.items(), _NESTED.values(), strict=True)
     ]
-    for label, style in (("float64", "-"), ("float32", ":")):
-        handles += grid[0].plot([], [], style, color="#666666", lw=2.5, label=label)
+    for label, style, fill in (("float64", "o-", _GREY), ("float32", "o:", "white")):
+        handles += grid[0].plot([], [], style, color=_GREY, mfc=fill, lw=2.5, ms=7, label=label)
     figure.legend(handles=handles, loc="outside lower center", ncols=7, fontsize=14, frameon=False)
-    _headline(figure, f"Rays that are missed or see the wrong surface{page and f' ({page})'}")
+    _headline(
+        figure,
+        f"Rays that are missed or see the wrong surface{page and f' ({page})'}\n"
+        "Lines that cover one another are drawn one inside the other. The literal textbook is left "
+        "out: it loses rays from the first scale of nearly all.",
+        small=True,
+    )
     return plots.pixels(figure)
 
 
@@ -127,21 +165,23 @@ def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
     shown = [r for r in rows if r.method in COLORS]
     plots.plain_axes(axes, "", _scale_of(name), "")
     title = _KNOWN[name].title if name in _KNOWN else name
-    axes.set_title(title, fontsize=14, loc="left", color=plots.INK)
+    axes.set_title(title, fontsize=14, loc="left", color=plots.INK, pad=12)
     axes.xaxis.label.set_size(11.5)
     for method, precision in dict.fromkeys((r.method, r.precision) for r in shown):
         some = [r for r in shown if (r.method, r.precision) == (method, precision)]
-        color, whole, proven = COLORS[method], precision == "float64", method == "certified"
+        color, whole = COLORS[method], precision == "float64"
+        width, size = _NESTED[method]
         axes.plot(
             [scales.index(r.scale) for r in some],
             [100 * r.share for r in some],
             "o-" if whole else "o:",
             color=color,
-            lw=2.2,
-            ms=7 if proven else 5,
+            lw=width,
+            ms=size,
             mfc=color if whole else "white",
+            mew=1.5,
             clip_on=False,
-            zorder=5 if proven else 3,  # above all that hold as well
+            zorder=3 + list(_NESTED).index(method),
         )
     if not any(r.lost for r in shown):
         most = max(r.doubled / r.rays for r in shown)
@@ -176,7 +216,7 @@ def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
     _headline(
         figure,
         f"{some.title}: rays that are missed or see the wrong surface\n{some.explanation}\n"
-        "Green: none. Grey: rounding has left nothing to see.",
+        f"Green: none.{' Grey: rounding has left nothing to see.' * any(map(_is_grey, rows))}",
     )
     bar = figure.colorbar(
         next(i for i in images if i),
@@ -187,6 +227,10 @@ def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
     )
     bar.ax.tick_params(labelsize=13)
     return plots.pixels(figure)
+
+
+def _is_grey(row: Row) -> bool:
+    return not (row.seen or row.lost)
 
 
 def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
@@ -201,7 +245,7 @@ def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
     )
     cells = np.full((len(others), len(scales)), np.nan)
     for r in rows:
-        if r.seen or r.lost:
+        if not _is_grey(r):
             cells[others.index(r.across), scales.index(r.scale)] = r.share
     norm = PowerNorm(0.5, vmin=0.5 / max(r.rays for r in rows), vmax=1)  # below a ray: none
     image = axes.imshow(np.ma.masked_invalid(cells), cmap=_colormap(), norm=norm, aspect="auto")

@@ -21,6 +21,7 @@ from ..study.extremes import Row, breaking_points, breaking_table, table
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
 from .files import SavePng
+from .folders import replacing
 
 SCHEMA = "reference_tracer.extremes/1"
 TABLE, JSON = "extremes.txt", "extremes.json"
@@ -80,7 +81,7 @@ def _row(row: Row) -> dict[str, Any]:
 
 
 def write(directory: str | Path, rows: Sequence[Row], save_png: SavePng) -> None:
-    """Write `extremes.txt`, `extremes.json` and the pictures, in this order.
+    """Write `extremes.txt`, `extremes.json` and the pictures, all or none.
 
     Parameters
     ----------
@@ -97,16 +98,14 @@ def write(directory: str | Path, rows: Sequence[Row], save_png: SavePng) -> None
     OSError
         If the folder cannot be written.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    for name in picture_names():
-        (directory / f"{name}.png").unlink(missing_ok=True)  # it would pass for one of these rows
     text = f"{breaking_table(rows)}\n\n\n{table(rows)}\n"
-    (directory / TABLE).write_text(text, encoding="utf-8")
     content = json.dumps(to_dict(rows), indent=2, allow_nan=False)
-    (directory / JSON).write_text(content + "\n", encoding="utf-8")
-    for name, picture in pictures(rows):
-        save_png(directory / f"{name}.png", picture)
+    names = TABLE, *(f"{name}.png" for name in picture_names()), JSON
+    with replacing(Path(directory), names) as new:
+        (new / TABLE).write_text(text, encoding="utf-8")
+        (new / JSON).write_text(content + "\n", encoding="utf-8")
+        for name, picture in pictures(rows):
+            save_png(new / f"{name}.png", picture)
 
 
 def picture_names() -> list[str]:

@@ -12,15 +12,20 @@ from numpy.typing import NDArray
 
 from ..compare.comparison import SCHEMA, Comparison
 from ..images import to_display
+from .folders import replacing
 from .pictures import difference
 
 PICTURES = "traced", "blender", "difference"
+ARRAYS, JSON = "frame.npz", "comparison.json"
+_NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, JSON
 
 SavePng = Callable[[Path, NDArray[np.uint8]], None]
 
 
 def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> None:
     """Write `traced.png`, `blender.png`, `difference.png`, `frame.npz` and `comparison.json`.
+
+    All or none: see :func:`folders.replacing`.
 
     Parameters
     ----------
@@ -35,21 +40,21 @@ def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> N
     OSError
         If the folder cannot be written.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
+    text = _json(comparison.to_dict())
     colors = comparison.frame.color, comparison.picture, difference(comparison)
-    for name, color in zip(PICTURES, colors, strict=True):
-        save_png(directory / f"{name}.png", to_display(color))
     causes = comparison.causes
-    np.savez_compressed(
-        directory / "frame.npz",
-        **comparison.frame.passes(),
-        blender=comparison.picture,
-        cause=causes.cause,
-        cause_figure=causes.figure,
-        cause_allowed=causes.allowed,
-    )
-    _write_json(directory, comparison.to_dict())
+    with replacing(Path(directory), _NAMES) as new:
+        for name, color in zip(PICTURES, colors, strict=True):
+            save_png(new / f"{name}.png", to_display(color))
+        np.savez_compressed(
+            new / ARRAYS,
+            **comparison.frame.passes(),
+            blender=comparison.picture,
+            cause=causes.cause,
+            cause_figure=causes.figure,
+            cause_allowed=causes.allowed,
+        )
+        (new / JSON).write_text(text, encoding="utf-8")
 
 
 def write_failure(directory: str | Path, error: BaseException) -> None:
@@ -57,20 +62,14 @@ def write_failure(directory: str | Path, error: BaseException) -> None:
 
     What an earlier run left goes: it would pass for this one's.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    for name in (*(f"{picture}.png" for picture in PICTURES), "frame.npz"):
-        (directory / name).unlink(missing_ok=True)
-    _write_json(
-        directory,
-        {
-            "schema": SCHEMA,
-            "verdict": "failed",
-            "error": {"type": type(error).__name__, "message": str(error)},
-        },
-    )
+    content = {
+        "schema": SCHEMA,
+        "verdict": "failed",
+        "error": {"type": type(error).__name__, "message": str(error)},
+    }
+    with replacing(Path(directory), _NAMES) as new:
+        (new / JSON).write_text(_json(content), encoding="utf-8")
 
 
-def _write_json(directory: Path, content: dict[str, Any]) -> None:
-    text = json.dumps(content, indent=2, allow_nan=False)
-    (directory / "comparison.json").write_text(text + "\n", encoding="utf-8")
+def _json(content: dict[str, Any]) -> str:
+    return json.dumps(content, indent=2, allow_nan=False) + "\n"

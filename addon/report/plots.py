@@ -59,12 +59,17 @@ def plain_axes(axes: Axes, title: str, x: str, y: str) -> None:
         spine.set_color(FAINT)
 
 
-def log_ticks(axis: Axis) -> None:
-    """Make an axis logarithmic, with its numbers written out at 1, 2, 5, 10 and so on."""
-    from matplotlib.ticker import LogLocator, NullFormatter
+def log_ticks(axis: Axis, low: float, high: float) -> None:
+    """Make an axis logarithmic between two limits, with some five to ten numbers written out."""
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
     getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=20))
+    getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
+    ratio = high / low
+    if ratio < 5:  # there may be no 1, 2 or 5 in between
+        axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+    else:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if ratio < 500 else (1,), numticks=9))
     axis.set_major_formatter(lambda value, _: f"{value:g}")
     axis.set_minor_formatter(NullFormatter())
 

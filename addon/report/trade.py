@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from ..study.trade import Row, Trade
 from .files import SavePng
+from .folders import replacing
 from .trade_plot import picture
 
 SCHEMA = "reference_tracer.tradeoff/1"
@@ -18,7 +20,7 @@ TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.png"
 _UNITS = {
     "seconds": "seconds, the median of the rounds",
     "wrong_pixels": "pixels whose surface, seen through the centre, is none of the certified ones",
-    "largest_t_error": "metres along the view axis, where both see the same surface",
+    "largest_t_error": "metres along the view axis, where both see the same; null: nowhere",
     "peak_bytes": "bytes of the working arrays and the picture",
     "coverage_error": "root mean square of linear RGBA against the converged picture",
 }
@@ -26,38 +28,60 @@ _UNITS = {
 
 def table(trade: Trade) -> str:
     """Return the rows as text, a block for each size; those that no other beats have a star."""
+    head, *lines = _lines(trade.rows)
     blocks: dict[str, list[str]] = {}
-    for r in trade.rows:
+    for r, line in zip(trade.rows, lines, strict=True):
         rays = "one ray" if r.samples == 1 else f"{r.samples} x {r.samples} rays"
-        blocks.setdefault(f"{r.width} x {r.height} pixels, {rays} each", []).append(_line(r))
+        blocks.setdefault(f"{r.width} x {r.height} pixels, {rays} each", []).append(line)
     k = trade.converged
-    head = (
-        f"{'method':<17}{'precision':<10}{'seconds':>7} {'(min - max)':<17}{'wrong pixels':>16}"
-        f"{'t error, m':>13}{'MiB':>7}{'coverage':>10}"
-    )
     return "\n".join(
         [
             head,
             *(line for title, lines in blocks.items() for line in ("", title, *lines)),
             "",
-            "* no other row beats it, as far as was measurable: in time and wrong pixels, of the",
-            "  same size; in time and coverage, of all. Coverage is the root mean square of RGBA's",
-            f"  difference from {k} x {k} rays a pixel at the largest size.",
+            "* no other row beats it, as far as the rounds agree on which is faster: beside wrong",
+            "  pixels, in time and wrong pixels, of the same size; beside coverage, in time and",
+            "  coverage, of all. Coverage is the root mean square of RGBA's difference from",
+            f"  {k} x {k} rays a pixel at the largest size.",
             "",
             trade.advice,
         ]
     )
 
 
-def _line(r: Row) -> str:
-    pixels, coverage = (" *" if best else "" for best in (r.best_pixels, r.best_coverage))
-    return (
-        f"{r.method:<17}{r.precision:<10}{r.seconds:>7.4f} "
-        f"{f'({r.fastest:.4f} - {r.slowest:.4f})':<17}"
-        f"{r.wrong_pixels:>7,} {f'({r.wrong_pixels / r.pixels:.2%})':>8}{pixels:<2}"
-        f"{r.largest_t_error:>11.1e}{r.peak_bytes / 2**20:>7.1f}"
-        f"{r.coverage_error:>10.4f}{coverage}"
-    )
+_COLUMNS = (  # and on which side their cells are flush
+    *(("method", str.ljust), ("precision", str.ljust), ("seconds", str.rjust)),
+    *(("(min - max)", str.ljust), ("wrong pixels  ", str.rjust), ("t error, m", str.rjust)),
+    *(("MiB", str.rjust), ("coverage  ", str.rjust)),
+)
+
+
+def _lines(rows: Sequence[Row]) -> list[str]:
+    """Return the head and a line for each row; columns are as wide as what is in them."""
+    counts, shares = [f"{r.wrong_pixels:,}" for r in rows], [_share(r) for r in rows]
+    wide, wider = max(map(len, counts)), max(map(len, shares))
+    wrong = [f"{c:>{wide}} {s:>{wider}}" for c, s in zip(counts, shares, strict=True)]
+    cells = [[name for name, _ in _COLUMNS], *map(_cells, rows, wrong)]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    sides = [side for _, side in _COLUMNS]
+    return [
+        " ".join(side(c, w) for side, c, w in zip(sides, row, widths, strict=True)).rstrip()
+        for row in cells
+    ]
+
+
+def _share(r: Row) -> str:
+    return f"({r.wrong_pixels / r.pixels:.2%})"
+
+
+def _cells(r: Row, wrong: str) -> list[str]:
+    pixels, coverage = (" *" if best else "  " for best in (r.best_pixels, r.best_coverage))
+    t_error = "-" if r.largest_t_error is None else f"{r.largest_t_error:.1e}"
+    return [
+        *(r.method, r.precision, f"{r.seconds:.4f}", f"({r.fastest:.4f} - {r.slowest:.4f})"),
+        *(wrong + pixels, t_error, f"{r.peak_bytes / 2**20:.1f}"),
+        f"{r.coverage_error:.4f}{coverage}",
+    ]
 
 
 def to_dict(trade: Trade) -> dict[str, Any]:
@@ -79,14 +103,16 @@ def _row(r: Row) -> dict[str, Any]:
         *("best", "best_pixels", "best_coverage"),
     )
     found = {name: getattr(r, name) for name in names}
-    # JSON has no infinity.
-    return found | {
-        name: None for name in ("largest_t_error", "coverage_error") if not np.isfinite(found[name])
-    }
+    odd = (n for n in ("largest_t_error", "coverage_error") if not _is_finite(found[n]))
+    return found | dict.fromkeys(odd)  # JSON has no infinity
+
+
+def _is_finite(value: float | None) -> bool:
+    return value is not None and bool(np.isfinite(value))
 
 
 def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
-    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.png`, in this order.
+    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.png`, all or none.
 
     Parameters
     ----------
@@ -103,10 +129,8 @@ def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
     OSError
         If the folder cannot be written.
     """
-    directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
-    (directory / PLOT).unlink(missing_ok=True)  # an earlier one would pass for this trade's
-    (directory / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
     text = json.dumps(to_dict(trade), indent=2, allow_nan=False)
-    (directory / JSON).write_text(text + "\n", encoding="utf-8")
-    save_png(directory / PLOT, picture(trade))
+    with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
+        (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
+        (new / JSON).write_text(text + "\n", encoding="utf-8")
+        save_png(new / PLOT, picture(trade))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 _GREY = "#666666"
 _BAND = (-0.9, 0.9)  # where the rows without a wrong pixel are, one below the other
 _Error = Callable[[Row], float]
+_Name = tuple[float, float, str]  # of what is at (x, y)
+# Where a name may be, in points from what it names; the first that is free.
+_PLACES = [(x, y) for y in (0, 16, -16, 32, -32) for x in (16, -16)]
 
 
 def picture(trade: Trade) -> NDArray[np.uint8]:
@@ -32,8 +36,7 @@ def picture(trade: Trade) -> NDArray[np.uint8]:
     """
     figure = plots.new_figure()
     left, right = figure.subplots(1, 2)
-    _wrong_pixels(left, trade)
-    _coverage(right, trade)
+    names = _wrong_pixels(left, trade), _coverage(right, trade)
     labels = {NAMES[m]: {"color": plots.METHOD_COLORS[m]} for m in plots.METHOD_COLORS}
     labels |= {"float64": {"color": _GREY}, "float32": {"color": _GREY, "mfc": "white"}}
     handles = [
@@ -50,11 +53,16 @@ def picture(trade: Trade) -> NDArray[np.uint8]:
         columnspacing=1.4,
         handletextpad=0.2,
     )
-    figure.suptitle(_broken(trade.advice), fontsize=17, color=plots.INK, x=0.01, ha="left")
+    figure.suptitle(_headline(trade), fontsize=17, color=plots.INK, x=0.01, ha="left")
+    figure.draw_without_rendering()  # puts all in its place
+    figure.set_layout_engine("none")
+    for axes, some in zip((left, right), names, strict=True):
+        _label(axes, some)
     return plots.pixels(figure)
 
 
-def _wrong_pixels(axes: Axes, trade: Trade) -> None:
+def _wrong_pixels(axes: Axes, trade: Trade) -> list[_Name]:
+    """Draw the methods side by side; returns what is to be named, and where."""
     rows = trade.whole
     plots.plain_axes(
         axes,
@@ -68,8 +76,9 @@ def _wrong_pixels(axes: Axes, trade: Trade) -> None:
     axes.set_yticks([0, *(10**k for k in range(int(np.log10(max(10, most))) + 1))])
     axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}" if value else "none")
     axes.axhspan(_BAND[0] - 0.1, _BAND[1], color="#e6f2e6", zorder=0)
-    if slowest > 10 * min(r.fastest for r in rows):
-        plots.log_ticks(axes.xaxis)
+    fastest = min(r.fastest for r in rows)
+    if slowest > 10 * fastest:
+        plots.log_ticks(axes.xaxis, 0.8 * fastest, 4 * slowest)  # room for the names
     else:
         named = max((r.slowest for r in rows if _is_named(r)), default=0.0)
         axes.set_xlim(0, max(1.1 * slowest, 1.8 * named))  # room for the names
@@ -89,19 +98,20 @@ def _wrong_pixels(axes: Axes, trade: Trade) -> None:
             alpha=0.4,
         )
     _points(axes, rows, height, lambda r: r.best_pixels)
-    for r in rows:
-        if _is_named(r):
-            count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
-            proven = ", proven" if r.method == "certified" else ""
-            name = f"{NAMES[r.method]}, {r.precision}{count}{proven}"
-            _label(axes, r.slowest, height(r), name)
+    return [(r.slowest, height(r), _name(r)) for r in rows if _is_named(r)]
+
+
+def _name(r: Row) -> str:
+    count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
+    return f"{NAMES[r.method]}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
 
 
 def _is_named(row: Row) -> bool:
     return row.best_pixels or not row.wrong_pixels
 
 
-def _coverage(axes: Axes, trade: Trade) -> None:
+def _coverage(axes: Axes, trade: Trade) -> list[_Name]:
+    """Draw all rows; returns what is to be named, and where."""
     plots.plain_axes(
         axes,
         "Time against coverage error\n"
@@ -109,21 +119,21 @@ def _coverage(axes: Axes, trade: Trade) -> None:
         "seconds",
         "root mean square of RGBA",
     )
-    plots.log_ticks(axes.xaxis)
     seconds = [r.seconds for r in trade.rows]
-    axes.set_xlim(0.85 * min(seconds), 1.25 * max(seconds))
+    plots.log_ticks(axes.xaxis, 0.85 * min(seconds), 1.25 * max(seconds))
     errors = [r.coverage_error for r in trade.rows]
     if min(errors) > 0:
-        plots.log_ticks(axes.yaxis)
-        axes.set_ylim(0.75 * min(errors), 1.3 * max(errors))
+        plots.log_ticks(axes.yaxis, 0.75 * min(errors), 1.3 * max(errors))
+    elif max(errors) == 0:
+        axes.set_ylim(-0.05, 1)
+        axes.set_yticks([0], ["none"])
     front = _points(axes, trade.rows, lambda r: r.coverage_error, lambda r: r.best_coverage)
-    named = set()
+    names = {}
     for r in front:
-        if (r.width, r.samples) not in named:
-            named.add((r.width, r.samples))
-            rays = f", {r.samples} × {r.samples} rays each" if r.samples > 1 else ""
-            name = f"{r.width} × {r.height}{rays}"
-            _label(axes, r.seconds, r.coverage_error, name, up=16)
+        rays = f", {r.samples} × {r.samples} rays each" if r.samples > 1 else ""
+        name = f"{r.width} × {r.height}{rays}"
+        names.setdefault(name, (r.seconds, r.coverage_error, name))
+    return list(names.values())
 
 
 def _points(axes: Axes, rows: list[Row], error: _Error, best: Callable[[Row], bool]) -> list[Row]:
@@ -141,24 +151,41 @@ def _points(axes: Axes, rows: list[Row], error: _Error, best: Callable[[Row], bo
     return front
 
 
-def _label(axes: Axes, x: float, y: float, text: str, up: float = 0) -> None:
-    """Write beside a point: right of it and `up` points, or left and down where it is far right."""
-    place = axes.transAxes.inverted().transform(axes.transData.transform((x, y)))
-    left = place[0] > 0.57
-    note = axes.annotate(
-        text,
-        (x, y),
-        (-16, -up) if left else (16, up),
-        textcoords="offset points",
-        ha="right" if left else "left",
-        va="center",
-        fontsize=15,
-        color=plots.INK,
-        zorder=5,
-    )
-    note.set_in_layout(False)
+def _label(axes: Axes, names: list[_Name]) -> None:
+    """Write names beside their points, where nothing is in the way; else leave them out."""
+    points = [
+        axes.transData.transform((x, y))
+        for line in axes.lines
+        for x, y in zip(*line.get_data(), strict=True)
+    ]
+    taken, inside = [], axes.get_window_extent().padded(4)
+    for x, y, text in names:
+        found = []
+        for dx, dy in _PLACES:
+            note = axes.annotate(
+                text,
+                (x, y),
+                (dx, dy),
+                textcoords="offset points",
+                ha="left" if dx > 0 else "right",
+                va="center",
+                fontsize=15,
+                color=plots.INK,
+                zorder=5,
+            )
+            note.set_in_layout(False)
+            box = note.get_window_extent()
+            free = box.x1 < inside.x1 and box.x0 > inside.x0
+            free = free and not any(box.overlaps(other) for other in taken)
+            found.append((not free, sum(box.contains(*p) for p in points), len(found), note, box))
+        blocked, _, _, best, box = min(found, key=lambda f: f[:3])
+        for *_, note, _ in found:
+            if blocked or note is not best:
+                note.remove()
+        if not blocked:
+            taken.append(box)
 
 
-def _broken(sentence: str) -> str:
-    """Return the advice in two lines, broken where its second half begins."""
-    return sentence.replace("; ", ";\n", 1)
+def _headline(trade: Trade) -> str:
+    """Return the scene's name and the advice, in lines as long as the picture is wide."""
+    return textwrap.fill(f"{trade.scene or 'Trade'}: {trade.advice}", 132)

@@ -195,7 +195,7 @@ def breaking_table(rows: Sequence[Row]) -> str:
     columns = _columns(points)
     by = {(p.scenario, p.method, p.precision): p for p in points}
     known = {s.name: s for s in SCENARIOS}
-    first = 38
+    first = 2 + max(20 + len(s.scale_name) for s in SCENARIOS)
     lines = [
         "First scale at which a ray is missed or wrong; + at which one crosses too many; . never",
         _LITERAL,

@@ -19,6 +19,10 @@ NAMES = {
 }
 
 
+NOTHING_SEEN = (
+    "Nothing is seen: no ray through a pixel's centre meets a surface, so there is nothing to get "
+    "wrong, and these times are those of an empty picture."
+)
 FORGIVEN = 7  # of so many rounds, one may have been disturbed
 
 
@@ -33,7 +37,7 @@ class Row:
     height: int
     seconds: float  # the median of `rounds`
     wrong_pixels: int  # whose surface, seen through the centre, is not one of the certified ones
-    largest_t_error: float  # metres along the view axis, where both see the same surface
+    largest_t_error: float | None  # metres along the view axis; None: nowhere a surface in common
     peak_bytes: int  # of the working arrays and the picture, beside the scene
     coverage_error: float  # root mean square of RGBA against the converged picture
     rounds: tuple[float, ...] = ()  # seconds of each repeat; a round measured every row once
@@ -127,6 +131,8 @@ def gain(fast: Row, slow: Row) -> float:
 
 def advice(rows: list[Row]) -> str:
     """Return, in one sentence, what float32 buys and costs here, and what the proof does."""
+    if all(r.largest_t_error is None for r in whole(rows)):
+        return NOTHING_SEEN
     by = {(r.method, r.precision): r for r in whole(rows)}
     float32, float64 = (by[Method.TEXTBOOK.value, p.value] for p in Precision)
     certified = by[Method.CERTIFIED.value, Precision.FLOAT64.value]
@@ -136,11 +142,10 @@ def advice(rows: list[Row]) -> str:
         if r is not certified and r.method != Method.TEXTBOOK_LITERAL.value  # it is to be looked at
     ]
     fastest = _fastest(rivals)
-    name = f"{NAMES[fastest.method]} in {fastest.precision}"
     return (
         f"With the textbook's formulas, float32 {_buys(gain(float32, float64))} here and "
         f"{_costs(float32, float64)}; certified, proven to have none, "
-        f"{_takes(gain(fastest, certified), name)}."
+        f"{_takes(gain(fastest, certified), fastest)}."
     )
 
 
@@ -167,12 +172,16 @@ def _costs(one: Row, other: Row) -> str:
     return f"costs {more:,} {further}wrong pixel{'s' * (more > 1)} of {one.pixels:,}"
 
 
-def _takes(share: float, name: str) -> str:
-    if share == 0:
-        return f"takes no longer than {name}, the fastest, as far as could be measured"
+def _takes(share: float, rival: Row) -> str:
+    count = f"{rival.wrong_pixels:,}" if rival.wrong_pixels else "no"
+    wrong = f"{count} wrong pixel{'s' * (rival.wrong_pixels != 1)}"
+    name = f"{NAMES[rival.method]} in {rival.precision} ({wrong})"
     if share < 0:
-        return f"is faster than {name}, the next"
-    return f"takes {_times(1 / (1 - share))} {name}, the fastest"
+        return f"is faster than {name}, the next that loses no hits on purpose"
+    first = "the fastest that loses no hits on purpose"  # without the literal textbook
+    if share == 0:
+        return f"takes no longer than {name}, {first}, as far as could be measured"
+    return f"takes {_times(1 / (1 - share))} {name}, {first}"
 
 
 def _times(ratio: float) -> str:

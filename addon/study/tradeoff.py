@@ -53,7 +53,7 @@ class _Choice:
     scene: Scene  # of the row's resolution
     peak_bytes: int = 0
     wrong_pixels: int = 0
-    t_error: float = 0.0
+    t_error: float | None = None
     coverage_error: float = 0.0
     rounds: list[float] = field(default_factory=list)
 
@@ -175,14 +175,17 @@ def coverage_error(color: NDArray[np.floating], truth: NDArray[np.float64]) -> f
     return float(np.sqrt(np.mean((color[np.ix_(y, x)] - truth) ** 2)))
 
 
-def largest_t_error(frame: Frame, certified: Frame) -> float:
-    """Return by how much t is off at most, in metres, where both frames see the same surface."""
+def largest_t_error(frame: Frame, certified: Frame) -> float | None:
+    """Return by how much t is off at most, in metres, where both frames see the same surface.
+
+    None where they nowhere do.
+    """
     same = (
         (frame.instance_index == certified.instance_index)
         & (frame.triangle_index == certified.triangle_index)
         & (certified.instance_index != NOTHING)
     )
-    return float(np.abs(frame.t[same] - certified.t[same]).max(initial=0.0))
+    return float(np.abs(frame.t[same] - certified.t[same]).max()) if same.any() else None
 
 
 def _converged_samples(pixels: int, samples: int) -> int:

@@ -123,7 +123,9 @@ def test_input_errors(command, build, tmp_path):
     for source in (tmp_path / "missing.blend", broken):
         done = reftrace(command, source, "--out", out)
         assert done.returncode == 4
-        assert source.name in done.stderr
+        said = [line for line in done.stderr.splitlines() if line.startswith("reftrace: ")]
+        assert len(said) == 1 and said[0] == done.stderr.splitlines()[-1]
+        assert said[0].count(source.name) == 1
         assert "Traceback" not in done.stderr
         assert not out.exists() or command == "compare"
 
@@ -137,5 +139,35 @@ def test_a_scene_that_cannot_be_traced(command, build, tmp_path):
     out = tmp_path / {"compare": "out", "export": "scene.npz", "trace": "picture.png"}[command]
     done = reftrace(command, path, "--out", out)
     assert done.returncode == 4
-    assert "Camera 'All Around' is of type pano" in done.stderr
+    assert "reftrace: Camera 'All Around' is of type pano" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("command", ["compare", "trade"])
+def test_interrupted_while_blender_is_imported(command, tmp_path):
+    """What is swallowed there is heard all the same, and nothing is left."""
+    code = (
+        "import signal, sys, threading, time\n"
+        "from reference_tracer import cli, interrupts\n"
+        "def later():\n"
+        "    while not interrupts._holding:\n"
+        "        time.sleep(0.001)\n"
+        "    time.sleep(0.05)\n"
+        "    signal.raise_signal(signal.SIGINT)\n"
+        "threading.Thread(target=later, daemon=True).start()\n"
+        "sys.exit(cli.main(sys.argv[1:]))\n"
+    )
+    argv = [command, str(SAMPLES / "suzanne.blend"), "--out", str(tmp_path / "new" / "out")]
+    done = subprocess.run(
+        [sys.executable, "-c", code, *argv], capture_output=True, text=True, timeout=300
+    )
+    assert done.returncode == 130
+    assert done.stderr.splitlines()[-1] == "reftrace: interrupted"
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "new").exists()
+
+
+def test_too_large_a_picture(tmp_path):
+    done = reftrace("trade", SAMPLES / "suzanne.blend", "--width", "10000000", "--samples", "1")
+    assert done.returncode == 4
+    assert "choose a smaller size" in done.stderr and "Traceback" not in done.stderr

@@ -161,7 +161,8 @@ def test_what_is_not_finite_differs(room, value, explained, count):
 
 
 def test_rows_that_were_not_traced(room, monkeypatch):
-    monkeypatch.setattr(rendering, "ROWS", 4)
+    share = Settings().memory // (4 * room.camera.width)
+    monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", share)  # bands of 4 rows
     whole = render(room)
     steps = []
     frame = render(room, progress=steps.append, cancelled=lambda: steps[-1] > 0.5)

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.images import MissingLibraryError, save_png
+from reference_tracer.report import extreme_plots
 from reference_tracer.report.extremes import picture_names, pictures, to_dict, write
 from reference_tracer.study.extreme_rows import Row
 from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS, quick
@@ -100,3 +101,25 @@ def test_without_matplotlib_all_else_is_written(rows, tmp_path, monkeypatch):
     with pytest.raises(MissingLibraryError, match="Matplotlib"):
         write(tmp_path, rows, save_png)
     assert {path.name for path in tmp_path.iterdir()} == {"extremes.txt", "extremes.json"}
+
+
+def test_what_crosses_too_many_triangles_is_not_shown_as_what_holds(rows):
+    """A method that loses no ray but doubles some has a colour of its own."""
+    some = [replace(r, missed=0) for r in rows if r.scenario == "needles"]
+    holds = [replace(r, doubled=0) for r in some]
+
+    def shown(rows, color):
+        rgb = [int(color[k : k + 2], 16) for k in (1, 3, 5)]
+        return (extreme_plots.breaking_picture(rows)[..., :3] == rgb).all(axis=-1).sum()
+
+    assert shown(some, extreme_plots.DOUBLED) > 2 * shown(holds, extreme_plots.DOUBLED)
+    assert shown(holds, extreme_plots.NEVER) > 2 * shown(some, extreme_plots.NEVER)
+
+
+@pytest.mark.parametrize("seen", [0, 100])
+def test_grey_is_explained_only_where_there_is_grey(seen, rows, monkeypatch):
+    said = []
+    monkeypatch.setattr(extreme_plots, "_headline", lambda figure, text: said.append(text))
+    some = [replace(r, seen=seen, missed=0, doubled=0) for r in rows if r.scenario == MAPS[0].name]
+    extreme_plots.map_picture(MAPS[0], [*some[:-1], replace(some[-1], seen=100)])
+    assert ("Grey" in said[0]) == (seen == 0)

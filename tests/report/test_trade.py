@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer import images
-from reference_tracer.report import plots
+from reference_tracer.report import plots, trade_plot
 from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, picture, table, write
 from reference_tracer.study.trade import Row, Trade, mark
 from reference_tracer.tracer.settings import Method, Precision
@@ -62,7 +62,7 @@ def test_table(trade):
     assert "160 x 90 pixels, 4 x 4 rays each" in lines
     head, first = lines[0], lines[lines.index("160 x 90 pixels, one ray each") + 1]
     assert first.split()[:3] == ["textbook_literal", "float32", "0.0400"]
-    assert "(0.0360 - 0.0480)" in first and "3,742 (25.99%) *" in first and "11.0" in first
+    assert "(0.0360 - 0.0480)" in first and "3,742  (25.99%) *" in first and "11.0" in first
     assert head.index("precision") == first.index("float32")
     assert head.index("(min") == first.index("(0.0360")
     assert "16 x 16 rays a pixel" in text and lines[-1] == trade.advice
@@ -70,6 +70,23 @@ def test_table(trade):
     assert len(rows) == len(trade.rows)
     stars = sum(r.best_pixels + r.best_coverage for r in trade.rows)
     assert sum(line.count("*") for line in rows) == stars
+
+
+def test_table_keeps_its_columns_apart(trade):
+    """Whatever the numbers are, the columns begin and end below one another."""
+    large = [
+        replace(r, seconds=1234.5, rounds=(1200.0, 1234.5, 1300.25), wrong_pixels=w, width=3840)
+        for r, w in zip(trade.rows, (133_064, 8_294_400, 7, *(0,) * 99), strict=False)
+    ]
+    large = [replace(r, height=2160, peak_bytes=123 << 30) for r in large]
+    for rows in (large, [large[0], *trade.rows[1:]], [replace(large[0], largest_t_error=None)]):
+        lines = table(replace(trade, rows=rows)).splitlines()
+        found = [line for line in lines if line.startswith(tuple(m.value for m in Method))]
+        assert len({line.index("(") for line in found}) == 1
+        assert len({line.index("%") for line in found}) == 1
+        for line in found:
+            assert all(line[k + 1 : k + 2] in (" ", "") for k, c in enumerate(line) if c == ")")
+            assert len(line.replace(" *", "").split()) == 11
 
 
 @pytest.fixture
@@ -165,3 +182,25 @@ def test_without_matplotlib_all_else_is_written(trade, tmp_path, monkeypatch):
     with pytest.raises(images.MissingLibraryError, match=r"pip install 'reference_tracer\[plots\]"):
         write(tmp_path, trade, images.save_png)
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted([TABLE, JSON])
+
+
+def test_names_in_a_plot_are_apart_or_left_out():
+    """Also where all that is named is at one point."""
+    axes = plots.new_figure().subplots()
+    axes.plot([0.0, 1.0], [0.0, 1.0])
+    trade_plot._label(axes, [(0.5, 0.5, f"a name, number {k}") for k in range(20)])
+    boxes = [t.get_window_extent() for t in axes.texts]
+    assert 5 <= len(boxes) < 20
+    assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
+def test_the_headline_has_the_scenes_name(trade):
+    lines = trade_plot._headline(replace(trade, advice="word " * 60)).splitlines()
+    assert lines[0].startswith("a scene.blend: word") and max(map(len, lines)) <= 132
+
+
+@pytest.mark.parametrize("low, high", [(1.0, 1.01), (0.03, 0.1), (1e-3, 1.0), (1e-6, 1e4)])
+def test_ticks_are_few_but_some(low, high):
+    axes = plots.new_figure().subplots()
+    plots.log_ticks(axes.xaxis, low, high)
+    assert 2 <= sum(low <= t <= high for t in axes.get_xticks()) <= 11

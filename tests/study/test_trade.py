@@ -137,18 +137,24 @@ def ladder(**seconds_and_wrong):
         ),
         (
             {"moller_trumbore_float32": (0.65, 7)},
-            "certified, proven to have none, takes 2.0 times as long as Möller–Trumbore in float32,"
-            " the fastest",
+            "certified, proven to have none, takes 2.0 times as long as Möller–Trumbore in float32 "
+            "(7 wrong pixels), the fastest that loses no hits on purpose.",
         ),
         (
             {"watertight_float64": (0.8, 0), "certified": (1.0, 0)},
-            "takes 25 % longer than watertight in float64, the fastest",
+            "takes 25 % longer than watertight in float64 (no wrong pixels), the fastest that",
         ),
         (
             {"watertight_float64": (0.8, 0), "certified": (0.8, 0)},
-            "takes no longer than watertight in float64, the fastest, as far as could be measured",
+            "takes no longer than watertight in float64 (no wrong pixels), the fastest that loses "
+            "no hits on purpose, as far as could be measured.",
         ),
-        ({"certified": (0.5, 0)}, "is faster than textbook in float32, the next"),
+        (
+            {"certified": (0.5, 0)},
+            "is faster than textbook in float32 (no wrong pixels), the next that loses no hits",
+        ),
+        ({"watertight_float64": (0.8, 1)}, "as watertight in float64 (1 wrong pixel), the fastest"),
+        ({"watertight_float64": (0.8, 2500)}, "as watertight in float64 (2,500 wrong pixels)"),
         # What is printed in the exercise is fast and wrong; it's no rival.
         ({"textbook_literal_float32": (0.1, 7000)}, "longer than textbook in float32"),
     ],
@@ -159,14 +165,20 @@ def test_advice(given, said):
     assert text.endswith(".") and text.count(". ") == 0 and "\n" not in text  # one sentence
 
 
+def test_advice_where_nothing_is_seen():
+    rows = [replace(r, largest_t_error=None) for r in ladder()]
+    assert advice(rows).startswith("Nothing is seen: ")
+    assert advice([*rows[:-1], replace(rows[-1], largest_t_error=0.0)]).startswith("With the")
+
+
 def test_the_fastest_is_not_so_by_noise():
     rows = ladder(textbook_float32=(0.8, 9), watertight_float64=(0.81, 0))
     noisy = [
         replace(r, rounds=(0.7, 0.81, 0.9)) if (r.seconds, r.wrong_pixels) == (0.81, 0) else r
         for r in rows
     ]
-    assert "than textbook in float32, the fastest" in advice(rows).replace("as long as", "than")
-    assert "watertight in float64, the fastest" in advice(noisy)
+    assert "textbook in float32 (9 wrong pixels), the fastest" in advice(rows)
+    assert "watertight in float64 (no wrong pixels), the fastest" in advice(noisy)
 
 
 def test_advice_is_about_the_largest_picture():

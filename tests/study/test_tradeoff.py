@@ -148,7 +148,7 @@ def test_largest_t_error_looks_where_both_see_the_same(ball):
     certified.triangle_index[:] = [[3, 4, 5, NOTHING]]
     certified.t[:] = [[1.0, 2.0, 3.0, np.inf]]
     frame = Frame.empty(replace(ball.camera, width=4, height=1, region=None))
-    assert largest_t_error(frame, certified) == 0
+    assert largest_t_error(frame, certified) is None
     frame.instance_index[:], frame.triangle_index[:] = certified.instance_index, [[3, 4, 9, -1]]
     frame.t[:] = [[1.25, 1.5, 99.0, np.inf]]
     assert largest_t_error(frame, certified) == 0.5
@@ -179,7 +179,9 @@ def test_the_width_is_by_default_at_most_the_cameras(ball, monkeypatch):
 
 def test_a_scene_without_a_surface(make):
     trade = result_of(measure(make.scene(make.camera(8, 6)), samples=2))
-    assert all(r.wrong_pixels == r.largest_t_error == r.coverage_error == 0 for r in trade.rows)
+    assert all(r.wrong_pixels == r.coverage_error == 0 for r in trade.rows)
+    assert all(r.largest_t_error is None for r in trade.rows)
+    assert trade.advice.startswith("Nothing is seen")
 
 
 @pytest.mark.parametrize("width, samples", [(0, 1), (-3, 1), (8, 0), (8, -1), (8, 65)])

@@ -43,7 +43,7 @@ SCENARIOS: tuple[Scenario, ...] = (
         "Corners and edges",
         "Rays at the corners and edges of a closed surface, where neighbours must agree whose "
         "the ray is.",
-        "deepest / nearest",
+        "farthest / nearest corner",
         "",
         (1.0, 1.5, 6.0, 100.0, 1e4, 1e8, 1e12),
         shapes.corners_and_edges,
@@ -83,7 +83,7 @@ SCENARIOS: tuple[Scenario, ...] = (
         "degenerate_faces",
         "Doubled and empty faces",
         "Every face again and again in the same plane, among faces without an area.",
-        "copies",
+        "copies of each face",
         "",
         (0, 1, 2, 3),
         shapes.degenerate_faces,

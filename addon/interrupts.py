@@ -1,0 +1,59 @@
+"""Ctrl-C: heard wherever it falls, also in code of Blender's that would swallow it.
+
+Python turns Ctrl-C into a KeyboardInterrupt at whatever it runs at that moment. Where that is a
+callback from C, it is printed and forgotten; in the middle of an import it leaves half a module.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_heard = False
+_holding = False
+
+
+@contextmanager
+def heard() -> Iterator[None]:
+    """Remember every Ctrl-C until the end of the block, so that :func:`check` can answer it.
+
+    A handler that someone else has set, and all that is not the main thread, is left alone.
+    """
+    global _heard
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield
+        return
+    _heard = False
+    signal.signal(signal.SIGINT, _hear)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _hear(*_: object) -> None:
+    global _heard
+    _heard = True
+    if not _holding:
+        raise KeyboardInterrupt
+
+
+def check() -> None:
+    """Raise the KeyboardInterrupt that was swallowed or held."""
+    if _heard:
+        raise KeyboardInterrupt
+
+
+@contextmanager
+def held() -> Iterator[None]:
+    """Let Ctrl-C wait until the block has ended without an error."""
+    global _holding
+    _holding = True
+    try:
+        yield
+    finally:
+        _holding = False
+    check()

@@ -1,0 +1,115 @@
+"""Files that are whole or not there: an interruption leaves neither half a result nor a mixed one.
+
+In come names; out go places to write to. What is written there takes its name only at the end.
+"""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from ..images import MissingLibraryError
+
+_PREFIX = ".reftrace-"  # of the folder beside the results in which they are written
+
+
+def make(directory: Path) -> list[Path]:
+    """Make a folder before the work that it is for, and see that it can be written.
+
+    Returns
+    -------
+    list of Path
+        The folders that were not there, the innermost first.
+
+    Raises
+    ------
+    OSError
+        If it cannot be made or written, naming it and why.
+    """
+    new = [p for p in (directory, *directory.parents) if not p.exists()]
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=directory, prefix=_PREFIX):
+            pass
+    except OSError as error:
+        _remove(new)
+        why = {
+            FileExistsError: "it is a file",
+            NotADirectoryError: "a part of this path is a file",
+        }.get(type(error), error.strerror)
+        raise OSError(f"cannot write to the folder '{directory}': {why}") from error
+    return new
+
+
+@contextmanager
+def made(directory: Path) -> Iterator[None]:
+    """Make a folder for some work; where that fails, what this made and is empty goes again."""
+    new = make(directory)
+    try:
+        yield
+    except BaseException:  # Ctrl-C, too
+        _remove(new)
+        raise
+
+
+def _remove(directories: Sequence[Path]) -> None:
+    with suppress(OSError):  # there is something in it by now
+        for directory in directories:
+            directory.rmdir()
+
+
+@contextmanager
+def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
+    """Give a folder to write results of these names into, for those that `directory` has.
+
+    At the end the old ones go, the last name first, and the new ones come, the last name last: so
+    that where it is there, it is of the same run as all the others. Without a library for pictures,
+    what is written by then counts as all.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    make(directory)
+    with tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX) as new:
+        try:
+            yield Path(new)
+        except MissingLibraryError:
+            _replace(directory, Path(new), names)
+            raise
+        _replace(directory, Path(new), names)
+
+
+def _replace(directory: Path, new: Path, names: Sequence[str]) -> None:
+    for name in reversed(names):
+        (directory / name).unlink(missing_ok=True)
+    for name in names:
+        if (new / name).exists():
+            os.replace(new / name, directory / name)
+
+
+@contextmanager
+def replacing_file(path: Path) -> Iterator[Path]:
+    """Give a place for what will be the file `path`, once it is whole."""
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=_PREFIX) as new:
+        yield Path(new) / path.name
+        os.replace(Path(new) / path.name, path)
+
+
+@contextmanager
+def made_for_file(path: Path) -> Iterator[None]:
+    """Do what :func:`made` does, for the folder of a file.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    if path.is_dir():
+        raise OSError(f"cannot write '{path}': it is a folder")
+    with made(path.parent):
+        yield
