@@ -18,6 +18,7 @@ from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import film_of, pixel_size
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 
