@@ -35,6 +35,7 @@ from numpy.typing import NDArray
 from .bounds import U
 from .film import Film, Vertices
 
+_CHUNK = 1 << 13  # triangles at a time: their temporaries stay in a core's cache
 _MORE = 1.01  # for the roundings of the bounds themselves
 # Far above what gradual underflow may lose, far below where it matters: what is as small as this is
 # decided elsewhere.
@@ -69,6 +70,9 @@ class Footprints:
         """Return those at `index`."""
         return Footprints(*(v.take(index, axis=-1) for v in vars(self).values()))
 
+    def __getitem__(self, part: slice) -> Footprints:
+        return Footprints(*(v[..., part] for v in vars(self).values()))
+
 
 def footprints(
     film: Film, vertices: Vertices, corners: Index, nearest: Floats, origin: Index, reach: Floats
@@ -86,7 +90,25 @@ def footprints(
     reach : (m,) int
         How far from there they are asked for, in pixels, along either axis.
     """
-    x0, y0 = origin + 0.5
+    count = corners.shape[1]
+    out = Footprints(
+        np.arange(count),
+        origin,
+        np.empty((3, 4, count)),
+        np.empty(count),
+        np.empty(count),
+        nearest,
+        np.empty(count, bool),
+    )
+    for first in range(0, count, _CHUNK):
+        part = slice(first, first + _CHUNK)
+        _fill(out[part], film, vertices, corners[:, part], reach[part])
+    return out if out.sure.all() else _both_signs(out)
+
+
+def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach: Floats) -> None:
+    """Compute the functions of some triangles, and their bounds."""
+    x0, y0 = out.origin + 0.5
     p, q, w = [], [], []
     for corner in corners:
         weight = vertices.w.take(corner)
@@ -94,8 +116,7 @@ def footprints(
         q.append(vertices.q.take(corner) - y0 * weight)
         w.append(weight)
     size = _largest(*(vertices.size.take(corner) for corner in corners))
-    count = len(size)
-    of_1, of_y, of_x = coefficients = np.empty((3, 4, count))
+    of_1, of_y, of_x = coefficients = out.coefficients
     for k, (a, b) in enumerate(((1, 2), (2, 0), (0, 1))):
         np.subtract(q[a] * w[b], w[a] * q[b], out=of_x[k])
         np.subtract(w[a] * p[b], p[a] * w[b], out=of_y[k])
@@ -135,15 +156,12 @@ def footprints(
         for function in coefficients:
             np.divide(function[0] + function[1] + function[2], amount, out=function[3])
         relative = error / least + (2 * film.ray_error + 16 * U)
-        nearness_error = 6 * edge_error / least + relative * nearest
+        nearness_error = 6 * edge_error / least + relative * out.nearest
     nearness_error *= _MORE
+    out.sure[:], out.edge_error[:], out.nearness_error[:] = sure, edge_error, nearness_error
     lost = ~(terms < _HUGE)
     if lost.any():  # any pixel may be covered
-        coefficients[:, :, lost], edge_error[lost], sure[lost] = 0, np.inf, False
-    found = Footprints(
-        np.arange(count), origin, coefficients, edge_error, nearness_error, nearest, sure
-    )
-    return found if sure.all() else _both_signs(found)
+        coefficients[:, :, lost], out.edge_error[lost], out.sure[lost] = 0, np.inf, False
 
 
 def _both_signs(found: Footprints) -> Footprints:

@@ -21,7 +21,7 @@ from .camera import Rays, camera_rays, film_positions_of
 from .candidates import Pairs, WorldTriangles, pixel_bounds
 from .certainty import Certainty
 from .certified import Contest
-from .cover import Boxes, Covered, covered, split
+from .cover import LARGE, Boxes, Covered, covered, split
 from .depth_buffer import DepthBuffer
 from .film import Film
 from .footprints import Footprints, footprints
@@ -218,10 +218,12 @@ class Sweep:
                 self._depths.refresh(y0, y1)
             for first in range(0, len(slab), _TRIANGLES):
                 some = slab[first : first + _TRIANGLES]
-                boxes = Boxes(np.arange(len(some)), part_low.take(some, 1), part_high.take(some, 1))
-                front = nearest.take(some)
-                open_ = self._not_hidden(boxes, front)
-                some, boxes, front = some.take(open_), boxes.take(open_), front.take(open_)
+                boxes = Boxes(None, part_low.take(some, axis=1), part_high.take(some, axis=1))
+                shape, front = boxes.shape, nearest.take(some)
+                # Sorted by shape, so that what is evaluated together lies together.
+                open_ = self._not_hidden(boxes, shape, front)
+                open_ = open_.take(np.argsort(shape.take(open_), kind="stable"))
+                some, shape = some.take(open_), shape.take(open_)
                 if not len(some):
                     continue
                 origin = low.take(some, axis=1)
@@ -230,15 +232,12 @@ class Sweep:
                     self._film,
                     expanded.vertices,
                     expanded.corners.take(some, axis=1),
-                    front,
+                    front.take(open_),
                     origin,
                     np.maximum(width, height) + 1.0,
                 )
-                boxes = Boxes(
-                    np.arange(len(found.row)),
-                    *(v.take(found.row, axis=1) for v in (boxes.low, boxes.high)),
-                )
-                for pairs in self._pairs(found, boxes):
+                boxes = Boxes(None, boxes.low.take(open_, axis=1), boxes.high.take(open_, axis=1))
+                for pairs in self._pairs(found, boxes, shape):
                     kept.append(self._keep(found, pairs, start + some))
                     yield
         if kept:
@@ -277,25 +276,31 @@ class Sweep:
             x0, x1, y0, y1 = pixel_bounds(self._film.camera, world, reach=1.0)
             low[:, part], high[:, part] = (x0, y0), (x1 - 1, y1 - 1)
 
-    def _not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
+    def _not_hidden(self, boxes: Boxes, shape: NDArray, nearest: NDArray) -> Index:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
         farthest = np.full(len(nearest), -np.inf)
-        small = np.flatnonzero(boxes.is_small)
+        small = np.flatnonzero(shape != LARGE)
         (x0, y0), (x1, y1) = boxes.low.take(small, axis=1), boxes.high.take(small, axis=1)
         farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
         return np.flatnonzero(~(nearest < farthest))
 
-    def _pairs(self, found: Footprints, boxes: Boxes) -> Iterator[Covered]:
-        small = boxes.is_small
-        parts = list(covered(found, boxes.take(np.flatnonzero(small)), self._depths))
+    def _pairs(
+        self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]
+    ) -> Iterator[Covered]:
+        """Yield the pairs of sorted boxes, the large ones last, each with its own footprint."""
+        large = int(np.searchsorted(shape, LARGE))
+        parts = list(covered(found, boxes, shape[:large], self._depths))
+        rest = np.arange(large, len(found.row))  # and those that occur twice
+        row = found.row.take(rest)
+        rest = Boxes(rest, boxes.low.take(row, axis=1), boxes.high.take(row, axis=1))
+        for some in split(found, rest, self._depths) if len(row) else ():
+            order = np.argsort(own := some.shape, kind="stable")
+            parts += covered(found, some.take(order), own.take(order), self._depths)
+            if parts:
+                yield _joined(parts)
+                parts = []
         if parts:
             yield _joined(parts)
-        large = np.flatnonzero(~small)
-        if len(large):
-            for some in split(found, boxes.take(large), self._depths):
-                parts = list(covered(found, some, self._depths))
-                if parts:
-                    yield _joined(parts)
 
     def _keep(self, found: Footprints, pairs: Covered, surface: Index) -> Kept:
         """Enter the sure hits into the depth buffer; return what may be the nearest."""
@@ -332,15 +337,20 @@ class Sweep:
         self._kept = []
         found = Kept.joined(near)
         pixel = self._depths.pixels(found.pixel)
-        number = np.bincount(pixel, minlength=len(hits.t))
-        number[pixel[~found.sure]] = 2  # not one that is sure
-        surface = np.empty(len(hits.t), np.int64)
-        surface[pixel] = found.surface
-        clear = np.flatnonzero(number == 1)
+        # Of several that a pixel has, one is the last: the others see that they are not alone.
+        every = np.arange(len(pixel), dtype=np.int32)
+        last = np.full(len(hits.t), NOTHING, np.int32)
+        last[pixel] = every
+        open_ = (last.take(pixel) != every) | ~found.sure
+        open_ = pixel.take(np.flatnonzero(open_))
+        clear = last >= 0
+        clear[open_] = False
         yield 1.0
-        yield from self._enter_sure(hits, clear, surface[clear])
-        rest = np.flatnonzero(number.take(pixel) > 1)
-        yield from self._contest(hits, pixel.take(rest), found.surface.take(rest))
+        decided = np.flatnonzero(clear)
+        yield from self._enter_sure(hits, decided, found.surface.take(last.take(decided)))
+        if len(open_):
+            rest = np.flatnonzero(~clear.take(pixel))
+            yield from self._contest(hits, pixel.take(rest), found.surface.take(rest))
         return hits
 
     def _enter_sure(self, hits: Hits, pixel: Index, surface: Index) -> Work[None]:
@@ -392,8 +402,6 @@ class Sweep:
     def _contest(self, hits: Hits, pixel: Index, surface: Index) -> Work[None]:
         """Decide pixels that may see several surfaces, or none for sure."""
         scene, camera = self._scene, self._film.camera
-        if not len(pixel):
-            return
         which, ray = np.unique(pixel, return_inverse=True)
         some = self._rays(which)
         on_mesh = np.flatnonzero(surface >= self._first_triangle)  # it has the planes already

@@ -6,10 +6,21 @@ vertex differently in arrays of different length, which would tear shared vertic
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
+
+
+def in_parts(function: Callable[[slice], NDArray], count: int, size: int) -> NDArray:
+    """Return what a function makes of slices of `size` columns, side by side: (..., count).
+
+    So that the temporaries of long formulas stay in a core's cache.
+    """
+    parts = [function(slice(k, k + size)) for k in range(0, max(count, 1), size)]
+    return np.concatenate(parts, axis=-1)
 
 
 def dot(a: Vectors, b: Vectors) -> NDArray[np.floating]:
