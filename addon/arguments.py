@@ -12,6 +12,8 @@ from .tracer.settings import Method, Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
 
+INTERRUPTED = 130  # what shells say of a command that Ctrl-C ended
+
 EXIT_CODES = """exit codes:
   0  the pictures agree
   1  warnings: something is not modelled, or not decidable
@@ -64,6 +66,19 @@ def add_judge(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="leave Blender's shading as the scene has it, not like for like",
     )
+
+
+def add_bench(parser: argparse.ArgumentParser) -> None:
+    """Add which scenes are measured, how often, and what the result is compared with."""
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="by default all")
+    parser.add_argument("--quick", action="store_true", help="fewer and smaller: under 2 minutes")
+    parser.add_argument(
+        "--out", default="out/bench", metavar="DIR", help="folder for what is found (%(default)s)"
+    )
+    parser.add_argument(
+        "--baseline", metavar="FILE", help="bench.json of an earlier run: say what has changed"
+    )
+    parser.add_argument("--repeats", type=int, metavar="N", help="rounds (default 5; quick 3)")
 
 
 def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:

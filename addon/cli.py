@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,9 @@ from . import __version__, images
 from .arguments import (
     EXIT_CODES,
     INPUT_ERROR,
+    INTERRUPTED,
     Parser,
+    add_bench,
     add_camera,
     add_judge,
     add_settings,
@@ -22,6 +24,7 @@ from .arguments import (
 )
 from .opening import SOURCES, load, open_blend
 from .report import files
+from .report.progress_bar import progress_bar
 from .scene import SceneError
 from .scene_files import save_scene
 from .tracer.certainty import AssumptionError
@@ -116,6 +119,14 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
 
     sub = command(
+        _bench,
+        "measure the speed of the tracer beside embreex, Cycles and others",
+        "reftrace bench --quick --out out/bench",
+        None,
+    )
+    add_bench(sub)
+
+    sub = command(
         _export,
         "export a .blend to a scene that needs no Blender",
         "reftrace export scene.blend --out scene.npz",
@@ -134,7 +145,7 @@ def _compare(options: argparse.Namespace) -> int:
         with open_blend(options.scene):
             from .blender.commands import compare_open_file
 
-            with _progress() as progress:
+            with progress_bar() as progress:
                 return compare_open_file(options, progress)
     except (SceneError, OSError) as error:
         with suppress(OSError):
@@ -148,7 +159,7 @@ def _trace(options: argparse.Namespace) -> int:
         raise SceneError(f"'{options.out}' must end in .png or .exr")
     scene, stored = load(options)
     settings = settings_from(options, stored)
-    with _progress() as progress:
+    with progress_bar() as progress:
         frame = render(scene, settings, progress)
     options.out.parent.mkdir(parents=True, exist_ok=True)
     if suffix == ".png":
@@ -173,7 +184,7 @@ def _trade(options: argparse.Namespace) -> int:
     scene, _ = load(options)
     samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
     _make(options.out)
-    with _progress() as progress:
+    with progress_bar() as progress:
         work = tradeoff.measure(scene, options.width, samples, options.scene.name)
         trade = result_of(work, progress)
     print(report.table(trade))
@@ -189,11 +200,22 @@ def _extremes(options: argparse.Namespace) -> int:
     if options.rays is not None and options.rays < 1:
         raise SceneError(f"--rays is {options.rays}; it must be at least 1")
     _make(options.out)
-    with _progress() as progress:
+    with progress_bar() as progress:
         rows = result_of(extremes.measure(rays=options.rays), progress)
     print(extremes.breaking_table(rows))
     _write(options.out, lambda: report.write(options.out, rows, images.save_png))
     return 0
+
+
+def _bench(options: argparse.Namespace) -> int:
+    from .report import bench as report
+    from .report.bench_run import run
+
+    with progress_bar() as progress:
+        bench, baseline = run(options, progress)
+    print(report.table(bench, baseline))
+    _write(options.out, lambda: report.write(options.out, bench, images.save_png, baseline))
+    return INTERRUPTED if bench.interrupted else 0
 
 
 def _make(directory: str | None) -> None:
@@ -222,28 +244,6 @@ def _export(options: argparse.Namespace) -> int:
     save_scene(options.out, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
     return 0
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[float], None]]:
-    """Show a bar on standard error, if it is a terminal and tqdm is there."""
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        if sys.stderr.isatty():
-            print(
-                "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
-                file=sys.stderr,
-            )
-        yield lambda share: None
-        return
-    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
-    with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
-
-        def show(share: float) -> None:
-            bar.update(share - bar.n)
-
-        yield show
 
 
 if __name__ == "__main__":

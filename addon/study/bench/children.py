@@ -13,10 +13,10 @@ def package() -> str:
     return __name__.rsplit(".", 3)[0]
 
 
-def environment(**more: str) -> dict[str, str]:
+def environment() -> dict[str, str]:
     """Return the environment of a Python that finds what this one does."""
     path = os.pathsep.join(p for p in sys.path if p)
-    return os.environ | {"PYTHONPATH": path} | more
+    return os.environ | {"PYTHONPATH": path}
 
 
 @contextmanager

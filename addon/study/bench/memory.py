@@ -21,10 +21,6 @@ from ...tracer.settings import Settings
 from .children import environment, package
 from .scenes import build, mesh_of
 
-# Arrays of this size and more go back to the system when they are freed (glibc): what the making of
-# the mesh has left behind would hide what the picture takes.
-_RETURNED = str(64 << 10)
-
 
 @dataclass(frozen=True)
 class Job:
@@ -48,7 +44,7 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
-        env=environment(MALLOC_MMAP_THRESHOLD_=_RETURNED, MALLOC_TRIM_THRESHOLD_=_RETURNED),
+        env=environment(),
         start_new_session=True,
     )
     try:
@@ -65,18 +61,15 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
 
 
 def _answer(request: dict) -> None:
-    mesh = mesh_of(request["name"], Path(request["cache"]))
-    warm_up = build(mesh_of("cube", Path()), 16, 9, "perspective")
+    mesh, small = mesh_of(request["name"], Path(request["cache"])), mesh_of("cube", Path())
+    _return_freed()
     for job in (Job(**job) for job in request["jobs"]):
-        settings = Settings(job.method, job.precision)
-        work = render if job.whole else trace
-        work(warm_up, settings)  # libraries load what they need
-        print(json.dumps(_of_a_fork(build(mesh, job.width, job.height, job.camera), work, settings)))
-        sys.stdout.flush()
+        pictures = build(small, 16, 9, job.camera), build(mesh, job.width, job.height, job.camera)
+        print(json.dumps(_of_a_fork(pictures, job)), flush=True)
 
 
-def _of_a_fork(scene: Scene, work: object, settings: Settings) -> int | None:
-    """Return by how much a fork's peak rises while it works, bytes; None if it fails."""
+def _of_a_fork(pictures: tuple[Scene, Scene], job: Job) -> int | None:
+    """Return by how much a fork's peak rises for the second picture, bytes; None if it fails."""
     reads, writes = os.pipe()
     if child := os.fork():
         os.close(writes)
@@ -84,14 +77,23 @@ def _of_a_fork(scene: Scene, work: object, settings: Settings) -> int | None:
             said = file.read()
         os.waitpid(child, 0)
         return int(said) if said else None
-    code = 1
     try:
+        work, settings = render if job.whole else trace, Settings(job.method, job.precision)
+        work(pictures[0], settings)  # pages of libraries come in once they are used
         before = _peak()
-        kept = work(scene, settings)
+        kept = work(pictures[1], settings)
         os.write(writes, str(_peak() - before).encode())
-        code = 0 if kept is not None else 1
+        del kept
     finally:
-        os._exit(code)  # nothing of the parent's is to be cleaned up here
+        os._exit(0)  # nothing of the parent's is to be cleaned up here
+
+
+def _return_freed() -> None:
+    """Give back what the making of the mesh has left: a picture that fits there would seem free."""
+    import ctypes
+
+    if trim := getattr(ctypes.CDLL(None), "malloc_trim", None):  # glibc's
+        trim(0)
 
 
 def _peak() -> int:

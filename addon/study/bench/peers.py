@@ -19,6 +19,7 @@ from .rays import Rays, rays_of
 
 FIRST = 64  # of so many rows one is traced first, to see how long a picture would take
 DENSE_FIRST = 8_000  # and not fewer rays than this: no clock sees what is too short
+BATCH = 64  # rays that rtree gets at once: it may take a second for each
 
 
 class MissingPeerError(RuntimeError):
@@ -103,14 +104,18 @@ class Rtree:
             raise missing("rtree") from None
         self._tracer = RayMeshIntersector(whole)
 
-    def trace(self, rays: Rays, count: int) -> Timed:
-        """Trace so many rays, spread evenly over the picture."""
-        some = np.linspace(0, rays.count - 1, min(count, rays.count)).astype(np.intp)
-        origins, directions = rays.origins[some], rays.directions[some]
-        began = time.perf_counter()
-        self._tracer.intersects_id(origins, directions, multiple_hits=False)
-        seconds = time.perf_counter() - began
-        return Timed(seconds * rays.of / len(some), len(some))
+    def trace(self, rays: Rays, budget: float) -> Timed:
+        """Trace rays here and there in the picture until `budget` seconds are over, or all."""
+        order = np.random.default_rng(0).permutation(rays.count)
+        seconds, done = 0.0, 0
+        while done < rays.count and seconds < budget:
+            some = order[done : done + BATCH]
+            origins, directions = rays.origins[some], rays.directions[some]
+            began = time.perf_counter()
+            self._tracer.intersects_id(origins, directions, multiple_hits=False)
+            seconds += time.perf_counter() - began
+            done += len(some)
+        return Timed(seconds * rays.of / done, done)
 
 
 def fitting(trace: Callable[[Rays], float], camera: Camera, budget: float) -> Rays:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...scene import SceneError
 from . import scenes
 from .scenes import ORTHOGRAPHIC, PERSPECTIVE, SUBJECTS
 
@@ -66,16 +67,14 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
     Raises
     ------
     SceneError
-        If there is no such scene.
-    ValueError
-        If there are to be fewer rounds than one.
+        If there is no such scene, or there are to be fewer rounds than one.
     """
     if repeats is not None and repeats < 1:
-        raise ValueError(f"--repeats is {repeats}; it must be at least 1")
+        raise SceneError(f"--repeats is {repeats}; it must be at least 1")
     chosen = [scenes.subject(name).name for name in dict.fromkeys(names or _default(quick))]
     cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
     if quick:
-        return Plan(tuple(cases), True, repeats or QUICK_REPEATS, budget=1.0, slow=0.3)
+        return Plan(tuple(cases), True, repeats or QUICK_REPEATS, budget=2.0, slow=0.3)
     return Plan(tuple(cases), False, repeats or REPEATS, budget=12.0, slow=3.0)
 
 

@@ -21,6 +21,7 @@ class Rays:
     directions: NDArray[np.float32]  # (n, 3), one unit deep along the view axis
     length: float  # t of the clip end
     of: int  # rays of the whole picture
+    rows: slice  # of the picture, that they pass through
 
     @property
     def count(self) -> int:
@@ -36,7 +37,8 @@ def rays_of(camera: Camera, every: int = 1) -> Rays:
     w = camera.window
     x = w.left + (np.arange(camera.width) + 0.5) / camera.width * (w.right - w.left)
     y = w.bottom + (np.arange(camera.height) + 0.5) / camera.height * (w.top - w.bottom)
-    y = y[min(every // 2, camera.height - 1) :: every]
+    rows = slice(min(every // 2, camera.height - 1), None, every)
+    y = y[rows]
     across = x[None, :, None] * camera.right + y[:, None, None] * camera.up
     near = camera.clip_start
     if camera.orthographic:
@@ -45,10 +47,9 @@ def rays_of(camera: Camera, every: int = 1) -> Rays:
     else:
         directions = across + camera.forward
         origins = camera.origin + near * directions
-    return Rays(
-        _rows(origins), _rows(directions), camera.clip_end - near, camera.width * camera.height
-    )
+    pixels = camera.width * camera.height
+    return Rays(_float32(origins), _float32(directions), camera.clip_end - near, pixels, rows)
 
 
-def _rows(v: NDArray[np.float64]) -> NDArray[np.float32]:
+def _float32(v: NDArray[np.float64]) -> NDArray[np.float32]:
     return np.ascontiguousarray(v.reshape(-1, 3), dtype=np.float32)

@@ -61,7 +61,9 @@ SUBJECTS = {
         Subject("suzanne", meshes.SUZANNE, None, _AROUND),
         Subject("slivers_20k", 20_000, partial(meshes.slivers, 20_000), _CUBE, ADVERSARIAL),
         Subject("slivers_100k", 100_000, partial(meshes.slivers, 100_000), _CUBE, ADVERSARIAL),
-        Subject("large_100k", 100_000, partial(meshes.large_triangles, 100_000), _CUBE, ADVERSARIAL),
+        Subject(
+            "large_100k", 100_000, partial(meshes.large_triangles, 100_000), _CUBE, ADVERSARIAL
+        ),
         Subject("small_1m", 1_000_000, partial(meshes.soup, 1_000_000, 0.005), _CUBE, ADVERSARIAL),
         Subject(
             "nested_spheres", 1_310_720, partial(meshes.nested_spheres, 64, 5), _AROUND, ADVERSARIAL
