@@ -47,8 +47,8 @@ def _ours(bench: Bench) -> Iterator[str]:
         yield from ("", f"{some[0].width} x {some[0].height} pixels, {camera}")
         yield from map(_line, some)
     yield ""
-    yield "MT: Moller-Trumbore in float64. embreex, in float32, traces alone; `build` is its tree's."
-    yield "`frame`: render() with all passes. MiB: the peak of tracing. ~ is from a sample of rays."
+    yield "MT: Möller–Trumbore in float64. embreex, in float32, traces alone; build: of its tree."
+    yield "frame: render() with all passes. MiB: the peak of tracing. ~ is from a sample of rays."
     if bench.machine.get("one_core"):
         yield "Everything ran on one core."
 
@@ -137,7 +137,7 @@ def _compared(bench: Bench, baseline: Bench) -> Iterator[str]:
         yield "the baseline has none of these rows"
         return
     yield "against the baseline: new / old, below 1 is better"
-    yield f"{'':<58}{'trace':>8}{'frame':>8}{'memory':>8}{'embreex':>9}"
+    yield f"{'':<59}{'trace':>8}{'frame':>8}{'memory':>8}{'embreex':>9}"
     for key in keys:
         scene, width, height, camera, method, _ = key
         cells = (f"{found[key]:>8.2f}" if key in found else f"{'-':>8}" for found in of.values())
@@ -146,7 +146,7 @@ def _compared(bench: Bench, baseline: Bench) -> Iterator[str]:
             + (f"{control[key]:>9.2f}" if key in control else f"{'-':>9}")
         )
     middle = [f"{median(found.values()):>8.2f}" if found else f"{'-':>8}" for found in of.values()]
-    yield f"{'median':<58}{''.join(middle)}" + (
+    yield f"{'median':<59}{''.join(middle)}" + (
         f"{median(control.values()):>9.2f}" if control else f"{'-':>9}"
     )
     yield "embreex does not change with us: what it shows is the machine."

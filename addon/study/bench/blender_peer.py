@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from ...scene import Scene
-from .children import environment, package
+from .children import package
 from .peers import MissingPeerError, Timed, missing
 from .scenes import CAMERAS
 
@@ -107,7 +107,6 @@ class BlenderPeer:
             stdout=subprocess.PIPE,
             stderr=self._errors,
             text=True,
-            env=environment(),
             start_new_session=True,  # Ctrl-C is ours: we end it ourselves
         )
 

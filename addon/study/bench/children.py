@@ -1,9 +1,8 @@
-"""Processes of our own: how they find this package, and how all stay on one core."""
+"""Processes of our own: what they are called, and how all stay on one core."""
 
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -11,12 +10,6 @@ from contextlib import contextmanager
 def package() -> str:
     """Return the name under which this package was imported."""
     return __name__.rsplit(".", 3)[0]
-
-
-def environment() -> dict[str, str]:
-    """Return the environment of a Python that finds what this one does."""
-    path = os.pathsep.join(p for p in sys.path if p)
-    return os.environ | {"PYTHONPATH": path}
 
 
 @contextmanager

@@ -48,6 +48,7 @@ def measure(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
         The folder where Blender's monkey is kept from run to run.
     """
     total, done = sum(case.cost for case in plan.cases), 0.0
+    pace = Pace(plan)
     with one_core(), closing(Field(plan, bench, cache)) as field:
         _warm_up(cache)
         for name, group in groupby(plan.cases, key=lambda case: case.scene):
@@ -58,7 +59,7 @@ def measure(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
             except MissingMeshError as error:
                 bench.note(f"{name} is left out: {error}")
             else:
-                work = _measure_scene(plan, bench, cache, field, mesh, cases)
+                work = _measure_scene(pace, bench, cache, field, mesh, cases)
                 yield from scaled(work, done / total, size / total)
             done += size
     yield 1.0
@@ -73,16 +74,18 @@ def _warm_up(cache: Path) -> None:
 
 
 def _measure_scene(
-    plan: Plan, bench: Bench, cache: Path, field: Field, mesh: Mesh, cases: list[Case]
+    pace: Pace, bench: Bench, cache: Path, field: Field, mesh: Mesh, cases: list[Case]
 ) -> Work[None]:
-    peaks = yield from scaled(_measure_memory(cases, cache), 0.0, _MEMORY)
+    peaks = yield from scaled(_measure_memory(cases, cache, pace.plan.quick), 0.0, _MEMORY)
     share = (1 - _MEMORY) / sum(case.cost for case in cases)
     start = _MEMORY
     for case in cases:
         timing = Timing(mesh, case)
         peers = field.runners(timing.scene(), case)
         yield from scaled(
-            in_rounds([*timing.runners.values(), *peers.values()], plan.repeats, plan.budget),
+            in_rounds(
+                [*timing.runners.values(), *peers.values()], pace.plan.repeats, pace.budget(case)
+            ),
             start,
             share * case.cost,
         )
@@ -92,9 +95,10 @@ def _measure_scene(
         bench.rows += [field.completed(row, timing.certified) for row in rows]
 
 
-def _measure_memory(cases: list[Case], cache: Path) -> Work[Peaks]:
+def _measure_memory(cases: list[Case], cache: Path, quick: bool) -> Work[Peaks]:
     """Measure all of a scene's pictures in one go: its mesh is made once."""
-    jobs = [_job(case, s, what) for case in cases for s in METHODS for what in WHAT]
+    wanted = WHAT[:1] if quick else WHAT
+    jobs = [_job(case, s, what) for case in cases for s in METHODS for what in wanted]
     found: Peaks = {}
     with closing(memory.peaks(cases[0].scene, cache, jobs)) as peaks:
         for job, peak in zip(jobs, peaks, strict=True):
@@ -106,6 +110,22 @@ def _measure_memory(cases: list[Case], cache: Path) -> Work[Peaks]:
 def _job(case: Case, s: Settings, what: str) -> memory.Job:
     size = case.width, case.height
     return memory.Job(*size, case.camera, s.method.value, s.precision.value, what == RENDER)
+
+
+class Pace:
+    """Shares the time of a plan among its cases, so that slow ones do not make the whole late."""
+
+    def __init__(self, plan: Plan) -> None:
+        """Begin now."""
+        self.plan, self._end = plan, time.perf_counter() + plan.seconds
+        self._to_come = sum(case.cost for case in plan.cases)
+
+    def budget(self, case: Case) -> float:
+        """Return the seconds for the rounds of the next case."""
+        left = max(0.0, self._end - time.perf_counter())
+        share = left * case.cost / self._to_come
+        self._to_come -= case.cost
+        return min(self.plan.budget, share)
 
 
 class Timing:
@@ -151,8 +171,8 @@ class Timing:
             *(settings.method.value, settings.precision.value),
             trace_s=ours.median,
             render_s=whole.median,
-            peak_bytes=peaks[_job(case, settings, TRACE)],
-            render_peak_bytes=peaks[_job(case, settings, RENDER)],
+            peak_bytes=peaks.get(_job(case, settings, TRACE)),
+            render_peak_bytes=peaks.get(_job(case, settings, RENDER)),
             rounds=len(ours.seconds),
             stages=_medians(self._stages[settings][-len(whole.seconds) :]),
         )

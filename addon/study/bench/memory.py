@@ -18,7 +18,7 @@ from pathlib import Path
 from ...scene import Scene
 from ...tracer.render import render, trace
 from ...tracer.settings import Settings
-from .children import environment, package
+from .children import package
 from .scenes import build, mesh_of
 
 
@@ -44,7 +44,6 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
-        env=environment(),
         start_new_session=True,
     )
     try:

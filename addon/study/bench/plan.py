@@ -51,6 +51,7 @@ class Plan:
     repeats: int
     budget: float  # seconds for the repeats of one case
     slow: float  # seconds for each peer that is measured on a sample of rays
+    seconds: float = 1e9  # for all: who comes late gets fewer rounds
 
 
 def plan(names: list[str] | None = None, quick: bool = False, repeats: int | None = None) -> Plan:
@@ -74,8 +75,10 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
     chosen = [scenes.subject(name).name for name in dict.fromkeys(names or _default(quick))]
     cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
     if quick:
-        return Plan(tuple(cases), True, repeats or QUICK_REPEATS, budget=2.0, slow=0.3)
-    return Plan(tuple(cases), False, repeats or REPEATS, budget=12.0, slow=3.0)
+        return Plan(
+            tuple(cases), True, repeats or QUICK_REPEATS, budget=2.0, slow=0.3, seconds=100.0
+        )
+    return Plan(tuple(cases), False, repeats or REPEATS, budget=12.0, slow=3.0, seconds=1600.0)
 
 
 def _default(quick: bool) -> list[str]:
