@@ -27,7 +27,7 @@ _LINES = (
 )
 _STAGES = ("#7a3d9a", "#0072b2", "#009e73", "#e69f00", "#d55e00", "#56b4e9", "#b0723a")
 _OTHER = "#d9d9d9"
-_NAMES_TAKE = 0.62  # of the width that the lines have: room for the longest name
+_NAMES_TAKE = 0.72  # of the width that the lines have: room for the longest name
 
 
 def picture(bench: Bench) -> NDArray[np.uint8]:
@@ -126,6 +126,7 @@ def _name(axes: Axes, ends: list[tuple[float, float, str, str]]) -> None:
     low, high = np.log(axes.get_ylim())
     far = max(x for x, *_ in ends)
     axes.set_xlim(right=far * (far / axes.get_xlim()[0]) ** _NAMES_TAKE)
+    axes.xaxis.set_major_formatter(lambda x, _: _number(x) if x < 3 * far else "")
     step, below = 0.05 * (high - low), -np.inf
     for x, y, label, color in sorted(ends, key=lambda end: end[1]):
         at = below = max(np.log(y), below + step)

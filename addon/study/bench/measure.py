@@ -15,7 +15,6 @@ import numpy as np
 
 from ...scene import Mesh, Scene
 from ...tracer.frame import Frame
-from ...tracer.hits import Statistics
 from ...tracer.progress import Work, scaled
 from ...tracer.render import render, trace
 from ...tracer.settings import Method, Settings
@@ -147,9 +146,9 @@ class Timing:
         return lambda: (self._trace if what == TRACE else self._render)(settings)
 
     def _trace(self, settings: Settings) -> float:
-        scene, statistics = self.scene(), Statistics()
+        scene = self.scene()
         began = time.perf_counter()
-        trace(scene, settings, statistics)
+        trace(scene, settings)
         return time.perf_counter() - began
 
     def _render(self, settings: Settings) -> float:

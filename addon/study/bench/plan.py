@@ -91,7 +91,9 @@ def _quick(name: str) -> list[Case]:
     peers = {"bvhtree"} if name in QUICK_CYCLES else set()
     peers |= {"cycles", "workbench"} if name in QUICK_CYCLES else set()
     peers |= {"rtree"} if SUBJECTS[name].triangles <= 10_000 else set()
-    found = [Case(name, *SMALL, PERSPECTIVE, frozenset(peers)), Case(name, *SMALL, ORTHOGRAPHIC)]
+    found = [Case(name, *SMALL, PERSPECTIVE, frozenset(peers))]
+    if SUBJECTS[name].group == scenes.EVERYDAY:
+        found.append(Case(name, *SMALL, ORTHOGRAPHIC))
     return [*found, Case(name, *LARGE, PERSPECTIVE)] if name in QUICK_LARGE else found
 
 
