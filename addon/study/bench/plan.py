@@ -76,7 +76,7 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
     cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
     if quick:
         return Plan(
-            tuple(cases), True, repeats or QUICK_REPEATS, budget=2.0, slow=0.3, seconds=100.0
+            tuple(cases), True, repeats or QUICK_REPEATS, budget=5.0, slow=0.3, seconds=100.0
         )
     return Plan(tuple(cases), False, repeats or REPEATS, budget=12.0, slow=3.0, seconds=1600.0)
 
