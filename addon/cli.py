@@ -6,8 +6,8 @@ import argparse
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Callable
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from .arguments import (
     INTERRUPTED,
     SIZES_DIFFER,
     Parser,
+    add_bench,
     add_camera,
     add_judge,
     add_settings,
@@ -28,6 +29,7 @@ from .arguments import (
 from .compare.comparison import SizeError
 from .opening import SOURCES, load, open_blend
 from .report import files, folders
+from .report.progress_bar import progress_bar
 from .scene import SceneError
 from .scene_files import save_scene
 from .tracer.certainty import AssumptionError
@@ -132,6 +134,14 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
 
     sub = command(
+        _bench,
+        "measure the speed of the tracer beside embreex, Cycles and others",
+        "reftrace bench --quick --out out/bench",
+        None,
+    )
+    add_bench(sub)
+
+    sub = command(
         _export,
         "export a .blend to a scene that needs no Blender",
         "reftrace export scene.blend --out scene.npz",
@@ -153,7 +163,7 @@ def _compare(options: argparse.Namespace) -> int:
             with open_blend(options.scene):
                 from .blender.commands import compare_open_file
 
-                with _progress() as progress:
+                with progress_bar() as progress:
                     return compare_open_file(options, progress)
         except Exception as error:
             with suppress(OSError):
@@ -168,7 +178,7 @@ def _trace(options: argparse.Namespace) -> int:
     with folders.made_for_file(options.out):
         scene, stored = load(options)
         settings = settings_from(options, stored)
-        with _progress() as progress:
+        with progress_bar() as progress:
             frame = render(scene, settings, progress)
         with folders.replacing_file(options.out) as new:
             if suffix == ".png":
@@ -193,7 +203,7 @@ def _trade(options: argparse.Namespace) -> int:
     with folders.made(Path(options.out)) if options.out else nullcontext():
         scene, _ = load(options)
         samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
-        with _progress() as progress:
+        with progress_bar() as progress:
             work = tradeoff.measure(scene, options.width, samples, options.scene.name)
             trade = result_of(work, progress)
         print(report.table(trade))
@@ -207,11 +217,23 @@ def _extremes(options: argparse.Namespace) -> int:
     from .study import extremes
 
     with folders.made(Path(options.out)):
-        with _progress() as progress:
+        with progress_bar() as progress:
             rows = result_of(extremes.measure(rays=options.rays), progress)
         print(extremes.breaking_table(rows))
         _write(options.out, lambda: report.write(options.out, rows, images.save_png))
     return 0
+
+
+def _bench(options: argparse.Namespace) -> int:
+    from .report import bench as report
+    from .report.bench_run import run
+
+    with folders.made(Path(options.out)):
+        with progress_bar() as progress:
+            bench, baseline = run(options, progress)
+        print(report.table(bench, baseline))
+        _write(options.out, lambda: report.write(options.out, bench, images.save_png, baseline))
+    return INTERRUPTED if bench.interrupted else 0
 
 
 def _write(directory: str, write: Callable[[], None]) -> None:
@@ -235,30 +257,6 @@ def _export(options: argparse.Namespace) -> int:
             save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
     return 0
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[float], None]]:
-    """Show a bar on standard error, if it is a terminal and tqdm is there."""
-    interrupts.check()
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        if sys.stderr.isatty():
-            print(
-                "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
-                file=sys.stderr,
-            )
-        yield lambda share: interrupts.check()
-        return
-    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
-    with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
-
-        def show(share: float) -> None:
-            interrupts.check()
-            bar.update(share - bar.n)
-
-        yield show
 
 
 if __name__ == "__main__":

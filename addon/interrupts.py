@@ -47,6 +47,12 @@ def check() -> None:
         raise KeyboardInterrupt
 
 
+def answered() -> None:
+    """Forget the Ctrl-C that was heard: what it was to end has ended, and the rest goes on."""
+    global _heard
+    _heard = False
+
+
 @contextmanager
 def held() -> Iterator[None]:
     """Let Ctrl-C wait until the block has ended without an error."""
