@@ -28,7 +28,7 @@ from .visibility import plan, trace_tile
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
 PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
-PLAIN_PIXELS = 1 << 18  # of a band that is traced by a plain method
+SLOW_PIXELS = 1 << 18  # of a band where pixels take long
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, what is kept, hits
 _WHOLE = 0.999  # of the progress, until the picture is whole
 
@@ -179,12 +179,12 @@ def tiles(camera: Camera) -> list[Region]:
 def bands(camera: Camera, settings: Settings) -> list[Region]:
     """Split the camera's region into bands that are traced together, from the lowest.
 
-    The higher they are, the less often a triangle is looked at; memory limits it, and where nothing
-    is culled behind what is seen, the wish to see the picture grow.
+    The higher they are, the less often a triangle is looked at. Memory limits them; and the wish to
+    see the picture grow, where a pixel has many samples, or its triangles are all tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL
-    if settings.method.is_plain:
-        pixels = min(pixels, PLAIN_PIXELS)
+    if settings.samples > 1 or settings.method.is_plain:
+        pixels = min(pixels, max(PIXELS, SLOW_PIXELS // settings.samples**2))
     return _rows(camera.region, max(1, pixels // camera.region.width))
 
 
@@ -193,7 +193,7 @@ def _rows(r: Region, rows: int) -> list[Region]:
 
 
 def _parts(count: int) -> list[slice]:
-    return [slice(first, first + PIXELS // 4) for first in range(0, count, PIXELS // 4)]
+    return [slice(first, first + PIXELS // 8) for first in range(0, count, PIXELS // 8)]
 
 
 def _write(

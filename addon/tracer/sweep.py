@@ -35,7 +35,7 @@ from .vector import transform_points
 _TRIANGLES = 1 << 15  # looked at together
 _BINS = 256  # of depth, into which a piece's triangles are sorted
 _PAIRS = 1 << 15  # that a contest tests at a time
-_BYTES_PER_TRIANGLE = 256  # of a piece, with its vertices
+_BYTES_PER_TRIANGLE = 128  # of a piece, with its vertices
 
 Index = NDArray[np.integer]
 
