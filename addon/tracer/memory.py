@@ -26,8 +26,8 @@ def check_memory(width: int, height: int, bytes_per_pixel: int) -> None:
     if free is not None and needed > free:
         raise PictureTooLargeError(
             f"The picture has {width} x {height} pixels, which take {needed / _GIB:.1f} GiB with "
-            f"all outputs, and {free / _GIB:.1f} GiB of memory are free: choose a smaller size, or a "
-            "border."
+            f"all outputs, and {free / _GIB:.1f} GiB of memory are free: choose a smaller size, "
+            "or a border."
         )
 
 

@@ -9,7 +9,7 @@ decided. The rays of all other pixels, and all that they may see, go to a `Conte
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -26,6 +26,7 @@ from .depth_buffer import DepthBuffer
 from .film import Film
 from .footprints import Footprints, footprints
 from .hits import NOTHING, Hits, Statistics
+from .instance_boxes import InstanceBoxes
 from .pieces import Expanded, Names, Piece, expand, pieces
 from .progress import Work, quiet, scaled
 from .resolve import TOGETHER, Prepared
@@ -145,11 +146,20 @@ class Sweep:
         """Sweep the scene in pieces of at most `limit` triangles, and decide every pixel."""
         for _ in self.enter_planes():
             yield 0.0
-        parts = pieces(self._scene, self._film, limit)
+        around = InstanceBoxes.of(self._scene, self._film) if self._scene.instances else None
+        parts = pieces(self._scene, around, limit)
         for number, piece in enumerate(parts):
-            for _ in self.enter(piece):
+            if self._kept:
+                piece = self._not_behind(piece, around)
+            for _ in self.enter(piece) if len(piece.instances) else ():
                 yield 0.6 * number / len(parts)
         return (yield from scaled(self.hits(), 0.6, 0.4))
+
+    def _not_behind(self, piece: Piece, around: InstanceBoxes) -> Piece:
+        """Return a piece without the instances that what is nearer hides."""
+        self._depths.refresh(0, self._depths.region.height)
+        hidden = around.hidden(piece.instances, self._depths)
+        return replace(piece, instances=piece.instances[~hidden])
 
     def enter_planes(self) -> Iterator[None]:
         """Sweep the infinite planes, in small steps."""
