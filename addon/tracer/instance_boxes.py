@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
+from ..scene import Region, Scene
 from .depth_buffer import DepthBuffer
 from .film import Film, Vertices
 from .vector import Vectors, transform_points
@@ -76,6 +76,13 @@ class InstanceBoxes:
             np.where(clear, -box[2:] + margin, np.iinfo(np.int32).max),
             np.where(clear, nearest, np.inf),
         )
+
+    def in_region(self, region: Region) -> NDArray[np.bool_]:
+        """Return which instances may be in view in a region, (n,)."""
+        out = self.in_view.copy()
+        for axis, (first, last) in enumerate(((region.x0, region.x1), (region.y0, region.y1))):
+            out &= (self.low[axis] < last) & (self.high[axis] >= first)
+        return out
 
     def hidden(self, instances: NDArray[np.integer], depths: DepthBuffer) -> NDArray[np.bool_]:
         """Return which of these instances lie wholly behind what a depth buffer holds."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
+from ..scene import Region, Scene
 from .film import Film, Vertices
 from .instance_boxes import InstanceBoxes
 from .vector import Vectors, transform_points
@@ -64,13 +64,13 @@ class Expanded:
     names: Names
 
 
-def pieces(scene: Scene, around: InstanceBoxes, limit: int) -> list[Piece]:
-    """Return the pieces of what may be in view, of at most `limit` triangles if possible."""
+def pieces(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> list[Piece]:
+    """Return the pieces of what may be in view in a region, of at most `limit` triangles each."""
     if not scene.instances:
         return []
     depth = around.depth
     counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
-    order = np.flatnonzero(around.in_view & (counts > 0))
+    order = np.flatnonzero(around.in_region(region) & (counts > 0))
     order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
     out = []
     large = counts[order] > limit

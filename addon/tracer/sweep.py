@@ -147,7 +147,7 @@ class Sweep:
         for _ in self.enter_planes():
             yield 0.0
         around = InstanceBoxes.of(self._scene, self._film) if self._scene.instances else None
-        parts = pieces(self._scene, around, limit)
+        parts = pieces(self._scene, around, self._depths.region, limit)
         for number, piece in enumerate(parts):
             if self._kept:
                 piece = self._not_behind(piece, around)
