@@ -36,7 +36,10 @@ def picture() -> NDArray[np.uint8]:
     seen = [*(look.seen for look in swept.looks[1:]), swept.seen]
     for number, (look, after) in enumerate(zip(swept.looks, seen, strict=True)):
         row, column = divmod(number, 2)
-        draw_slab(figure.add_subplot(grid[row, 2 + column]), number, look, after)
+        axes = figure.add_subplot(grid[row, 2 + column])
+        draw_slab(axes, number, look, after)
+        if row == rows - 1:
+            axes.set_xlabel("grey: a sure hit before this slab", fontsize=14, color=plots.INK)
     return plots.pixels(figure)
 
 
@@ -63,6 +66,5 @@ def draw_slab(axes: Axes, number: int, look: Look, after: NDArray[np.bool_]) -> 
     title = f"{number + 1}: {hidden:,} of {count:,} hidden"
     axes.set_title(title, fontsize=16, color=plots.INK, loc="left")
     axes.set(xticks=(), yticks=())
-    axes.set_xlabel("grey: a sure hit by then" if number else "", fontsize=14, color=plots.INK)
     for spine in axes.spines.values():
         spine.set_color(plots.FAINT)
