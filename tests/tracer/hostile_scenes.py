@@ -19,9 +19,13 @@ from .hostile import hostile_camera, hostile_triangles
 SIDE = 14  # pixels of a picture, at most
 
 
-def hostile_scene(make, rng: np.random.Generator) -> Scene:
-    """Return a scene of some dozen triangles, of any kind."""
-    return (_any, _any, _whole)[rng.integers(3)](make, rng)
+def hostile_scene(make, rng: np.random.Generator, finite: bool = False) -> Scene:
+    """Return a scene of some dozen triangles, of any kind; one instance may not be finite."""
+    scene = (_any, _any, _whole)[rng.integers(3)](make, rng)
+    if finite or rng.random() < 0.8 or not scene.instances:
+        return scene
+    matrix = np.diag((1e308, 1e308, 1e308, 1))
+    return replace(scene, instances=(*scene.instances, Instance(0, 0, matrix)))
 
 
 def offsets(rng: np.random.Generator) -> tuple[float, float]:
@@ -34,6 +38,8 @@ def offsets(rng: np.random.Generator) -> tuple[float, float]:
 def _any(make, rng) -> Scene:
     """Any scale, axes, border; triangles tiny to huge, behind the eye, twice, nearly coplanar."""
     scale, camera = hostile_camera(make, rng)
+    if rng.random() < 0.05:  # of several cells of the depth buffer
+        camera = _larger(camera, int(rng.integers(4, 9)))
     corners = hostile_triangles(camera, scale, rng).astype(np.float64)
     corners = corners[..., : rng.integers(1, 13)]
     if rng.random() < 0.4:  # surfaces behind one another, as far as the picture reaches
@@ -78,6 +84,12 @@ def _whole(make, rng) -> Scene:
         for _ in range(rng.choice([0, 0, 1, 2]))
     ]
     return _scene(camera, corners, planes, rng, exact=True)
+
+
+def _larger(camera: Camera, times: int) -> Camera:
+    """Return a camera with more pixels, and its border around the same of what it sees."""
+    region = Region(*(v * times for v in vars(camera.region).values()))
+    return replace(camera, width=camera.width * times, height=camera.height * times, region=region)
 
 
 def _backdrops(camera, rng) -> NDArray[np.float64]:
@@ -136,8 +148,6 @@ def _scene(camera, corners, planes, rng, exact=False) -> Scene:
             triangles = np.concatenate((triangles, triangles[:1, [0, 1, 1]], triangles[-1:]))
         meshes.append(Mesh(vertices, triangles))
         instances += [Instance(len(meshes) - 1, 0, matrix)] * rng.choice([1, 1, 2])
-    if not exact and rng.integers(4) == 0:  # one that is not finite in world space
-        instances.append(Instance(0, 0, np.diag((1e308, 1e308, 1e308, 1))))
     order = rng.permutation(len(instances))
     return Scene(camera, meshes, [instances[k] for k in order], planes, objects=("It",))
 

@@ -26,7 +26,7 @@ def random_footprints(rng, region, low, reach) -> Footprints:
     size = np.abs(coefficients).max(axis=(0, 1))
     error = size * rng.choice([0, 1e-16, 1e-3, np.inf], count, p=[0.2, 0.5, 0.2, 0.1])
     coefficients[:, :, np.isinf(error)] = 0
-    nearness_error = np.abs(coefficients[0, 3]) * rng.choice([1e-15, 0.1, 1e300], count)
+    nearness_error = np.abs(coefficients[0, 3]) * rng.choice([1e-15, 0.1, 1e200], count)
     return Footprints(
         np.arange(count),
         np.add(low, [[region.x0], [region.y0]]) - rng.integers(0, 3, (2, count)),
