@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +54,40 @@ class Names:
         which = np.searchsorted(self.starts, triangle, side="right") - 1
         own = triangle - self.starts[which] + self.first
         return self.instances[which], own.astype(np.int32)
+
+
+class Numbering:
+    """One number for each surface of all pieces, in the order in which the pieces come."""
+
+    def __init__(self) -> None:
+        self._names: list[Names] = []
+        self._starts = np.zeros(1, np.int64)  # the number of the first surface of each
+
+    def enter(self, names: Names) -> int:
+        """Give numbers to a piece's surfaces; returns the first."""
+        start = int(self._starts[-1])
+        self._names.append(names)
+        self._starts = np.append(self._starts, start + names.count)
+        return start
+
+    def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle of surfaces."""
+        out = np.empty((2, len(surface)), np.int32)
+        for names, own, first in self.by_piece(surface):
+            out[:, own] = names.of(surface[own] - first)
+        return out[0], out[1]
+
+    def by_piece(self, surface: Index) -> Iterator[tuple[Names, Index | slice, int]]:
+        """Yield each piece's names, which of the surfaces are its own, and the first's number."""
+        if len(self._names) == 1:
+            yield self._names[0], slice(None), 0
+            return
+        piece = np.searchsorted(self._starts, surface, side="right") - 1
+        order = np.argsort(piece.astype(np.uint16), kind="stable")
+        cuts = np.searchsorted(piece[order], np.arange(len(self._names) + 1))
+        for number, (start, end) in enumerate(pairwise(cuts.tolist())):
+            if start < end:
+                yield self._names[number], order[start:end], int(self._starts[number])
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,8 +20,10 @@ from reference_tracer.tracer.depth_buffer import DepthBuffer
 from reference_tracer.tracer.film import Film
 from reference_tracer.tracer.footprints import Footprints
 from reference_tracer.tracer.hits import Hits, Statistics
+from reference_tracer.tracer.kept import Kept
 from reference_tracer.tracer.pieces import Expanded
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.verdict import Verdict
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +46,7 @@ class Tested:
     found: Footprints
     boxes: Boxes
     depths: DepthBuffer
-    kept: list[sweep.Kept] = field(default_factory=list)
+    kept: list[Kept] = field(default_factory=list)
 
 
 @dataclass
@@ -93,7 +95,7 @@ class Watched(sweep.Sweep):
         grid = self._depths.nearness.reshape(-1, self._depths.stride)
         return grid[: region.height, : region.width] > -np.inf
 
-    def numbers(self, kept: sweep.Kept) -> NDArray[np.integer]:
+    def numbers(self, kept: Kept) -> NDArray[np.integer]:
         """Which pixels pairs are of, row by row from the lowest."""
         return self._depths.pixels(kept.pixel)
 
@@ -120,15 +122,11 @@ class Watched(sweep.Sweep):
             self.tested.append(Tested(found, each, deepcopy(self._depths)))
         return super()._pairs(found, boxes, shape)
 
-    def _keep(self, found: Footprints, pairs: Covered, surface: NDArray) -> sweep.Kept:
-        kept = super()._keep(found, pairs, surface)
+    def _keep_pairs(self, found: Footprints, pairs: Covered, surface: NDArray) -> Kept:
+        kept = super()._keep_pairs(found, pairs, surface)
         if self._closely:
             self.tested[-1].kept.append(kept)
         return kept
-
-    def _contest(self, hits: Hits, pixel: NDArray, surface: NDArray) -> Iterator:
-        self.counts.left += len(np.unique(pixel))
-        return super()._contest(hits, pixel, surface)
 
 
 def watch(scene: Scene) -> Watched:
@@ -161,7 +159,13 @@ def count(scene: Scene) -> Counts:
         counts.computed += int((width * height).sum())
         return covered(found, boxes, shape, depths)
 
+    def left(self: Verdict, hits: Hits, pixel: NDArray, surface: NDArray) -> Iterator:
+        counts.left += len(np.unique(pixel))
+        return contest(self, hits, pixel, surface)
+
+    contest = Verdict._contest
     with (
+        patch.object(Verdict, "_contest", left),
         patch.object(sweep, "Sweep", lambda *given: Watched(*given, counts=counts)),
         patch.object(sweep, "covered", computing),
     ):
