@@ -117,7 +117,7 @@ DIVISIONS = {
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
     "vertices by twos": [(pieces, "_CHUNK", 2)],
-    "hits by ones": [(m, "TOGETHER", 1) for m in (resolve, settle, sweep)],
+    "hits by ones": [(m, "TOGETHER", 1) for m in (resolve, settle, verdict)],
     "whole numbers by ones": [(settle, "_TOGETHER", 1)],
     "pieces of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "pieces of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
