@@ -264,7 +264,7 @@ def refuse_memory(*args, **options):
 
 
 def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(cli, "render", refuse_memory)
+    monkeypatch.setattr(cli, "render_with", refuse_memory)
     assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
@@ -283,7 +283,7 @@ def swallow(*args, **options):
 def interrupted_work(monkeypatch):
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
-    monkeypatch.setattr(cli, "render", lambda scene, settings, show: result_of(swallow(), show))
+    monkeypatch.setattr(cli, "render_with", lambda *given: result_of(swallow(), given[-1]))
 
 
 @pytest.mark.usefixtures("interrupted_work")
