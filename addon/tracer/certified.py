@@ -40,6 +40,10 @@ class Contest:
         The instance that the first of them is called.
     start, end : float
         The clip range: hits with start <= t <= end are seen, but none at t = 0 where start is 0.
+    around : Rays, optional
+        Rays that share what these share, and whose components enclose those of these, which are
+        the default. Bounds for all rays at once are bounds for them: so what becomes of a ray does
+        not depend on which others are in the contest.
     """
 
     def __init__(
@@ -49,8 +53,10 @@ class Contest:
         first_plane: int = 0,
         start: float = 0.0,
         end: float = np.inf,
+        around: Rays | None = None,
     ) -> None:
         self._rays, self._planes, self._clip = rays, planes, (start, end)
+        self._around = around or rays
         self._count = max(rays.origins.shape[1], rays.directions.shape[1])
         self._farthest = np.full(self._count, np.inf)  # the nearest hit is not farther than this
         self._first_plane = first_plane
@@ -99,11 +105,13 @@ class Contest:
         triangles = WorldTriangles.joined(self._triangles)
         surfaces = Surfaces(self._planes, self._first_plane, triangles)
         some = found.take(np.flatnonzero(clear))
-        for _ in by_bound(hits, self._rays, surfaces, some.ray, some.surface):
+        for _ in by_bound(hits, self._rays, surfaces, some.ray, some.surface, self._around):
             yield 1.0
         rest = found.take(np.flatnonzero(~clear))
         with np.errstate(all="ignore"):
-            rest = by_order(hits, self._rays, surfaces, self._clip, rest, statistics.reasons)
+            rest = by_order(
+                hits, self._rays, surfaces, self._clip, rest, statistics.reasons, self._around
+            )
         for part in by_ray(rest):
             yield 1.0
             with np.errstate(all="ignore"):
@@ -112,7 +120,7 @@ class Contest:
 
     def _prepare(self, corners: NDArray[np.float64]) -> FromPoint | Parallel | None:
         """Return what of triangles (3, 3, m) is the same for all the rays; None if nothing is."""
-        o, d = self._rays.origins, self._rays.directions
+        o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
             if o.shape[1] == 1:
                 return FromPoint(o, np.abs(d).max(axis=1, keepdims=True), corners)

@@ -34,22 +34,23 @@ def applies(rays: Rays, start: float) -> bool:
 
 
 def compare(
+    around: Rays,
     rays: Rays,
-    ray: NDArray[np.intp],
     batch: Batch,
     first: NDArray[np.intp],
     second: NDArray[np.intp],
 ) -> NDArray[np.int8]:
-    """Return how the first of two surfaces lies, of n of these rays that surely hit both.
+    """Return how the first of two surfaces lies, of n rays that surely hit both.
 
     Parameters
     ----------
+    around : Rays
+        To which the above :func:`applies`: they say what the rays share, and the first of them
+        has o0.
     rays : Rays
-        To which the above :func:`applies`.
-    ray : (n,) int
-        Which of them.
+        The n rays.
     batch : Batch
-        The surfaces as whole numbers, with the first of the rays.
+        The surfaces as whole numbers, with the first of the rays around.
     first, second : (n,) int
         Surfaces, as the batch numbers them.
 
@@ -60,13 +61,12 @@ def compare(
     """
     key = first * (second.max(initial=0) + 1) + second
     _, index, which = np.unique(key, return_index=True, return_inverse=True)
-    shared = rays.origins.shape[1] == 1
+    shared = around.origins.shape[1] == 1
     pairs = zip(first[index].tolist(), second[index].tolist(), strict=True)
     table = np.array([_difference(batch, *pair, shared) for pair in pairs]).reshape(-1, 5).T
     coplanar = ~table.any(axis=0)[which]
     base, *v, sign = table[:, which]
-    some = rays.take(ray)
-    x = some.directions if shared else some.origins - rays.origins[:, :1]
+    x = rays.directions if shared else rays.origins - around.origins[:, :1]
     value, size = base + dot(x, v), np.abs(x)
     error = bound(np.abs(base) + dot(size, np.abs(v)), size)
     known = np.abs(value) > error

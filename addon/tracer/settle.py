@@ -26,11 +26,16 @@ _TOGETHER = 1 << 11  # candidates that whole numbers decide at a time: some ten 
 
 
 def by_bound(
-    hits: Hits, rays: Rays, surfaces: Surfaces, ray: NDArray[np.intp], surface: NDArray[np.intp]
+    hits: Hits,
+    rays: Rays,
+    surfaces: Surfaces,
+    ray: NDArray[np.intp],
+    surface: NDArray[np.intp],
+    around: Rays,
 ) -> Iterator[None]:
     """Enter what rays surely hit first, in small steps: only t and the barycentrics are open."""
     surfaces, surface = surfaces.only(surface)
-    prepared = Prepared(rays, surfaces)
+    prepared = Prepared(around, surfaces)
     for first in range(0, len(ray), TOGETHER):
         part = slice(first, first + TOGETHER)
         prepared.enter(hits, ray[part], rays.take(ray[part]), surface[part])
@@ -45,18 +50,19 @@ def by_order(
     clip: tuple[float, float],
     found: Candidates,
     reasons: Counter[Reason],
+    around: Rays,
 ) -> Candidates:
     """Enter rays that surely hit all their candidates, where `order.py` says which is nearest.
 
-    Returns the candidates of the other rays.
+    Returns the candidates of the other rays. `around` is as of a `Contest`.
     """
     doubtful = np.bincount(found.ray, found.doubt != SURE, len(hits.t)) > 0
-    if not order.applies(rays, clip[0]) or doubtful[found.ray].all():
+    if not order.applies(around, clip[0]) or doubtful[found.ray].all():
         return found
     rest = found.take(np.flatnonzero(doubtful[found.ray]))
     found = found.take(np.flatnonzero(~doubtful[found.ray]))
     found = found.take(np.lexsort((*surfaces.names(found.surface)[::-1], found.ray)))
-    numbers = surfaces.numbers(rays, np.zeros_like(found.ray), found.surface)
+    numbers = surfaces.numbers(around, np.zeros_like(found.ray), found.surface)
     surface = np.array(numbers.surface)
     # The first of each ray is its champion, and meets one more of the ray's in every round.
     start = np.flatnonzero(np.diff(found.ray, prepend=-1))
@@ -65,9 +71,8 @@ def by_order(
     for number in range(1, count.max()):
         at = np.flatnonzero(count > number)
         rival = start[at] + number
-        result = order.compare(
-            rays, found.ray[rival], numbers.batch, surface[champion[at]], surface[rival]
-        )
+        some = rays.take(found.ray[rival])
+        result = order.compare(around, some, numbers.batch, surface[champion[at]], surface[rival])
         decided[at[result == order.UNDECIDED]] = False
         tied[rival] = result == order.COPLANAR
         beaten = result == order.FARTHER
@@ -80,7 +85,7 @@ def by_order(
     coplanar = int((lost & tied).sum())
     reasons += Counter({Reason.COPLANAR: coplanar, Reason.CLOSE: int(lost.sum()) - coplanar})
     won = found.take(champion[decided])
-    for _ in by_bound(hits, rays, surfaces, won.ray, won.surface):
+    for _ in by_bound(hits, rays, surfaces, won.ray, won.surface, around):
         pass
     hits.certainty[won.ray] = Certainty.EXACT
     ambiguous = np.flatnonzero(lost & tied)

@@ -136,6 +136,12 @@ class Sweep:
         self._depths = DepthBuffer(region)
         self._clip = ClipRange(film.camera)
         self._picture = Region(0, 0, film.camera.width, film.camera.height)
+        # The rays of the picture's corners, which enclose all others, as they are linear in x and y
+        # and rounding is monotone. What is done for many rays is done for these, so that it does
+        # not depend on the region.
+        px = np.array([0.5, 0.5, film.camera.width - 0.5, film.camera.width - 0.5]) + film.dx
+        py = np.array([0.5, film.camera.height - 0.5] * 2) + film.dy
+        self._around = camera_rays(film.camera, px, py)
         self._planes = [(p.point, p.normal) for p in scene.planes]
         self._first_triangle = len(scene.planes)
         self._kept: list[Kept] = []
@@ -278,12 +284,13 @@ class Sweep:
     def _special(self, expanded: Expanded, low: Index, high: Index) -> None:
         """Mend the boxes of triangles with a corner that is not before the eye, or not finite."""
         vertices, corners = expanded.vertices, expanded.corners
+        whole = replace(self._film.camera, region=self._picture)
         finite = vertices.finite.take(corners).all(axis=0)
         high[:, ~finite] = -1
         some = np.flatnonzero(finite & ~vertices.ahead.take(corners).all(axis=0))
         for part in np.split(some, range(_TRIANGLES, len(some), _TRIANGLES)):
             world = world_corners(self._scene, *expanded.names.of(part))
-            x0, x1, y0, y1 = pixel_bounds(self._film.camera, world, reach=1.0)
+            x0, x1, y0, y1 = pixel_bounds(whole, world, reach=1.0)
             low[:, part], high[:, part] = (x0, y0), (x1 - 1, y1 - 1)
 
     def _not_hidden(self, boxes: Boxes, shape: NDArray, nearest: NDArray) -> Index:
@@ -373,15 +380,12 @@ class Sweep:
                 names = self._names[number].of(used)
                 triangles = WorldTriangles(world_corners(self._scene, *names), *names)
                 surfaces = Surfaces((), 0, triangles)
-            prepared = None
+            prepared = Prepared(self._around, surfaces)
             for first in range(0, len(at), TOGETHER):
                 part = slice(first, first + TOGETHER)
-                rays = self._rays(at[part])
-                prepared = prepared or Prepared(rays, surfaces)
-                prepared.enter(hits, at[part], rays, row[part])
+                prepared.enter(hits, at[part], self._rays(at[part]), row[part])
                 yield 1.0
-            if prepared:
-                prepared.finish(hits, self._rays)
+            prepared.finish(hits, self._rays)
 
     def _names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return instance and triangle of surfaces."""
@@ -418,7 +422,7 @@ class Sweep:
         ray, surface = ray[on_mesh], surface[on_mesh]
         surface, row = np.unique(surface, return_inverse=True)
         clip = camera.clip_start, camera.clip_end
-        contest = Contest(some, self._planes, len(scene.instances), *clip)
+        contest = Contest(some, self._planes, len(scene.instances), *clip, self._around)
         names = self._names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
         # Ray by ray, and once each: a triangle of unknown sign has two footprints.
