@@ -13,9 +13,10 @@ import signal
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
 from typing import Any, NoReturn
 
 from .. import interrupts
@@ -100,18 +101,14 @@ def tracing(processes: int) -> Iterator[Steps]:
 @dataclass(eq=False)
 class _Worker:
     name: str
-    process: multiprocessing.process.BaseProcess
+    process: BaseProcess
     connection: Connection
     ready: bool = False
-    band: int | None = None  # what it traces
+    band: int = -1  # the number of what it traces
 
 
 class Workers:
-    """Processes that wait for work. To be used in a `with` block, at whose end they end.
-
-    Parameters
-    ----------
-    processes : int
+    """Processes that wait for work, `processes` of them, until the end of a `with` block.
 
     Raises
     ------
@@ -145,8 +142,14 @@ class Workers:
         self.close(now=error is not None)
 
     def close(self, now: bool = True) -> None:
-        """End the processes, `now` or once they have done what they do; let go of the memory."""
-        with interrupts.held():  # a second Ctrl-C waits until all is cleared away
+        """End the processes once they have done what they do, or `now`; let go of the memory.
+
+        Ctrl-C waits until that is done. It counts as heard where the end comes `now`, as something
+        has been raised.
+        """
+        if not self._workers:
+            return
+        with suppress(KeyboardInterrupt) if now else nullcontext(), interrupts.held():
             for worker in self._workers:
                 worker.connection.close()
                 if now:
@@ -187,13 +190,15 @@ class Workers:
     def _trace(self, scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
         settings = resolved(settings, frame.statistics)
         frame.statistics.triangles = scene.triangle_count
-        parts = self._bands(scene, settings)
-        crew, waiting = self._workers[: len(parts)], deque(range(len(parts)))
+        most_rows = bands(scene.camera, settings)[0].height
+        load, region = workload(scene), scene.camera.region
+        parts = even_bands(region, load, len(self._workers), most_rows)
+        waiting, busy = deque(range(len(parts))), set(self._workers[: len(parts)])
         shares, done = [0.0] * len(parts), {}
         job = self._job(scene, settings, frame)
-        for worker in crew:
+        for worker in busy:
             self._send(worker, job)
-        while len(done) < len(parts):
+        while busy:  # also those who come late, for whom nothing is left
             for worker, message in self._messages():
                 if isinstance(message, float):
                     shares[worker.band] = message
@@ -202,17 +207,17 @@ class Workers:
                     done[worker.band], shares[worker.band] = message, 1.0
                 else:
                     frame.statistics.refused = message.refused
-                worker.band = waiting.popleft() if waiting else None  # None ends the job
-                self._send(worker, None if worker.band is None else parts[worker.band])
+                if waiting:
+                    worker.band = waiting.popleft()
+                    self._send(worker, parts[worker.band])
+                else:
+                    self._send(worker, None)
+                    busy.remove(worker)
             yield WHOLE * sum(shares) / len(shares)
         self._blocks.let_go()  # who has arrays in them keeps them
         for number in range(len(parts)):  # in their order, whoever was first
             frame.statistics.add(done[number].statistics)
             frame.ties.update(done[number].ties)
-
-    def _bands(self, scene: Scene, settings: Settings) -> list[Region]:
-        most = bands(scene.camera, settings)[0].height
-        return even_bands(scene.camera.region, workload(scene), len(self._workers), most)
 
     def _job(self, scene: Scene, settings: Settings, frame: Frame) -> Job:
         ticket, shared = share_frame(scene.camera, self._blocks)

@@ -4,8 +4,8 @@ In comes a scene; out go rows. It is estimated from the boxes of some of the tri
 but the time that a picture takes depends on it.
 
 The unit is what a pixel takes that sees something. Every pixel takes a little, and so does every
-triangle that a pixel is tested with. A band takes a look at all triangles of the scene, before it
-can leave out those that are in other rows: the more of them there are, the fewer bands there are.
+triangle that a pixel is tested with. A band takes a look at all triangles of the instances in it,
+before it can leave out those that are in other rows: the more they are, the fewer bands there are.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Workload:
 def workload(scene: Scene) -> Workload:
     """Return what a scene's picture takes."""
     region = scene.camera.region
-    boxes, weight, count = _boxes(scene)
+    boxes, weight, looks = _boxes(scene)
     x0, x1, y0, y1 = boxes - np.array([[region.x0]] * 2 + [[region.y0]] * 2)
     pairs, triangles = (
         _over_rows(y0, y1, v, region.height) for v in (weight * (x1 - x0), weight / (y1 - y0))
@@ -51,7 +51,7 @@ def workload(scene: Scene) -> Workload:
     if scene.planes:
         covered[:] = region.width
     rows = _PIXEL * region.width + covered + _PAIR * pairs + _TRIANGLE * triangles
-    return Workload(rows, _LOOK * count)
+    return Workload(rows, _LOOK * looks)
 
 
 def even_bands(region: Region, load: Workload, processes: int, most_rows: int) -> list[Region]:
@@ -72,16 +72,18 @@ def even_bands(region: Region, load: Workload, processes: int, most_rows: int) -
 def _boxes(scene: Scene) -> tuple[NDArray, NDArray[np.float64], int]:
     """Return boxes of some of the triangles in view, (4, m), and how many each stands for, (m,).
 
-    With the number of all triangles in view.
+    With how many triangles a band looks at: those of the instances that are in its rows.
     """
-    seen = np.zeros(0, np.intp)
-    if scene.instances:
-        around = InstanceBoxes.of(scene, Film(scene.camera))
-        seen = np.flatnonzero(around.in_region(scene.camera.region))
-    counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)
-    total = int(counts[scene.instance_meshes[seen]].sum())
+    if not scene.instances:
+        return np.zeros((4, 0), np.int32), np.zeros(0), 0
+    counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
+    around, region = InstanceBoxes.of(scene, Film(scene.camera)), scene.camera.region
+    seen = np.flatnonzero(around.in_view & (counts > 0))
+    rows = np.minimum(around.high[1], region.y1 - 1) - np.maximum(around.low[1], region.y0) + 1
+    looks = int((counts * np.clip(rows, 0, region.height))[seen].sum()) // region.height
+    total = int(counts[seen].sum())
     few = seen[:: -(-len(seen) // _SAMPLE) or 1]
-    counts = counts[scene.instance_meshes[few]]
+    counts = counts[few]
     # At least some of each instance: few triangles may be the larger ones.
     sample = np.ceil(counts * (_SAMPLE / max(total, 1))).astype(np.intp)
     sample = np.minimum(np.maximum(sample, 8), counts)
@@ -94,7 +96,7 @@ def _boxes(scene: Scene) -> tuple[NDArray, NDArray[np.float64], int]:
     finite = np.flatnonzero(np.isfinite(corners).all(axis=(0, 1)))
     boxes, weight = pixel_bounds(scene.camera, corners[..., finite]), weight[finite]
     covers = np.flatnonzero((boxes[0] < boxes[1]) & (boxes[2] < boxes[3]))
-    return boxes[:, covers], weight[covers], total
+    return boxes[:, covers], weight[covers], looks
 
 
 def _over_rows(y0: NDArray, y1: NDArray, value: NDArray, height: int) -> NDArray[np.float64]:
