@@ -80,8 +80,7 @@ def render_with(
         return render(scene, settings, progress)
     with Workers(processes) as workers:
         r = scene.camera.region  # of which one pixel will do, as the arrays are replaced
-        one = replace(scene.camera, region=Region(r.x0, r.y0, r.x0 + 1, r.y0 + 1))
-        frame = Frame.empty(one)
+        frame = Frame.empty(replace(scene.camera, region=Region(r.x0, r.y0, r.x0 + 1, r.y0 + 1)))
         for share in workers.steps(scene, settings or Settings(), frame):
             if progress:
                 progress(share)
@@ -108,13 +107,7 @@ class _Worker:
 
 
 class Workers:
-    """Processes that wait for work, `processes` of them, until the end of a `with` block.
-
-    Raises
-    ------
-    ValueError
-        If there are to be no processes.
-    """
+    """Processes that wait for work, at least one of them, until the end of a `with` block."""
 
     def __init__(self, processes: int) -> None:
         if processes < 1:
@@ -142,10 +135,9 @@ class Workers:
         self.close(now=error is not None)
 
     def close(self, now: bool = True) -> None:
-        """End the processes once they have done what they do, or `now`; let go of the memory.
+        """End the processes, `now` as something was raised, or when they are done; let go of memory.
 
-        Ctrl-C waits until that is done. It counts as heard where the end comes `now`, as something
-        has been raised.
+        Ctrl-C waits for that. Next to what was raised it is dropped.
         """
         if not self._workers:
             return
@@ -175,9 +167,9 @@ class Workers:
         Yields the share of the work done, from 0 to 1. Whoever stops asking before the end, ends
         the workers. What counts as time is the clock's, from when they have all started.
         """
-        if not self._workers:
-            raise WorkerError("the workers have ended: start others")
         try:
+            if not self._workers:
+                raise WorkerError("the workers have ended: start others")
             yield from self.wait_until_ready()
             began = time.perf_counter()
             yield from self._trace(scene, settings, frame)
