@@ -135,7 +135,7 @@ class Workers:
         self.close(now=error is not None)
 
     def close(self, now: bool = True) -> None:
-        """End the processes, `now` as something was raised, or when they are done; let go of memory.
+        """End the processes, `now` as something was raised, or once they are done, and the memory.
 
         Ctrl-C waits for that. Next to what was raised it is dropped.
         """
