@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 
 from .bounds import U
 from .film import Film, Vertices
+from .vector import gather
 
 _CHUNK = 1 << 13  # triangles at a time: their temporaries stay in a core's cache
 _MORE = 1.01  # for the roundings of the bounds themselves
@@ -68,7 +69,7 @@ class Footprints:
 
     def take(self, index: Index) -> Footprints:
         """Return those at `index`."""
-        return Footprints(*(v.take(index, axis=-1) for v in vars(self).values()))
+        return Footprints(*(gather(v, index) for v in vars(self).values()))
 
     def __getitem__(self, part: slice) -> Footprints:
         return Footprints(*(v[..., part] for v in vars(self).values()))
@@ -110,12 +111,13 @@ def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach
     """Compute the functions of some triangles, and their bounds."""
     x0, y0 = out.origin + 0.5
     p, q, w = [], [], []
+    corners = corners.astype(np.intp)  # once, not for every array
     for corner in corners:
-        weight = vertices.w.take(corner)
-        p.append(vertices.p.take(corner) - x0 * weight)
-        q.append(vertices.q.take(corner) - y0 * weight)
+        weight = gather(vertices.w, corner)
+        p.append(gather(vertices.p, corner) - x0 * weight)
+        q.append(gather(vertices.q, corner) - y0 * weight)
         w.append(weight)
-    size = _largest(*(vertices.size.take(corner) for corner in corners))
+    size = _largest(*(gather(vertices.size, corner) for corner in corners))
     of_1, of_y, of_x = coefficients = out.coefficients
     for k, (a, b) in enumerate(((1, 2), (2, 0), (0, 1))):
         np.subtract(q[a] * w[b], w[a] * q[b], out=of_x[k])
@@ -139,7 +141,7 @@ def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach
     coefficients[:, :3] *= np.where(volume < 0, -1.0, 1.0)
     least = amount - error
     if film.camera.orthographic:
-        depths = [vertices.depth.take(corner) for corner in corners]
+        depths = [gather(vertices.depth, corner) for corner in corners]
         base, *rest = depths
         b, c = (d - base for d in rest)
         np.divide(of_1[1] * b + of_1[2] * c, -amount, out=of_1[3])

@@ -14,7 +14,7 @@ from .camera import Rays
 from .hits import Hits
 from .rivals import Surfaces
 from .rounding import Quotients
-from .vector import Vectors, cross, dot, in_parts
+from .vector import Vectors, cross, dot, gather, in_parts
 
 TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
 
@@ -70,7 +70,7 @@ class Prepared:
 
     def _weights(self, rays: Rays, row: NDArray[np.intp]) -> Vectors:
         """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum."""
-        edges = self._edges.take(row, axis=1).reshape(3, -1, 3, len(row))
+        edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
         if len(edges[0]) == 1:
             of_each = [dot(normal, rays.directions) for (normal,) in edges]
         elif rays.directions.shape[1] == 1:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from .bounds import U
 from .camera import Rays
 from .error_free import Pair, fast_two_sum, halves, power_above, two_product, two_sum
-from .vector import Vectors
+from .vector import Vectors, gather
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
 _DOT = 2.0**-72
@@ -91,13 +91,13 @@ class Quotients:
     def meet(self, rays: Rays, surface: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
         """Return t of p rays with surfaces, and whether it surely is the nearest float64."""
         if self._one_origin:
-            depth = tuple(self._fixed.take(surface, axis=1))
+            depth = tuple(gather(self._fixed, surface))
             return _quotient(depth, self._along(rays, surface))
         if not self._one_direction:
-            point = self._point.take(surface, axis=1)
+            point = gather(self._point, surface)
             depth = self._dot(*two_sum(point, -rays.origins), surface)
             return _quotient(depth, self._along(rays, surface))
-        high, low, error, *towards = self._fixed.take(surface, axis=1)
+        high, low, error, *towards = gather(self._fixed, surface)
         moved = self._dot(*two_sum(rays.origins, -self._origin), surface)
         high, rest = two_sum(high, -moved[0])
         depth = *two_sum(high, rest + (low - moved[1])), error + moved[2]
@@ -111,7 +111,7 @@ class Quotients:
         unit = power_above(v)
         coarse, fine = halves(v, unit)
         fine = fine + rest
-        nx, ny, nz, mx, my, mz, error = self._normals.take(surface, axis=1)
+        nx, ny, nz, mx, my, mz, error = gather(self._normals, surface)
         exact = coarse[0] * nx + coarse[1] * ny + coarse[2] * nz
         small = (
             (coarse[0] * mx + fine[0] * (nx + mx))

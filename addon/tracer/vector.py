@@ -11,7 +11,24 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+_TAKE_IS_FAST = np.lib.NumpyVersion(np.__version__) >= "2.0.0"
+
 Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
+
+
+def gather(values: NDArray, index: NDArray[np.integer]) -> NDArray:
+    """Return the columns of (..., m) at an index (n,): (..., n).
+
+    `take` is the fastest way, but in numpy 1 it is half as fast as indexing row by row.
+    """
+    if _TAKE_IS_FAST:
+        return values.take(index, axis=-1)
+    out = np.empty((*values.shape[:-1], len(index)), values.dtype)
+    for row, target in zip(
+        values.reshape(-1, values.shape[-1]), out.reshape(-1, len(index)), strict=True
+    ):
+        target[:] = row[index]
+    return out
 
 
 def in_parts(function: Callable[[slice], NDArray], count: int, size: int) -> NDArray:

@@ -104,19 +104,21 @@ class Watched(sweep.Sweep):
             self.boxes.append((low, high))
         return low, high, nearest
 
-    def _not_hidden(self, boxes: Boxes, nearest: NDArray) -> NDArray[np.integer]:
-        found = super()._not_hidden(boxes, nearest)
+    def _not_hidden(self, boxes: Boxes, shape: NDArray, nearest: NDArray) -> NDArray[np.integer]:
+        found = super()._not_hidden(boxes, shape, nearest)
         self.counts.boxed += len(nearest)
         if self._closely:
             self.looks.append(Look(boxes, nearest, found, self.seen))
         return found
 
-    def _pairs(self, found: Footprints, boxes: Boxes) -> Iterator[Covered]:
+    def _pairs(self, found: Footprints, boxes: Boxes, shape: NDArray) -> Iterator[Covered]:
         _, of_y, of_x = found.coefficients[:, :3]
         self.counts.bounds.append(found.edge_error / np.hypot(of_x, of_y).min(axis=0))
         if self._closely:  # the depth buffer as it is now: it goes on changing
-            self.tested.append(Tested(found, boxes, deepcopy(self._depths)))
-        return super()._pairs(found, boxes)
+            own = boxes.take(found.row)
+            each = Boxes(np.arange(len(found.row)), own.low, own.high)
+            self.tested.append(Tested(found, each, deepcopy(self._depths)))
+        return super()._pairs(found, boxes, shape)
 
     def _keep(self, found: Footprints, pairs: Covered, surface: NDArray) -> sweep.Kept:
         kept = super()._keep(found, pairs, surface)
@@ -146,15 +148,18 @@ def count(scene: Scene) -> Counts:
     covered, reached = sweep.covered, np.zeros(0, bool)
     last: Footprints | None = None
 
-    def computing(found: Footprints, boxes: Boxes, depths: DepthBuffer) -> Iterator[Covered]:
+    def computing(
+        found: Footprints, boxes: Boxes, shape: NDArray, depths: DepthBuffer
+    ) -> Iterator[Covered]:
         nonlocal last, reached
         if found is not last:  # the next triangles
             counts.reached += int(reached.sum())
             last, reached = found, np.zeros(len(found.row), bool)
-        reached[found.row.take(boxes.owner)] = True
-        width, height = (boxes.high - boxes.low + 1).astype(np.int64)
+        some = boxes.take(slice(0, len(shape)))
+        reached[found.row[some.owner]] = True
+        width, height = (some.high - some.low + 1).astype(np.int64)
         counts.computed += int((width * height).sum())
-        return covered(found, boxes, depths)
+        return covered(found, boxes, shape, depths)
 
     with (
         patch.object(sweep, "Sweep", lambda *given: Watched(*given, counts=counts)),

@@ -93,8 +93,9 @@ class BlenderPeer:
         try:
             self._process.stdin.write(json.dumps(question) + "\n")
             self._process.stdin.flush()
-            return json.loads(self._process.stdout.readline())
-        except (OSError, ValueError):  # a broken pipe, or no line
+            # What Blender says while it starts comes before the answer.
+            return json.loads(next(x for x in self._process.stdout if x.startswith("{")))
+        except (OSError, ValueError, StopIteration):  # a broken pipe, or no line
             last = _last_line(self._errors)
             self.close()
             return {"error": f"Blender ended without an answer to '{question['do']}' ({last})"}
