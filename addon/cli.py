@@ -21,6 +21,7 @@ from .arguments import (
     add_bench,
     add_camera,
     add_judge,
+    add_processes,
     add_settings,
     check,
     settings_from,
@@ -33,13 +34,14 @@ from .report.progress_bar import progress_bar
 from .scene import SceneError
 from .scene_files import save_scene
 from .tracer.certainty import AssumptionError
+from .tracer.processes import WorkerError, render_with, tracing
 from .tracer.progress import result_of
-from .tracer.render import render
 from .tracer.settings import Settings
 
+_PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
 _EXPECTED = (  # what a user can do something about
     *(SceneError, SizeError, OSError, MemoryError),
-    *(images.MissingLibraryError, AssumptionError),
+    *(images.MissingLibraryError, AssumptionError, WorkerError),
 )
 
 
@@ -94,6 +96,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(sub)
+    add_processes(sub)
     add_judge(sub)
 
     sub = command(
@@ -102,14 +105,9 @@ def _parser() -> argparse.ArgumentParser:
         "reftrace trace mesh.ply --out mesh.png --width 800",
         SOURCES,
     )
-    sub.add_argument(
-        "--out",
-        required=True,
-        type=Path,
-        metavar="PICTURE",
-        help="picture.png (what a screen shows) or picture.exr (every output)",
-    )
+    sub.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
     add_settings(sub)
+    add_processes(sub)
     add_camera(sub)
 
     sub = command(
@@ -147,9 +145,7 @@ def _parser() -> argparse.ArgumentParser:
         "reftrace export scene.blend --out scene.npz",
         "scene.blend",
     )
-    sub.add_argument(
-        "--out", required=True, type=Path, metavar="SCENE.npz", help="the file to write"
-    )
+    sub.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
     return parser
 
 
@@ -163,8 +159,8 @@ def _compare(options: argparse.Namespace) -> int:
             with open_blend(options.scene):
                 from .blender.commands import compare_open_file
 
-                with progress_bar() as progress:
-                    return compare_open_file(options, progress)
+                with tracing(options.processes) as trace, progress_bar() as progress:
+                    return compare_open_file(options, progress, trace)
         except Exception as error:
             with suppress(OSError):
                 files.write_failure(options.out, error)
@@ -179,7 +175,7 @@ def _trace(options: argparse.Namespace) -> int:
         scene, stored = load(options)
         settings = settings_from(options, stored)
         with progress_bar() as progress:
-            frame = render(scene, settings, progress)
+            frame = render_with(scene, settings, options.processes, progress)
         with folders.replacing_file(options.out) as new:
             if suffix == ".png":
                 images.save_png(new, images.to_display(frame.color))

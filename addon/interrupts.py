@@ -32,6 +32,7 @@ def heard() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        _heard = False  # it is answered: what comes later is not meant
 
 
 def _hear(*_: object) -> None:
