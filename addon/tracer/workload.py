@@ -20,7 +20,7 @@ from ..scene import Region, Scene
 from .candidates import pixel_bounds, spread
 from .film import Film
 from .instance_boxes import InstanceBoxes
-from .sweep import world_corners
+from .world import world_corners
 
 _SAMPLE = 1 << 12  # triangles
 _CELLS = 128  # of rows: where the ends of what is seen are looked for
