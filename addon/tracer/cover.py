@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from .candidates import spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .footprints import Footprints
+from .vector import gather
 
 _VALUES = 1 << 14  # pixels
 _CELLS = 1 << 14  # cells tested together
@@ -109,10 +110,10 @@ def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer)
     pixel = steps[..., None] + (y.astype(np.int32) * stride + x)
     row = inside % low.shape[1]
     return Covered(
-        pixel.ravel().take(inside),
-        row + owner.start if isinstance(owner, slice) else owner.take(row),
-        least.ravel().take(inside),
-        nearness.ravel().take(inside),
+        gather(pixel.ravel(), inside),
+        row + owner.start if isinstance(owner, slice) else gather(owner, row),
+        gather(least.ravel(), inside),
+        gather(nearness.ravel(), inside),
     )
 
 
@@ -144,9 +145,9 @@ def _may_be_seen(
     found: Footprints, boxes: Boxes, farthest: NDArray[np.float64], depths: DepthBuffer
 ) -> Index:
     """Return which boxes no edge rules out, and what is in the depth buffer does not hide."""
-    of_1, of_y, of_x = found.coefficients.take(boxes.owner, axis=2)
+    of_1, of_y, of_x = gather(found.coefficients, boxes.owner)
     region = depths.region
-    origin = found.origin.take(boxes.owner, axis=1)
+    origin = gather(found.origin, boxes.owner)
     low = boxes.low + (np.array([[region.x0], [region.y0]]) - origin)
     high = low + (boxes.high - boxes.low)
     most = of_1 + of_y * np.where(of_y > 0, high[1], low[1])

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Region
+from .vector import gather
 
 FINE, COARSE = 8, 64  # pixels along the side of a cell: the sizes of `farthest`
 
@@ -54,8 +55,8 @@ class DepthBuffer:
         other way round, as many may be sorted. (`np.maximum.at` is slow before numpy 1.25.)
         """
         while len(pixel):
-            nearer = np.flatnonzero(nearness > self.nearness.take(pixel))[::-1]
-            pixel, nearness = pixel.take(nearer), nearness.take(nearer)
+            nearer = np.flatnonzero(nearness > gather(self.nearness, pixel))[::-1]
+            pixel, nearness = gather(pixel, nearer), gather(nearness, nearer)
             self.nearness[pixel] = nearness
 
     def refresh(self, y0: int, y1: int) -> None:
@@ -72,7 +73,7 @@ class DepthBuffer:
     def farthest(self, x: Index, y: Index, size: int) -> NDArray[np.float64]:
         """Return the least nearness in the cells of FINE or COARSE pixels with these numbers."""
         cells = self._fine if size == FINE else self._coarse
-        return cells.ravel().take(y.astype(np.intp) * cells.shape[1] + x)
+        return gather(cells.ravel(), y.astype(np.intp) * cells.shape[1] + x)
 
     def farthest_in(self, x0: Index, x1: Index, y0: Index, y1: Index) -> NDArray[np.float64]:
         """Return the least nearness in the cells around boxes of at most FINE pixels a side.

@@ -27,6 +27,7 @@ from .pieces import Expanded, Names, Numbering, Piece, expand, pieces
 from .progress import Steps, Work, quiet, timed
 from .slabs import slabs
 from .triangle_boxes import boxes_of
+from .vector import gather
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
@@ -162,25 +163,25 @@ class Sweep:
                 self._depths.refresh(y0, y1)
             for first in range(0, len(slab), _TRIANGLES):
                 some = slab[first : first + _TRIANGLES]
-                boxes = Boxes(None, part_low.take(some, axis=1), part_high.take(some, axis=1))
-                shape, front = boxes.shape, nearest.take(some)
+                boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
+                shape, front = boxes.shape, gather(nearest, some)
                 # Sorted by shape, so that what is evaluated together lies together.
                 open_ = self._not_hidden(boxes, shape, front)
                 open_ = open_.take(np.argsort(shape.take(open_), kind="stable"))
                 some, shape = some.take(open_), shape.take(open_)
                 if not len(some):
                     continue
-                origin = low.take(some, axis=1)
-                width, height = high.take(some, axis=1) - origin
+                origin = gather(low, some)
+                width, height = gather(high, some) - origin
                 found = footprints(
                     self._film,
                     expanded.vertices,
-                    expanded.corners.take(some, axis=1),
+                    gather(expanded.corners, some),
                     front.take(open_),
                     origin,
                     np.maximum(width, height) + 1.0,
                 )
-                boxes = Boxes(None, boxes.low.take(open_, axis=1), boxes.high.take(open_, axis=1))
+                boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
                 yield "footprints"
                 for pairs in self._pairs(found, boxes, shape):
                     kept.append(self._keep_pairs(found, pairs, start + some))
@@ -195,7 +196,7 @@ class Sweep:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
         farthest = np.full(len(nearest), -np.inf)
         small = np.flatnonzero(shape != LARGE)
-        (x0, y0), (x1, y1) = boxes.low.take(small, axis=1), boxes.high.take(small, axis=1)
+        (x0, y0), (x1, y1) = gather(boxes.low, small), gather(boxes.high, small)
         farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
         return np.flatnonzero(~(nearest < farthest))
 
@@ -218,12 +219,14 @@ class Sweep:
             yield _joined(parts)
 
     def _keep_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Kept:
-        error = found.nearness_error.take(pairs.owner)
+        error = gather(found.nearness_error, pairs.owner)
         least, most = pairs.nearness - error, pairs.nearness + error
-        np.minimum(most, found.nearest.take(pairs.owner), out=most)
-        sure = pairs.least > found.edge_error.take(pairs.owner)
-        sure &= found.sure.take(pairs.owner)
-        return self._keep(pairs.pixel, surface.take(found.row).take(pairs.owner), least, most, sure)
+        np.minimum(most, gather(found.nearest, pairs.owner), out=most)
+        sure = pairs.least > gather(found.edge_error, pairs.owner)
+        sure &= gather(found.sure, pairs.owner)
+        return self._keep(
+            pairs.pixel, gather(surface.take(found.row), pairs.owner), least, most, sure
+        )
 
     def _keep(
         self, pixel: Index, surface: Index, least: NDArray, most: NDArray, sure: NDArray[np.bool_]
@@ -234,13 +237,13 @@ class Sweep:
         certain = np.flatnonzero(sure)
         if len(certain) == len(sure):
             self._depths.enter(pixel, least)
-            keep = ~(most < self._depths.nearness.take(pixel))
+            keep = ~(most < gather(self._depths.nearness, pixel))
         else:
-            self._depths.enter(pixel.take(certain), least.take(certain))
-            keep = ~(most < self._depths.nearness.take(pixel))
+            self._depths.enter(gather(pixel, certain), gather(least, certain))
+            keep = ~(most < gather(self._depths.nearness, pixel))
             keep &= ~self._clip.outside(least, most)
         keep = np.flatnonzero(keep)
-        return Kept(*(v.take(keep) for v in (pixel, surface, most, sure)))
+        return Kept(*(gather(v, keep) for v in (pixel, surface, most, sure)))
 
 
 def _joined(parts: Sequence[Covered]) -> Covered:

@@ -11,6 +11,7 @@ from ..scene import Region, Scene
 from .candidates import pixel_bounds
 from .film import Film
 from .pieces import Expanded
+from .vector import gather
 from .world import world_corners
 
 _TOGETHER = 1 << 15  # triangles at a time
@@ -33,11 +34,11 @@ def boxes_of(
     ends = np.array([[film.camera.width - 1], [film.camera.height - 1]], kind)
     for first in range(0, count, _TOGETHER):
         part = slice(first, first + _TOGETHER)
-        some = corners[:, part]
-        box = _smallest(*(packed.take(c).view(kind) for c in some)).reshape(-1, 4).T
+        some = corners[:, part].astype(np.intp)
+        box = _smallest(*(gather(packed, c).view(kind) for c in some)).reshape(-1, 4).T
         np.maximum(box[:2], 0, out=low[:, part])
         np.minimum(-box[2:], ends, out=high[:, part])
-        nearest[part] = _largest(*(vertices.nearest.take(c) for c in some))
+        nearest[part] = _largest(*(gather(vertices.nearest, c) for c in some))
     if not vertices.ahead.all() or not vertices.finite.all():
         _mend(scene, film, expanded, low, high)
     return low, high, nearest

@@ -23,6 +23,8 @@ def gather(values: NDArray, index: NDArray[np.integer]) -> NDArray:
     """
     if _TAKE_IS_FAST:
         return values.take(index, axis=-1)
+    if values.ndim == 1:
+        return values[index]
     out = np.empty((*values.shape[:-1], len(index)), values.dtype)
     for row, target in zip(
         values.reshape(-1, values.shape[-1]), out.reshape(-1, len(index)), strict=True

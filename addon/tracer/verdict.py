@@ -25,6 +25,7 @@ from .pieces import Numbering
 from .progress import Steps, named
 from .resolve import TOGETHER, Prepared
 from .rivals import Surfaces
+from .vector import gather
 from .world import world_corners
 
 _PAIRS = 1 << 15  # that a contest tests at a time
@@ -62,7 +63,7 @@ class Verdict:
             return hits
         near = []
         for some in kept:
-            seen = ~(some.nearest < self._depths.nearness.take(some.pixel))
+            seen = ~(some.nearest < gather(self._depths.nearness, some.pixel))
             near.append(some.take(np.flatnonzero(seen)))
             yield "verdict"
         found = Kept.joined(near)
@@ -71,16 +72,16 @@ class Verdict:
         every = np.arange(len(pixel), dtype=np.int32)
         last = np.full(len(hits.t), NOTHING, np.int32)
         last[pixel] = every
-        open_ = (last.take(pixel) != every) | ~found.sure
-        open_ = pixel.take(np.flatnonzero(open_))
+        open_ = (gather(last, pixel) != every) | ~found.sure
+        open_ = gather(pixel, np.flatnonzero(open_))
         clear = last >= 0
         clear[open_] = False
         yield "verdict"
         decided = np.flatnonzero(clear)
-        yield from self._enter_sure(hits, decided, found.surface.take(last.take(decided)))
+        yield from self._enter_sure(hits, decided, gather(found.surface, gather(last, decided)))
         if len(open_):
-            rest = np.flatnonzero(~clear.take(pixel))
-            yield from self._contest(hits, pixel.take(rest), found.surface.take(rest))
+            rest = np.flatnonzero(~gather(clear, pixel))
+            yield from self._contest(hits, gather(pixel, rest), gather(found.surface, rest))
         return hits
 
     def _enter_sure(self, hits: Hits, pixel: Index, surface: Index) -> Steps[None]:
@@ -142,6 +143,6 @@ def _used(number: Index, count: int) -> tuple[Index, Index]:
     every = np.arange(len(number), dtype=np.int32)
     first = np.empty(count, np.int32)
     first[number[::-1]] = every[::-1]
-    used = number.take(np.flatnonzero(first.take(number) == every))
+    used = number.take(np.flatnonzero(gather(first, number) == every))
     first[used] = every[: len(used)]
-    return used, first.take(number)
+    return used, gather(first, number)
