@@ -120,10 +120,9 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         monkeypatch.setattr(render, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
         monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
         monkeypatch.setattr(pieces, "_CHUNK", triangles)
+        monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
         for module, name in ((sweep, "_PAIRS"), (cover, "_VALUES"), (cover, "_CELLS")):
             monkeypatch.setattr(module, name, pairs)
-        for name, value in (("_TRIANGLES", triangles), ("_BINS", 2 + triangles % 255)):
-            monkeypatch.setattr(sweep, name, value)
     divided = traced(mess, settings)
     for name, values in divided.passes().items():
         assert values.tobytes() == whole.passes()[name].tobytes(), name
