@@ -39,7 +39,7 @@ def _any(make, rng) -> Scene:
     """Any scale, axes, border; triangles tiny to huge, behind the eye, twice, nearly coplanar."""
     scale, camera = hostile_camera(make, rng)
     if rng.random() < 0.05:  # of several cells of the depth buffer
-        camera = _larger(camera, int(rng.integers(4, 9)))
+        camera = _larger(camera, int(rng.integers(3, 6)))
     corners = hostile_triangles(camera, scale, rng).astype(np.float64)
     corners = corners[..., : rng.integers(1, 13)]
     if rng.random() < 0.4:  # surfaces behind one another, as far as the picture reaches

@@ -57,6 +57,12 @@ def test_every_ray_sees_a_vertex_within_the_bounds(make, orthographic):
         film = Film(camera, *offsets(rng))
         world = np.concatenate(list(corners), axis=1)[:, rng.permutation(120)[:12]]
         world[:, :2] *= 2.0 ** rng.choice([-40, 40, 200], 2)
+        far = rng.normal(size=(2, 4)) * camera.clip_start * 10.0 ** rng.integers(0, 9, 4)
+        beside = (camera.right, camera.up, camera.forward * camera.clip_start * 1.5)
+        moves = (*far, np.ones(4))  # hardly before the eye, far to the side
+        world[:, -4:] = camera.origin[:, None] + sum(
+            v[:, None] * k for v, k in zip(beside, moves, strict=True)
+        )
         at = project(film, world)
         exact = ExactFilm(camera, film.dx, film.dy)
         x, y = some_pixels(camera, 12, rng)
@@ -79,6 +85,9 @@ def test_every_ray_sees_a_vertex_within_the_bounds(make, orthographic):
             ]
             assert max(ratio) <= 1, (seed, name)
             largest[name] = max(largest[name], *ratio)
+        for nearest, depth in zip(at.nearest.tolist(), t, strict=True):
+            if depth >= camera.clip_start:
+                assert Fraction(nearest) >= (-depth if orthographic else 1 / depth), seed
         assert (at.size >= np.abs(world).max(axis=0) + np.abs(camera.origin).max()).all()
     # They are no wild guesses, either.
     assert largest["place"] > 2.0**-10
