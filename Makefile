@@ -31,8 +31,10 @@ test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs
 torture: .venv/.stamp ## run the long tests, too long for every day: the suites at their full size
 	$(PYTHON_IN_VENV) -m pytest -m torture
 
-bench: .venv/.stamp ## measure what certainty costs, on whole frames: out/bench
-	$(PYTHON_IN_VENV) benchmarks/certified.py
+bench: .venv/.stamp ## measure speed beside embreex, Cycles and others, half an hour: out/bench
+	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
+		--editable '.[bench]'
+	.venv/bin/reftrace bench --out out/bench
 
 lint: .venv/.stamp ## check the style of all code
 	$(PYTHON_IN_VENV) -m ruff check .

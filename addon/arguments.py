@@ -54,6 +54,17 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_processes(parser: argparse.ArgumentParser) -> None:
+    """Add how many processes trace; not for Blender, where it is one."""
+    parser.add_argument(
+        "--processes",
+        type=int,
+        default=1,
+        metavar="N",
+        help="trace with N processes, one a core: the same picture, sooner (default 1)",
+    )
+
+
 def add_judge(parser: argparse.ArgumentParser) -> None:
     """Add which of Blender's pictures to compare with, and how it is shaded."""
     group = parser.add_argument_group("Blender's picture (by default as the scene says)")
@@ -77,13 +88,26 @@ def check(options: argparse.Namespace) -> None:
     SceneError
         If a number is out of range, or a method does not come in the precision.
     """
-    for name in ("width", "height", "rays"):
+    for name in ("width", "height", "rays", "processes"):
         value = getattr(options, name, None)
         if value is not None and value < 1:
             raise SceneError(f"--{name} is {value}; it must be at least 1")
     scene = getattr(options, "scene", None)
     stores = scene is None or scene.suffix.lower() == ".blend"  # a method, which may be plain
     settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
+
+
+def add_bench(parser: argparse.ArgumentParser) -> None:
+    """Add which scenes are measured, how often, and what the result is compared with."""
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="by default all")
+    parser.add_argument("--quick", action="store_true", help="fewer and smaller: under 2 minutes")
+    parser.add_argument(
+        "--out", default="out/bench", metavar="DIR", help="folder for what is found (%(default)s)"
+    )
+    parser.add_argument(
+        "--baseline", metavar="FILE", help="bench.json of an earlier run: say what has changed"
+    )
+    parser.add_argument("--repeats", type=int, metavar="N", help="rounds (default 5; quick 3)")
 
 
 def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:

@@ -6,8 +6,8 @@ import argparse
 import os
 import sys
 import traceback
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Callable
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +18,10 @@ from .arguments import (
     INTERRUPTED,
     SIZES_DIFFER,
     Parser,
+    add_bench,
     add_camera,
     add_judge,
+    add_processes,
     add_settings,
     check,
     settings_from,
@@ -28,16 +30,18 @@ from .arguments import (
 from .compare.comparison import SizeError
 from .opening import SOURCES, load, open_blend
 from .report import files, folders
+from .report.progress_bar import progress_bar
 from .scene import SceneError
 from .scene_files import save_scene
 from .tracer.certainty import AssumptionError
+from .tracer.processes import WorkerError, render_with, tracing
 from .tracer.progress import result_of
-from .tracer.render import render
 from .tracer.settings import Settings
 
+_PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
 _EXPECTED = (  # what a user can do something about
     *(SceneError, SizeError, OSError, MemoryError),
-    *(images.MissingLibraryError, AssumptionError),
+    *(images.MissingLibraryError, AssumptionError, WorkerError),
 )
 
 
@@ -92,6 +96,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(sub)
+    add_processes(sub)
     add_judge(sub)
 
     sub = command(
@@ -100,14 +105,9 @@ def _parser() -> argparse.ArgumentParser:
         "reftrace trace mesh.ply --out mesh.png --width 800",
         SOURCES,
     )
-    sub.add_argument(
-        "--out",
-        required=True,
-        type=Path,
-        metavar="PICTURE",
-        help="picture.png (what a screen shows) or picture.exr (every output)",
-    )
+    sub.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
     add_settings(sub)
+    add_processes(sub)
     add_camera(sub)
 
     sub = command(
@@ -132,14 +132,20 @@ def _parser() -> argparse.ArgumentParser:
     sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
 
     sub = command(
+        _bench,
+        "measure the speed of the tracer beside embreex, Cycles and others",
+        "reftrace bench --quick --out out/bench",
+        None,
+    )
+    add_bench(sub)
+
+    sub = command(
         _export,
         "export a .blend to a scene that needs no Blender",
         "reftrace export scene.blend --out scene.npz",
         "scene.blend",
     )
-    sub.add_argument(
-        "--out", required=True, type=Path, metavar="SCENE.npz", help="the file to write"
-    )
+    sub.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
     return parser
 
 
@@ -153,8 +159,8 @@ def _compare(options: argparse.Namespace) -> int:
             with open_blend(options.scene):
                 from .blender.commands import compare_open_file
 
-                with _progress() as progress:
-                    return compare_open_file(options, progress)
+                with tracing(options.processes) as trace, progress_bar() as progress:
+                    return compare_open_file(options, progress, trace)
         except Exception as error:
             with suppress(OSError):
                 files.write_failure(options.out, error)
@@ -168,8 +174,8 @@ def _trace(options: argparse.Namespace) -> int:
     with folders.made_for_file(options.out):
         scene, stored = load(options)
         settings = settings_from(options, stored)
-        with _progress() as progress:
-            frame = render(scene, settings, progress)
+        with progress_bar() as progress:
+            frame = render_with(scene, settings, options.processes, progress)
         with folders.replacing_file(options.out) as new:
             if suffix == ".png":
                 images.save_png(new, images.to_display(frame.color))
@@ -193,7 +199,7 @@ def _trade(options: argparse.Namespace) -> int:
     with folders.made(Path(options.out)) if options.out else nullcontext():
         scene, _ = load(options)
         samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
-        with _progress() as progress:
+        with progress_bar() as progress:
             work = tradeoff.measure(scene, options.width, samples, options.scene.name)
             trade = result_of(work, progress)
         print(report.table(trade))
@@ -207,11 +213,23 @@ def _extremes(options: argparse.Namespace) -> int:
     from .study import extremes
 
     with folders.made(Path(options.out)):
-        with _progress() as progress:
+        with progress_bar() as progress:
             rows = result_of(extremes.measure(rays=options.rays), progress)
         print(extremes.breaking_table(rows))
         _write(options.out, lambda: report.write(options.out, rows, images.save_png))
     return 0
+
+
+def _bench(options: argparse.Namespace) -> int:
+    from .report import bench as report
+    from .report.bench_run import run
+
+    with folders.made(Path(options.out)):
+        with progress_bar() as progress:
+            bench, baseline = run(options, progress)
+        print(report.table(bench, baseline))
+        _write(options.out, lambda: report.write(options.out, bench, images.save_png, baseline))
+    return INTERRUPTED if bench.interrupted else 0
 
 
 def _write(directory: str, write: Callable[[], None]) -> None:
@@ -235,30 +253,6 @@ def _export(options: argparse.Namespace) -> int:
             save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
     return 0
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[float], None]]:
-    """Show a bar on standard error, if it is a terminal and tqdm is there."""
-    interrupts.check()
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        if sys.stderr.isatty():
-            print(
-                "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
-                file=sys.stderr,
-            )
-        yield lambda share: interrupts.check()
-        return
-    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
-    with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
-
-        def show(share: float) -> None:
-            interrupts.check()
-            bar.update(share - bar.n)
-
-        yield show
 
 
 if __name__ == "__main__":

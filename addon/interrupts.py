@@ -32,6 +32,7 @@ def heard() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        _heard = False  # it is answered: what comes later is not meant
 
 
 def _hear(*_: object) -> None:
@@ -45,6 +46,12 @@ def check() -> None:
     """Raise the KeyboardInterrupt that was swallowed or held."""
     if _heard:
         raise KeyboardInterrupt
+
+
+def answered() -> None:
+    """Forget the Ctrl-C that was heard: what it was to end has ended, and the rest goes on."""
+    global _heard
+    _heard = False
 
 
 @contextmanager

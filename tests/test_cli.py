@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import multiprocessing
 import signal
 import subprocess
 import sys
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 
 import numpy as np
 import OpenEXR
@@ -117,6 +118,32 @@ def test_samples_are_shown(ball, tmp_path):
     assert trace(ball, tmp_path / "b.png", "--samples", "3") == AGREE
     alpha = np.asarray(Image.open(tmp_path / "b.png"))[..., 3]
     assert set(np.unique(alpha)) - {0, 255}
+
+
+@pytest.mark.parametrize("method", ["auto", "textbook"])
+def test_processes_make_the_same_picture(method, ball, tmp_path, capsys):
+    for count in ("1", "2"):
+        options = ["--method", method, "--processes", count]
+        assert trace(ball, tmp_path / f"{count}.exr", *options) == AGREE
+    one, two = (channels(tmp_path / f"{count}.exr") for count in "12")
+    assert one.keys() == two.keys()
+    assert all(np.array_equal(one[name], two[name]) for name in one)
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].split(" pixels, ")[0] == said[len(said) // 2].split(" pixels, ")[0] == "24 x 16"
+
+
+def test_interrupted_processes(ball, tmp_path, monkeypatch, capsys):
+    @contextmanager
+    def bar():
+        yield lambda share: share > 0 and signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(cli, "progress_bar", bar)
+    before = set(multiprocessing.active_children())
+    options = ["--processes", "2", "--samples", "8"]
+    assert trace(ball, tmp_path / "new" / "b.png", *options) == INTERRUPTED
+    assert capsys.readouterr().err == "reftrace: interrupted\n"
+    assert not (tmp_path / "new").exists()
+    assert set(multiprocessing.active_children()) <= before
 
 
 @pytest.mark.parametrize("method, came_to", [("auto", "certified"), ("certified", "certified")])
@@ -264,7 +291,7 @@ def refuse_memory(*args, **options):
 
 
 def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(cli, "render", refuse_memory)
+    monkeypatch.setattr(cli, "render_with", refuse_memory)
     assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
@@ -283,7 +310,7 @@ def swallow(*args, **options):
 def interrupted_work(monkeypatch):
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
-    monkeypatch.setattr(cli, "render", lambda scene, settings, show: result_of(swallow(), show))
+    monkeypatch.setattr(cli, "render_with", lambda *given: result_of(swallow(), given[-1]))
 
 
 @pytest.mark.usefixtures("interrupted_work")
@@ -371,6 +398,7 @@ BAD = {
     ),
     "width 0": (["ball.ply", "--width", "0"], "--width is 0; it must be at least 1"),
     "height below 0": (["ball.ply", "--height", "-5"], "--height is -5; it must be at least 1"),
+    "no process": (["ball.ply", "--processes", "0"], "--processes is 0; it must be at least 1"),
     "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
     "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
     "float32 of auto": (["none.ply", "--precision", "float32"], "reftrace: name a --method with"),

@@ -29,6 +29,7 @@ from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.certainty import AssumptionError
 from ..tracer.progress import result_of
+from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import studies
 from .compare import compare_to_folder, made
@@ -114,7 +115,7 @@ def _check_open() -> None:
         raise SceneError("no file is open (is its name right?): name a .blend before --command")
 
 
-def compare_open_file(options: Any, progress: Any = None) -> int:
+def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) -> int:
     """Compare the scene of the open file as the options say, print what came of it.
 
     Returns
@@ -131,6 +132,7 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     work = compare_to_folder(
         bpy.context,
         options.out,
+        trace,
         settings=settings,
         judge=options.judge.upper() if options.judge else None,
         as_is=options.as_is or None,

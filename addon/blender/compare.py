@@ -22,6 +22,7 @@ from ..report import files, folders
 from ..scene import Scene
 from ..scene_files import diagnosed
 from ..tracer.progress import Work
+from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import images
 from .camera import export_camera
@@ -50,12 +51,12 @@ class Gathered:
     picture: NDArray[np.float32]
     blender: dict[str, Any]
 
-    def steps(self) -> Work[Comparison]:
+    def steps(self, trace: Steps = steps) -> Work[Comparison]:
         """Do the work that is left; yields the share of it that is done."""
         manifest = yield from diagnosed(self.scene, self.manifest)
         return (
             yield from trace_and_compare(
-                self.scene, manifest, self.settings, self.picture, self.blender
+                self.scene, manifest, self.settings, self.picture, self.blender, trace
             )
         )
 
@@ -117,7 +118,9 @@ def gather(
     return Gathered(exported, manifest, settings, drawn, blender)
 
 
-def compare_to_folder(context: Any, directory: str, **choices: Any) -> Work[Comparison]:
+def compare_to_folder(
+    context: Any, directory: str, trace: Steps = steps, **choices: Any
+) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing and writing the files.
 
     On failure the folder's JSON says why. Raises what :func:`gather` and `compare.compare` raise,
@@ -125,7 +128,7 @@ def compare_to_folder(context: Any, directory: str, **choices: Any) -> Work[Comp
     """
     folder = made(directory)  # now, not after all the work
     with _failure_written(folder):
-        return _written(folder, gather(context, **choices).steps())
+        return _written(folder, gather(context, **choices).steps(trace))
 
 
 def made(directory: str) -> Path:

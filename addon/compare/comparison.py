@@ -13,7 +13,7 @@ from ..scene import Scene
 from ..tracer.certainty import Certainty
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
+from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import metrics
 from .cause import Cause, Causes
@@ -216,15 +216,16 @@ def trace_and_compare(
     settings: Settings,
     picture: NDArray[np.float32],
     blender: dict[str, Any],
+    trace: Steps = steps,
 ) -> Work[Comparison]:
     """Trace a scene and compare it with Blender's picture, in small steps.
 
     Yields the share of the work done; the caller stops by not asking for more.
     """
     frame = Frame.empty(scene.camera)
-    for share in steps(scene, settings, frame):
+    for share in trace(scene, settings, frame):
         yield _TRACING * share
-    methods = yield from scaled(list_methods(scene, settings, frame), _TRACING, _METHODS)
+    methods = yield from scaled(list_methods(scene, settings, frame, trace), _TRACING, _METHODS)
     comparing = compare(scene, manifest, settings, frame, picture, blender)
     comparison = yield from scaled(comparing, _TRACING + _METHODS, 1 - _TRACING - _METHODS)
     return replace(comparison, methods=methods)

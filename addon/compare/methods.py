@@ -10,7 +10,7 @@ from ..scene import Scene
 from ..tracer.certainty import Certainty, broken_assumptions
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
+from ..tracer.render import Steps, steps
 from ..tracer.settings import Method, Precision, Settings
 
 
@@ -37,7 +37,9 @@ class MethodRow:
         return f"  {self.method} {self.precision}: {self.seconds:.2f} s{found}{open_}"
 
 
-def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[MethodRow, ...]]:
+def list_methods(
+    scene: Scene, settings: Settings, frame: Frame, trace: Steps = steps
+) -> Work[tuple[MethodRow, ...]]:
     """Trace a scene by the textbook and certified, too; yields the share of the work done.
 
     Parameters
@@ -46,6 +48,8 @@ def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[M
     settings : Settings
         What `frame` was traced with.
     frame : Frame
+    trace : Steps, optional
+        What traces.
 
     Returns
     -------
@@ -59,7 +63,7 @@ def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[M
     missing = [w for w in wanted if w not in frames]
     for number, (method, precision) in enumerate(missing):
         traced = frames[method, precision] = Frame.empty(scene.camera)
-        tracing = steps(scene, Settings(method, precision), traced)
+        tracing = trace(scene, Settings(method, precision), traced)
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
     truth = frames[certified] if certified else None
     order: Sequence = [*wanted, *(f for f in frames if f not in wanted)]

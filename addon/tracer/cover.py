@@ -26,6 +26,7 @@ _CELLS = 1 << 14  # cells tested together
 # Boxes are evaluated in blocks of few sizes, by their extent less 1: what is done for each block
 # weighs more than a few pixels in vain.
 _PADDED = np.array([1, 2, 3, 4, 6, 6, 8, 8], np.uint8)
+LARGE = np.uint8(255)  # the shape of what is larger than a cell of FINE pixels
 
 Index = NDArray[np.integer]
 
@@ -34,22 +35,25 @@ Index = NDArray[np.integer]
 class Boxes:
     """b boxes of pixels: `low` and `high`, (2, b) x and y each, both included, in the region.
 
-    `owner` (b,) is the footprint that each belongs to.
+    `owner` (b,) is the footprint that each belongs to; None if each has its own, in their order.
     """
 
-    owner: Index
+    owner: Index | None
     low: Index
     high: Index
 
-    def take(self, index: Index) -> Boxes:
+    def take(self, index: Index | slice) -> Boxes:
         """Return those at `index`."""
-        return Boxes(*(v.take(index, axis=-1) for v in vars(self).values()))
+        owner = index if self.owner is None else self.owner[index]
+        return Boxes(owner, self.low[:, index], self.high[:, index])
 
     @property
-    def is_small(self) -> NDArray[np.bool_]:
-        """Whether each is no larger than a cell of FINE pixels, (b,)."""
+    def shape(self) -> NDArray[np.uint8]:
+        """Which size of block each is evaluated in, (b,): 16 height + width, or LARGE."""
         width, height = self.high - self.low
-        return np.maximum(width, height) < FINE
+        large = np.maximum(width, height) >= FINE
+        shape = _PADDED.take(height, mode="clip") * np.uint8(16) + _PADDED.take(width, mode="clip")
+        return np.where(large, LARGE, shape)
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,27 +69,29 @@ class Covered:
     nearness: NDArray[np.float64]
 
 
-def covered(found: Footprints, boxes: Boxes, depths: DepthBuffer) -> Iterator[Covered]:
-    """Yield the pairs of boxes that are no larger than a cell of FINE pixels."""
-    width, height = (_PADDED.take(v) for v in boxes.high - boxes.low)
-    shape = height * np.uint8(16) + width
-    order = np.argsort(shape, kind="stable")
-    starts = np.flatnonzero(np.diff(shape.take(order), prepend=np.uint8(0)))
-    for start, end in pairwise([*starts.tolist(), len(order)]):
-        h, w = divmod(int(shape[order[start]]), 16)
+def covered(
+    found: Footprints, boxes: Boxes, shape: NDArray[np.uint8], depths: DepthBuffer
+) -> Iterator[Covered]:
+    """Yield the pairs of boxes that are no larger than a cell, sorted by their shape."""
+    starts = np.flatnonzero(np.diff(shape, prepend=np.uint8(0)))
+    for start, end in pairwise([*starts.tolist(), len(shape)]):
+        h, w = divmod(int(shape[start]), 16)
         together = max(1, _VALUES // (h * w))
         for first in range(start, end, together):
-            yield _block(found, boxes.take(order[first : min(first + together, end)]), h, w, depths)
+            part = slice(first, min(first + together, end))
+            yield _block(found, boxes.take(part), h, w, depths)
 
 
 def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer) -> Covered:
     """Evaluate boxes that are at most h pixels high and w wide."""
-    owner, (x, y), region = boxes.owner, boxes.low, depths.region
-    of_1, of_y, of_x = found.coefficients.take(owner, axis=2)
-    x0, y0 = found.origin.take(owner, axis=1)
-    right = (x + (region.x0 - x0)) + np.arange(w, dtype=np.float64)[:, None]  # (w, b)
-    up = (y + (region.y0 - y0)) + np.arange(h, dtype=np.float64)[:, None]
-    last_x, last_y = boxes.high - boxes.low
+    owner, region = boxes.owner, depths.region
+    own = found[owner] if isinstance(owner, slice) else found.take(owner)
+    of_1, of_y, of_x = own.coefficients
+    x, y = low = boxes.low
+    last_x, last_y = boxes.high - low
+    x0, y0 = low + (np.array([[region.x0], [region.y0]]) - own.origin)
+    right = x0 + np.arange(w, dtype=np.float64)[:, None]  # (w, b)
+    up = y0 + np.arange(h, dtype=np.float64)[:, None]
     for k in range(1, w):  # what a block has beyond its box is not covered, as NaN is not inside
         right[k, last_x < k] = np.nan
     for k in range(1, h):
@@ -96,14 +102,15 @@ def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer)
     other = np.empty_like(least)
     for k in (1, 2):
         np.minimum(least, np.add(rows[k, :, None], across[k], out=other), out=least)
-    inside = np.flatnonzero(least >= -found.edge_error.take(owner))
+    inside = np.flatnonzero(least >= -own.edge_error)
     nearness = np.add(rows[3, :, None], across[3], out=other)
     stride = np.int32(depths.stride)
     steps = np.arange(h, dtype=np.int32)[:, None] * stride + np.arange(w, dtype=np.int32)
     pixel = steps[..., None] + (y.astype(np.int32) * stride + x)
+    row = inside % low.shape[1]
     return Covered(
         pixel.ravel().take(inside),
-        owner.take(inside % len(owner)),
+        row + owner.start if isinstance(owner, slice) else owner.take(row),
         least.ravel().take(inside),
         nearness.ravel().take(inside),
     )

@@ -84,3 +84,8 @@ class DepthBuffer:
         for x, y in ((x1, y0), (x0, y1), (x1, y1)):
             np.minimum(out, self.farthest(x, y, FINE), out=out)
         return out
+
+    def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
+        """Return the least nearness in the cells around one box of any size."""
+        rows, columns = (slice(a // FINE, b // FINE + 1) for a, b in ((y0, y1), (x0, x1)))
+        return float(self._fine[rows, columns].min())

@@ -34,7 +34,9 @@ from numpy.typing import NDArray
 
 from .bounds import U
 from .film import Film, Vertices
+from .vector import gather
 
+_CHUNK = 1 << 13  # triangles at a time: their temporaries stay in a core's cache
 _MORE = 1.01  # for the roundings of the bounds themselves
 # Far above what gradual underflow may lose, far below where it matters: what is as small as this is
 # decided elsewhere.
@@ -67,7 +69,10 @@ class Footprints:
 
     def take(self, index: Index) -> Footprints:
         """Return those at `index`."""
-        return Footprints(*(v.take(index, axis=-1) for v in vars(self).values()))
+        return Footprints(*(gather(v, index) for v in vars(self).values()))
+
+    def __getitem__(self, part: slice) -> Footprints:
+        return Footprints(*(v[..., part] for v in vars(self).values()))
 
 
 def footprints(
@@ -86,16 +91,34 @@ def footprints(
     reach : (m,) int
         How far from there they are asked for, in pixels, along either axis.
     """
-    x0, y0 = origin + 0.5
+    count = corners.shape[1]
+    out = Footprints(
+        np.arange(count),
+        origin,
+        np.empty((3, 4, count)),
+        np.empty(count),
+        np.empty(count),
+        nearest,
+        np.empty(count, bool),
+    )
+    for first in range(0, count, _CHUNK):
+        part = slice(first, first + _CHUNK)
+        _fill(out[part], film, vertices, corners[:, part], reach[part])
+    return out if out.sure.all() else _both_signs(out)
+
+
+def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach: Floats) -> None:
+    """Compute the functions of some triangles, and their bounds."""
+    x0, y0 = out.origin + 0.5
     p, q, w = [], [], []
+    corners = corners.astype(np.intp)  # once, not for every array
     for corner in corners:
-        weight = vertices.w.take(corner)
-        p.append(vertices.p.take(corner) - x0 * weight)
-        q.append(vertices.q.take(corner) - y0 * weight)
+        weight = gather(vertices.w, corner)
+        p.append(gather(vertices.p, corner) - x0 * weight)
+        q.append(gather(vertices.q, corner) - y0 * weight)
         w.append(weight)
-    size = _largest(*(vertices.size.take(corner) for corner in corners))
-    count = len(size)
-    of_1, of_y, of_x = coefficients = np.empty((3, 4, count))
+    size = _largest(*(gather(vertices.size, corner) for corner in corners))
+    of_1, of_y, of_x = coefficients = out.coefficients
     for k, (a, b) in enumerate(((1, 2), (2, 0), (0, 1))):
         np.subtract(q[a] * w[b], w[a] * q[b], out=of_x[k])
         np.subtract(w[a] * p[b], p[a] * w[b], out=of_y[k])
@@ -118,7 +141,7 @@ def footprints(
     coefficients[:, :3] *= np.where(volume < 0, -1.0, 1.0)
     least = amount - error
     if film.camera.orthographic:
-        depths = [vertices.depth.take(corner) for corner in corners]
+        depths = [gather(vertices.depth, corner) for corner in corners]
         base, *rest = depths
         b, c = (d - base for d in rest)
         np.divide(of_1[1] * b + of_1[2] * c, -amount, out=of_1[3])
@@ -135,15 +158,12 @@ def footprints(
         for function in coefficients:
             np.divide(function[0] + function[1] + function[2], amount, out=function[3])
         relative = error / least + (2 * film.ray_error + 16 * U)
-        nearness_error = 6 * edge_error / least + relative * nearest
+        nearness_error = 6 * edge_error / least + relative * out.nearest
     nearness_error *= _MORE
+    out.sure[:], out.edge_error[:], out.nearness_error[:] = sure, edge_error, nearness_error
     lost = ~(terms < _HUGE)
     if lost.any():  # any pixel may be covered
-        coefficients[:, :, lost], edge_error[lost], sure[lost] = 0, np.inf, False
-    found = Footprints(
-        np.arange(count), origin, coefficients, edge_error, nearness_error, nearest, sure
-    )
-    return found if sure.all() else _both_signs(found)
+        coefficients[:, :, lost], out.edge_error[lost], out.sure[lost] = 0, np.inf, False
 
 
 def _both_signs(found: Footprints) -> Footprints:

@@ -10,6 +10,9 @@ from numpy.typing import NDArray
 from ..scene import Camera
 from .certainty import Certainty
 from .hits import NOTHING, Name, Statistics
+from .memory import check_memory
+
+BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 3 * 8 + 3 * 4 + 1  # of a frame's arrays
 
 
 @dataclass(eq=False)
@@ -37,8 +40,15 @@ class Frame:
 
     @classmethod
     def empty(cls, camera: Camera) -> Frame:
-        """Return a frame of the camera's region with no row done, its colour transparent."""
+        """Return a frame of the camera's region with no row done, its colour transparent.
+
+        Raises
+        ------
+        PictureTooLargeError
+            If there is not enough memory for it.
+        """
         h, w = camera.region.height, camera.region.width
+        check_memory(w, h, BYTES_PER_PIXEL)
         indices = [np.full((h, w), NOTHING, np.int32) for _ in range(3)]
         return cls(
             np.zeros((h, w, 4), np.float32),

@@ -43,6 +43,12 @@ class Statistics:
         """Pairs of a ray and a surface that whole numbers decided."""
         return sum(self.reasons.values())
 
+    def add(self, other: Statistics) -> None:
+        """Add what a part of the picture took."""
+        self.pairs_tested += other.pairs_tested
+        self.reasons.update(other.reasons)
+        self.stages.update(other.stages)
+
     def required(self) -> list[str]:
         """Return what the scene required, in words, a fact a line; for a certified picture."""
         lines = list(self.notes)

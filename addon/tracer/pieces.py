@@ -9,16 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
+from ..scene import Region, Scene
 from .film import Film, Vertices
+from .instance_boxes import InstanceBoxes
 from .vector import Vectors, transform_points
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
-_MARGIN = 1.0  # pixels around the region that count as in view
 
 Index = NDArray[np.integer]
 
@@ -55,6 +56,40 @@ class Names:
         return self.instances[which], own.astype(np.int32)
 
 
+class Numbering:
+    """One number for each surface of all pieces, in the order in which the pieces come."""
+
+    def __init__(self) -> None:
+        self._names: list[Names] = []
+        self._starts = np.zeros(1, np.int64)  # the number of the first surface of each
+
+    def enter(self, names: Names) -> int:
+        """Give numbers to a piece's surfaces; returns the first."""
+        start = int(self._starts[-1])
+        self._names.append(names)
+        self._starts = np.append(self._starts, start + names.count)
+        return start
+
+    def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle of surfaces."""
+        out = np.empty((2, len(surface)), np.int32)
+        for names, own, first in self.by_piece(surface):
+            out[:, own] = names.of(surface[own] - first)
+        return out[0], out[1]
+
+    def by_piece(self, surface: Index) -> Iterator[tuple[Names, Index | slice, int]]:
+        """Yield each piece's names, which of the surfaces are its own, and the first's number."""
+        if len(self._names) == 1:
+            yield self._names[0], slice(None), 0
+            return
+        piece = np.searchsorted(self._starts, surface, side="right") - 1
+        order = np.argsort(piece.astype(np.uint16), kind="stable")
+        cuts = np.searchsorted(piece[order], np.arange(len(self._names) + 1))
+        for number, (start, end) in enumerate(pairwise(cuts.tolist())):
+            if start < end:
+                yield self._names[number], order[start:end], int(self._starts[number])
+
+
 @dataclass(frozen=True, eq=False)
 class Expanded:
     """A piece with its vertices on the film; `corners` (3, m) are those of its triangles."""
@@ -64,13 +99,13 @@ class Expanded:
     names: Names
 
 
-def pieces(scene: Scene, film: Film, limit: int) -> list[Piece]:
-    """Return the pieces of what may be in view, of at most `limit` triangles if possible."""
+def pieces(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> list[Piece]:
+    """Return the pieces of what may be in view in a region, of at most `limit` triangles each."""
     if not scene.instances:
         return []
+    depth = around.depth
     counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
-    seen, depth = _in_view(scene, film)
-    order = np.flatnonzero(seen & (counts > 0))
+    order = np.flatnonzero(around.in_region(region) & (counts > 0))
     order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
     out = []
     large = counts[order] > limit
@@ -89,46 +124,6 @@ def pieces(scene: Scene, film: Film, limit: int) -> list[Piece]:
         start = end
     nearest = [depth[piece.instances].min() for piece in out]
     return [out[k] for k in np.argsort(nearest, kind="stable")]
-
-
-def _in_view(scene: Scene, film: Film) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return which instances may be in view, and how near their bounding boxes come."""
-    of = scene.instance_meshes
-    low, high = np.array([m.bounds for m in scene.meshes])[of].transpose(1, 2, 0)
-    matrices = scene.instance_matrices
-    camera, region = film.camera, film.camera.region
-    count = len(of)
-    with np.errstate(all="ignore"):
-        corners = np.stack(
-            [
-                transform_points(
-                    matrices, np.stack([(low, high)[k >> axis & 1][axis] for axis in range(3)])
-                )
-                for k in range(8)
-            ],
-            axis=1,
-        )  # (3, 8, n)
-        vertices = Vertices.empty(8 * count, np.int32)
-        film.enter(vertices, 0, corners.reshape(3, 8 * count))
-        p, q, w, depth = (
-            v.reshape(8, count) for v in (vertices.p, vertices.q, vertices.w, vertices.depth)
-        )
-        # What lies between the corners was rounded like them, from numbers of at most this size.
-        reach = np.maximum(np.abs(low), np.abs(high))
-        size = (np.abs(matrices[:3, :3]) * reach).sum(axis=1) + np.abs(matrices[:3, 3])
-        size = 4 * (size.max(axis=0) + np.abs(camera.origin).max())
-        constant, slope = film.place
-        place, weight = constant + slope * size, film.weight * size
-        own = film.depth_error[0] + film.depth_error[1] * size
-        outside = (depth + own < camera.clip_start).all(axis=0)
-        outside |= (depth - own > camera.clip_end).all(axis=0)
-        for value, first, last in ((p, region.x0, region.x1), (q, region.y0, region.y1)):
-            for sign, end in ((1, first - _MARGIN), (-1, last + _MARGIN)):
-                error = place + abs(end) * weight
-                outside |= (sign * (value - end * w) < -error).all(axis=0)
-        if not film.is_sound:
-            outside[:] = False
-        return ~outside, np.nan_to_num(depth.min(axis=0))
 
 
 def expand(scene: Scene, film: Film, piece: Piece) -> Expanded:

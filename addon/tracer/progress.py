@@ -5,6 +5,8 @@ Whoever drives one decides what to show, and stops by not asking for more.
 
 from __future__ import annotations
 
+import time
+from collections import Counter
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
@@ -12,6 +14,7 @@ import numpy as np
 
 T = TypeVar("T")
 Work = Generator[float, None, T]
+Steps = Generator[str, None, T]  # of which each says which stage of the work it was
 
 
 def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
@@ -33,6 +36,28 @@ def scaled(work: Work[T], start: float, size: float) -> Work[T]:
         except StopIteration as stop:
             return stop.value
         yield start + size * share
+
+
+def named(work: Work[T], stage: str) -> Steps[T]:
+    """Run work as steps of one stage."""
+    while True:
+        try:
+            next(work)
+        except StopIteration as stop:
+            return stop.value
+        yield stage
+
+
+def timed(steps: Steps[T], stages: Counter[str], share: float = 0.0) -> Work[T]:
+    """Run steps as work of which this share is done, and count the seconds of their stages."""
+    while True:
+        began = time.perf_counter()
+        try:
+            stage = next(steps)
+        except StopIteration as stop:
+            return stop.value
+        stages[stage] += time.perf_counter() - began
+        yield share
 
 
 def quiet(work: Work[T]) -> Work[T]:

@@ -62,12 +62,13 @@ def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
     exact = sum(counts.values())
     if not exact:
         return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
+    order = list(Reason)
     return [
         f"{exact:,} of {pairs:,} pairs of a ray and a surface (one in {pairs / exact:,.0f}) "
         "needed exact arithmetic: rays that",
         *(
             f"  {reason.value}: {n:,}"
-            for reason, n in sorted(counts.items(), key=lambda item: -item[1])
+            for reason, n in sorted(counts.items(), key=lambda i: (-i[1], order.index(i[0])))
             if n
         ),
     ]

@@ -28,9 +28,12 @@ from .visibility import plan, trace_tile
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
 PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
-PLAIN_PIXELS = 1 << 18  # of a band that is traced by a plain method
+SLOW_PIXELS = 1 << 18  # of a band where pixels take long
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, what is kept, hits
-_WHOLE = 0.999  # of the progress, until the picture is whole
+WHOLE = 0.999  # of the progress, until the picture is whole
+
+# What `steps` is, and so is what traces by other means.
+Steps = Callable[[Scene, Settings, Frame], Iterator[float]]
 
 
 def render(
@@ -103,22 +106,27 @@ def trace(scene: Scene, settings: Settings, statistics: Statistics | None = None
         Of the region's pixels, row by row from the lowest.
     """
     statistics = statistics or Statistics()
-    tracer = result_of(_tracer(scene, _resolved(settings, statistics), 0.0, statistics))
+    tracer = result_of(_tracer(scene, resolved(settings, statistics), 0.0, statistics))
     parts = bands(scene.camera, settings)
     return Hits.joined([result_of(tracer(band, 0.0, 0.0)) for band in parts])
 
 
 def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
-    settings = _resolved(settings, frame.statistics)
+    settings = resolved(settings, frame.statistics)
     frame.statistics.triangles = scene.triangle_count
+    band_tracer = yield from prepare(scene, settings, frame)
+    parts = bands(scene.camera, settings)
+    for number, band in enumerate(parts):
+        yield from scaled(band_tracer(band), WHOLE * number / len(parts), WHOLE / len(parts))
+    yield 1.0
+
+
+def prepare(scene: Scene, settings: Settings, frame: Frame) -> Work[Callable[[Region], Work[None]]]:
+    """Prepare :func:`resolved` settings; returns what traces a band, any band, into the frame."""
     offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
     reach = max((abs(o) for offset in offsets for o in offset), default=0.0)
     tracer = yield from _tracer(scene, settings, reach, frame.statistics)
-    parts = bands(scene.camera, settings)
-    for number, band in enumerate(parts):
-        tracing = _band(scene, settings, tracer, band, offsets, frame)
-        yield from scaled(tracing, _WHOLE * number / len(parts), _WHOLE / len(parts))
-    yield 1.0
+    return lambda band: _band(scene, settings, tracer, band, offsets, frame)
 
 
 def _tracer(
@@ -133,7 +141,7 @@ def _tracer(
     return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics)
 
 
-def _resolved(settings: Settings, statistics: Statistics) -> Settings:
+def resolved(settings: Settings, statistics: Statistics) -> Settings:
     """Return settings with a method that is one: `auto` is certified, where that is possible."""
     if not settings.method.is_plain:
         try:
@@ -179,12 +187,12 @@ def tiles(camera: Camera) -> list[Region]:
 def bands(camera: Camera, settings: Settings) -> list[Region]:
     """Split the camera's region into bands that are traced together, from the lowest.
 
-    The higher they are, the less often a triangle is looked at; memory limits it, and where nothing
-    is culled behind what is seen, the wish to see the picture grow.
+    The higher they are, the less often a triangle is looked at. Memory limits them; and the wish to
+    see the picture grow, where a pixel has many samples, or its triangles are all tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL
-    if settings.method.is_plain:
-        pixels = min(pixels, PLAIN_PIXELS)
+    if settings.samples > 1 or settings.method.is_plain:
+        pixels = min(pixels, max(PIXELS, SLOW_PIXELS // settings.samples**2))
     return _rows(camera.region, max(1, pixels // camera.region.width))
 
 
@@ -193,7 +201,7 @@ def _rows(r: Region, rows: int) -> list[Region]:
 
 
 def _parts(count: int) -> list[slice]:
-    return [slice(first, first + PIXELS // 4) for first in range(0, count, PIXELS // 4)]
+    return [slice(first, first + PIXELS // 8) for first in range(0, count, PIXELS // 8)]
 
 
 def _write(

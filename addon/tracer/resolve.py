@@ -14,7 +14,7 @@ from .camera import Rays
 from .hits import Hits
 from .rivals import Surfaces
 from .rounding import Quotients
-from .vector import Vectors, cross, dot
+from .vector import Vectors, cross, dot, gather, in_parts
 
 TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
 
@@ -29,18 +29,9 @@ class Prepared:
         self._planes = len(surfaces.planes)
         with np.errstate(all="ignore"):  # what overflows is not sure
             self._quotients = Quotients.of(rays, corners, surfaces.planes)
-            self._arms = self._normals = None
-            edges = [(corners[k], corners[(k + 1) % 3]) for k in (1, 2, 0)]
-            if rays.origins.shape[1] == 1:
-                normals = [cross(p - rays.origins, q - p) for p, q in edges]
-                self._normals = np.concatenate(normals)
-            else:
-                self._arms = np.concatenate([p for p, _ in edges])
-                if rays.directions.shape[1] == 1:
-                    normals = [cross(q - p, rays.directions) for p, q in edges]
-                    self._normals = np.concatenate(normals)
-                else:
-                    self._sides = np.concatenate([q - p for p, q in edges])
+            self._edges = in_parts(
+                lambda part: _edges(rays, corners[..., part]), corners.shape[2], TOGETHER
+            )
 
     def enter(
         self, hits: Hits, at: NDArray[np.intp], rays: Rays, surface: NDArray[np.intp]
@@ -72,34 +63,35 @@ class Prepared:
         """Return t of p rays, whether it surely is rounded correctly, and the barycentrics."""
         t, sure = self._quotients.meet(rays, surface)
         row = np.maximum(surface - self._planes, 0) if self._planes else surface
-        if self._planes == len(surface) == 0 or self._of_planes(surface):
-            return t, sure, np.zeros((3, len(surface)))
-        s = self._edges(rays, row)
-        s /= s[0] + s[1] + s[2]
+        s = self._weights(rays, row) if len(self._edges.T) else np.zeros((3, len(surface)))
         if self._planes:
             s[:, surface < self._planes] = 0
         return t, sure, s
 
-    def _of_planes(self, surface: NDArray[np.intp]) -> bool:
-        return bool((surface < self._planes).all())
+    def _weights(self, rays: Rays, row: NDArray[np.intp]) -> Vectors:
+        """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum."""
+        edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
+        if len(edges[0]) == 1:
+            of_each = [dot(normal, rays.directions) for (normal,) in edges]
+        elif rays.directions.shape[1] == 1:
+            of_each = [dot(corner - rays.origins, normal) for corner, normal in edges]
+        else:
+            of_each = [
+                dot(rays.directions, cross(corner - rays.origins, side)) for corner, side in edges
+            ]
+        s = np.stack(of_each)
+        s /= s[0] + s[1] + s[2]
+        return s
 
-    def _edges(self, rays: Rays, row: NDArray[np.intp]) -> Vectors:
-        """Return e_bc, e_ca, e_ab as in `bounds.py`."""
-        out = np.empty((3, len(row)))
-        d = rays.directions
-        if self._arms is None:
-            n = self._normals.take(row, axis=1)
-            for k in range(3):
-                out[k] = dot(n[3 * k : 3 * k + 3], d)
-            return out
-        arms = self._arms.take(row, axis=1)
-        if self._normals is not None:
-            n = self._normals.take(row, axis=1)
-            for k in range(3):
-                out[k] = dot(arms[3 * k : 3 * k + 3] - rays.origins, n[3 * k : 3 * k + 3])
-            return out
-        sides = self._sides.take(row, axis=1)
-        for k in range(3):
-            part = slice(3 * k, 3 * k + 3)
-            out[k] = dot(d, cross(arms[part] - rays.origins, sides[part]))
-        return out
+
+def _edges(rays: Rays, corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what the edges bc, ca, ab of triangles (3, 3, m) are to all rays: (9 or 18, m)."""
+    out = []
+    for k in (1, 2, 0):
+        corner, side = corners[k], corners[(k + 1) % 3] - corners[k]
+        if rays.origins.shape[1] == 1:
+            out.append(cross(corner - rays.origins, side))
+        else:
+            shared = rays.directions.shape[1] == 1
+            out += [corner, cross(side, rays.directions) if shared else side]
+    return np.concatenate(out)

@@ -16,14 +16,17 @@ that it may be rounded to (Ziv's test), and it is.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .bounds import U
 from .camera import Rays
 from .error_free import Pair, fast_two_sum, halves, power_above, two_product, two_sum
-from .vector import Vectors
+from .vector import Vectors, gather
 
+_CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
 _DOT = 2.0**-72
 _QUOTIENT = 32 * U * U  # of the correction's own roundings, relative to t
 _LEAST = 2.0**-950  # of what T and D are made of: below, products lose digits to underflow
@@ -57,35 +60,44 @@ class Quotients:
         coarse, fine = halves(high, unit)
         self._normals = np.concatenate((coarse, fine + low, ((unit + 3 * error) * _DOT)[None]))
         every = np.arange(point.shape[1])
-        self._fixed = ()
+        self._fixed = np.zeros((0, len(every)))  # what is the same for all rays
         if self._one_origin or self._one_direction:
             depth = self._dot(*two_sum(point, -self._origin), every)
-            self._fixed = depth if self._one_origin else (*depth, *self._along(rays, every))
-            self._fixed = np.stack(self._fixed)
+            towards = () if self._one_origin else self._along(rays, every)
+            self._fixed = np.stack((*depth, *towards))
 
     @classmethod
-    def of(cls, rays: Rays, corners: NDArray[np.float64], planes: tuple = ()) -> Quotients:
+    def of(cls, rays: Rays, corners: NDArray[np.float64], planes: Sequence = ()) -> Quotients:
         """Prepare infinite planes, (point, normal) each, then triangles, corners (3, 3, m)."""
+        parts = [
+            cls._of_triangles(rays, corners[..., first : first + _CHUNK])
+            for first in range(0, max(1, corners.shape[2]), _CHUNK)
+        ]
+        if planes:
+            point, normal = (np.array(v, np.float64).T for v in zip(*planes, strict=True))
+            nothing = np.zeros_like(normal)
+            parts.insert(0, cls(rays, point, (normal, nothing), nothing[0]))
+        out = parts[0]
+        for name in ("_point", "_normals", "_fixed"):
+            setattr(out, name, np.concatenate([getattr(p, name) for p in parts], axis=1))
+        return out
+
+    @classmethod
+    def _of_triangles(cls, rays: Rays, corners: NDArray[np.float64]) -> Quotients:
         a, b, c = corners
         normal, error = _cross(two_sum(b, -a), two_sum(c, -a))
-        error = np.where(error > _LEAST, error, np.inf)
-        if not planes:
-            return cls(rays, a, normal, error)
-        points, normals = (np.array(v, np.float64).T for v in zip(*planes, strict=True))
-        nothing = np.zeros_like(normals)
-        whole = tuple(np.hstack(v) for v in zip((normals, nothing), normal, strict=True))
-        return cls(rays, np.hstack((points, a)), whole, np.r_[nothing[0], error])
+        return cls(rays, a, normal, np.where(error > _LEAST, error, np.inf))
 
     def meet(self, rays: Rays, surface: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
         """Return t of p rays with surfaces, and whether it surely is the nearest float64."""
         if self._one_origin:
-            depth = tuple(self._fixed.take(surface, axis=1))
+            depth = tuple(gather(self._fixed, surface))
             return _quotient(depth, self._along(rays, surface))
         if not self._one_direction:
-            point = self._point.take(surface, axis=1)
+            point = gather(self._point, surface)
             depth = self._dot(*two_sum(point, -rays.origins), surface)
             return _quotient(depth, self._along(rays, surface))
-        high, low, error, *towards = self._fixed.take(surface, axis=1)
+        high, low, error, *towards = gather(self._fixed, surface)
         moved = self._dot(*two_sum(rays.origins, -self._origin), surface)
         high, rest = two_sum(high, -moved[0])
         depth = *two_sum(high, rest + (low - moved[1])), error + moved[2]
@@ -99,7 +111,7 @@ class Quotients:
         unit = power_above(v)
         coarse, fine = halves(v, unit)
         fine = fine + rest
-        nx, ny, nz, mx, my, mz, error = self._normals.take(surface, axis=1)
+        nx, ny, nz, mx, my, mz, error = gather(self._normals, surface)
         exact = coarse[0] * nx + coarse[1] * ny + coarse[2] * nz
         small = (
             (coarse[0] * mx + fine[0] * (nx + mx))

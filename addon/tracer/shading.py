@@ -23,6 +23,10 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     The colour of a triangle is that of its material slot; where the mesh has corner colours, the
     barycentrics weigh them.
     """
+    smooth = any(mesh.corner_colors is not None for mesh in scene.meshes)
+    if not smooth:  # neighbours mostly see the same triangle
+        first, run = _runs(hits)
+        hits = hits.take(first)
     out = np.empty((len(hits.t), 4), np.float32)
     out[:] = scene.background
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
@@ -32,10 +36,11 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
         if mesh.corner_colors is not None:
             out[rows] = (mesh.corner_colors[triangle] * hits.s[:, rows].T[..., None]).sum(axis=1)
         else:
-            first, last = scene.color_rows[:, instance]
-            out[rows] = scene.color_table[np.minimum(first + mesh.slots[triangle], last)]
+            low, high = scene.color_rows.take(instance, axis=1)
+            row = np.minimum(low + mesh.slots.take(triangle), high)
+            out[rows] = scene.color_table.take(row, axis=0)
     out[hits.instance != NOTHING, 3] = 1
-    return out
+    return out if smooth else out.take(run, axis=0)
 
 
 def interpolated(scene: Scene, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
@@ -50,7 +55,9 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     It is the side that the winding (p2 - p1) x (p3 - p1) names in *object* space: a mirrored
     instance keeps its outside outside. (The textbook's own n is its opposite.)
     """
-    n = np.zeros((3, len(hits.t)))
+    first, run = _runs(hits)
+    hits = hits.take(first)
+    n = np.zeros((3, len(first)))
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         n[:, hits.instance == index] = infinite.normal[:, None]
     for mesh, rows in _by_mesh(scene, hits):
@@ -58,29 +65,41 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
         if (which == which[0]).all():
             which = which[:1]
         matrices = scene.instance_matrices[..., which]
-        corners = mesh.triangles[hits.triangle[rows]].T
-        p1, p2, p3 = (transform_points(matrices, mesh.vertices[c].T) for c in corners)
+        corners = mesh.triangles.take(hits.triangle[rows], axis=0).T
+        p1, p2, p3 = (
+            transform_points(matrices, mesh.vertices.take(corner, axis=0).T) for corner in corners
+        )
         x, y, z = map(_near_1, matrices[:3, :3].swapaxes(0, 1))  # where the object's axes go
         mirrored = dot(cross(x, y), z) < 0
         p1, p2, p3 = (p * 2.0**-2 for p in (p1, p2, p3))  # their differences do not overflow
         n[:, rows] = cross(_near_1(p2 - p1), _near_1(p3 - p1)) * np.where(mirrored, -1, 1)
     n = _near_1(n)
     length = np.sqrt(dot(n, n))
-    return (n / np.where(length > 0, length, 1)).T
+    return (n / np.where(length > 0, length, 1)).T.take(run, axis=0)
+
+
+def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the first of each run of rays that see the same triangle, and each ray's run."""
+    if not len(hits.t):
+        return (np.zeros(0, np.intp),) * 2
+    changes = np.ones(len(hits.t), bool)
+    changes[1:] = hits.triangle[1:] != hits.triangle[:-1]
+    changes[1:] |= hits.instance[1:] != hits.instance[:-1]
+    return np.flatnonzero(changes), np.cumsum(changes) - 1
 
 
 def _near_1(v: Vectors) -> Vectors:
     """Return vectors scaled so that their products neither overflow nor underflow."""
-    return np.ldexp(v, -np.frexp(np.abs(v).max(axis=0))[1])
+    x, y, z = np.abs(v)
+    return np.ldexp(v, -np.frexp(np.maximum(np.maximum(x, y), z))[1])
 
 
 def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
     """Return where each ray ends in world space, (n, 3) metres; zero where nothing is hit."""
     hit = hits.instance != NOTHING
-    out = np.zeros((len(hits.t), 3))
     points = rays.at(np.where(hit, hits.t, 0.0))
-    out[hit] = points.T[hit]
-    return out
+    points[:, ~hit] = 0
+    return points.T
 
 
 def objects(scene: Scene, hits: Hits) -> NDArray[np.int32]:
@@ -92,5 +111,8 @@ def _by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]
     """Yield each mesh that is seen, with the rows of its hits."""
     on_mesh = np.flatnonzero((hits.instance != NOTHING) & (hits.instance < len(scene.instances)))
     meshes = scene.instance_meshes[hits.instance[on_mesh]]
+    if len(meshes) and (meshes == meshes[0]).all():
+        yield scene.meshes[meshes[0]], on_mesh
+        return
     for index in np.unique(meshes):
         yield scene.meshes[index], on_mesh[meshes == index]

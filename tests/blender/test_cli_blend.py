@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -19,7 +18,7 @@ SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
 def reftrace(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
     return subprocess.run(
-        [sys.executable, "-m", "reference_tracer.cli", *map(os.fspath, argv)],
+        [sys.executable, "-m", "reference_tracer.cli", *map(str, argv)],
         capture_output=True,
         text=True,
         timeout=300,
@@ -52,6 +51,23 @@ def test_compare(small, tmp_path):
         "frame.npz",
         "traced.png",
     ]
+
+
+def test_compare_with_processes(small, tmp_path):
+    """The same comparison, though Blender is loaded where they are started."""
+    found = []
+    for count in (1, 2):
+        done = reftrace("compare", small, "--out", tmp_path / str(count), "--processes", count)
+        assert done.returncode == 0, done.stderr
+        comparison = json.loads(
+            (tmp_path / str(count) / "comparison.json").read_text(encoding="utf-8")
+        )
+        with np.load(tmp_path / str(count) / "frame.npz") as stored:
+            found.append((comparison["pixels"], comparison["metrics"], dict(stored)))
+    assert found[0][:2] == found[1][:2]
+    assert found[0][2].keys() == found[1][2].keys()
+    for name, values in found[0][2].items():
+        assert values.tobytes() == found[1][2][name].tobytes(), name
 
 
 def test_compare_warns_by_its_exit_code(tmp_path):

@@ -13,6 +13,7 @@ from reference_tracer.blender.engine import (
     PASSES,
     ReferenceTracerEngine,
 )
+from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -221,8 +222,9 @@ class CancelledEngine:
     _show = ReferenceTracerEngine._show
 
 
-def test_a_cancelled_render_keeps_the_rows_that_are_done(solids, capsys):
+def test_a_cancelled_render_keeps_the_rows_that_are_done(solids, capsys, monkeypatch):
     """Blender has no key to press in background: the engine is run as if one was."""
+    monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (480 * 60))
     solids.render.resolution_x = solids.render.resolution_y = 480
     depsgraph = bpy.context.evaluated_depsgraph_get()
     engine = CancelledEngine(np.inf)

@@ -12,7 +12,7 @@ from reference_tracer.tracer.candidates import Pairs, WorldTriangles
 from reference_tracer.tracer.certified import Contest
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.sweep import world_corners
+from reference_tracer.tracer.world import world_corners
 
 from .hostile import hostile_camera, hostile_triangles
 

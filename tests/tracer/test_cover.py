@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Region
 from reference_tracer.tracer import cover
-from reference_tracer.tracer.cover import Boxes, covered, split
+from reference_tracer.tracer.cover import LARGE, Boxes, covered, split
 from reference_tracer.tracer.depth_buffer import FINE, DepthBuffer
 from reference_tracer.tracer.footprints import Footprints
 
@@ -98,11 +98,16 @@ def plain(found, boxes, depths) -> dict:
 
 def all_pairs(found, boxes, depths) -> list:
     """Return what a sweep asks for."""
-    small = boxes.is_small
-    parts = list(covered(found, boxes.take(np.flatnonzero(small)), depths))
+
+    def by_shape(some: Boxes) -> list:
+        assert (some.shape != LARGE).all()
+        order = np.argsort(some.shape, kind="stable")
+        return list(covered(found, some.take(order), some.shape[order], depths))
+
+    small = boxes.shape != LARGE
+    parts = by_shape(boxes.take(np.flatnonzero(small)))
     for some in split(found, boxes.take(np.flatnonzero(~small)), depths):
-        assert some.is_small.all()
-        parts += covered(found, some, depths)
+        parts += by_shape(some)
     return parts
 
 
@@ -133,7 +138,7 @@ def test_every_pixel_of_every_box_bit_for_bit(name, value, monkeypatch):
             nearness = np.array([expected[key][1] for key in sorted(missing)])
             nearest = nearness + found.nearness_error[owner]
             assert (nearest < depths.nearness[depths.places(pixel)]).all(), seed
-            assert not boxes.take(owner).is_small.any()
+            assert (boxes.take(owner).shape == LARGE).all()
         seen, hidden = seen + len(got), hidden + len(missing)
         empty += sum(owner not in {k for _, k in expected} for owner in range(COUNT))
     assert seen > 20_000 and hidden > 2_000 and empty > 50

@@ -10,7 +10,8 @@ from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.tracer import pieces as module
 from reference_tracer.tracer.candidates import Batch, has_sound_axes, world_triangles
 from reference_tracer.tracer.film import Film
-from reference_tracer.tracer.pieces import expand, pieces, refused
+from reference_tracer.tracer.instance_boxes import InstanceBoxes
+from reference_tracer.tracer.pieces import Piece, expand, pieces, refused
 
 from ..judge import OUTSIDE, judge_pairs
 from .exact_film import ExactFilm
@@ -22,10 +23,15 @@ FLOATS = ("p", "q", "w", "depth", "size", "nearest", "ahead", "finite")
 LIMITS = (1, 2, 5, 13, 10**9)
 
 
+def all_pieces(scene: Scene, film: Film, limit: int) -> list[Piece]:
+    around = InstanceBoxes.of(scene, film) if scene.instances else None
+    return pieces(scene, around, film.camera.region, limit)
+
+
 def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     """Return the names of all pieces' triangles, in their order."""
     names = []
-    for piece in pieces(scene, film, limit):
+    for piece in all_pieces(scene, film, limit):
         expanded = expand(scene, film, piece)
         count = expanded.corners.shape[1]
         assert count == expanded.names.count <= limit
@@ -47,7 +53,7 @@ def test_every_triangle_is_in_one_piece(make, part):
         for names in found:
             assert sorted(names) == [(i, k) for i in sorted(shown) for k in range(counts[i])], seed
         left_out += sum(bool(n) for n in counts) - len(shown)
-        several += len(pieces(scene, film, 5)) > 1
+        several += len(all_pieces(scene, film, 5)) > 1
     assert left_out > 3 and several > 20
 
 
@@ -61,7 +67,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
         scene = hostile_scene(make, rng)
         film = Film(scene.camera, *offsets(rng))
         for limit in LIMITS:
-            for piece in pieces(scene, film, limit):
+            for piece in all_pieces(scene, film, limit):
                 expanded = expand(scene, film, piece)
                 instance, triangle = expanded.names.of(np.arange(expanded.names.count))
                 for i in np.unique(instance).tolist():
@@ -133,7 +139,7 @@ def test_instances_come_from_the_front_to_the_back_and_none_that_is_out_of_view(
     scene = Scene(camera, (make.quad(-0.1, 0.1, -0.1, 0.1, 0),), instances, objects=("A",))
     names = names_of(scene, Film(camera), 2)
     assert [i for i, _ in names] == [k for k in np.argsort(depths) for _ in range(2)]
-    grouped = pieces(scene, Film(camera), 20)
+    grouped = all_pieces(scene, Film(camera), 20)
     nearest = [depths[p.instances].min() for p in grouped]
     farthest = [depths[p.instances].max() for p in grouped]
     assert len(grouped) == 4 and all(a < b for a, b in zip(farthest, nearest[1:], strict=False))
@@ -151,7 +157,7 @@ def test_a_part_of_a_mesh_takes_its_own_vertices(make, rng, spread):
     scene = make.scene(make.camera(), Mesh(vertices, triangles))
     film = Film(scene.camera)
     at = project(film, vertices.T)
-    for piece in pieces(scene, film, 40):
+    for piece in all_pieces(scene, film, 40):
         expanded = expand(scene, film, piece)
         own = triangles[piece.first : piece.last].T
         assert np.array_equal(expanded.vertices.p[expanded.corners], at.p[own])
@@ -190,6 +196,6 @@ def test_refused_triangles_are_counted(make):
 
 def test_nothing_to_see(make):
     camera = make.camera()
-    assert pieces(make.scene(camera), Film(camera), 10) == []
+    assert all_pieces(make.scene(camera), Film(camera), 10) == []
     empty = Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))
-    assert pieces(make.scene(camera, empty), Film(camera), 10) == []
+    assert all_pieces(make.scene(camera, empty), Film(camera), 10) == []

@@ -16,6 +16,7 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.render import render, sample_offsets, steps, tiles
 from reference_tracer.tracer.settings import Method, Precision, Settings
 from reference_tracer.tracer.visibility import NOTHING, film_positions
+from trimesh.ray.ray_triangle import RayMeshIntersector
 
 TURN = trimesh.transformations.rotation_matrix(0.7, (0.3, -0.5, 0.8), (0.1, 0, 0.2))
 SHAPES = {
@@ -48,7 +49,8 @@ def test_trimesh_sees_the_same(shape, orthographic, method, make):
     origins, directions = (
         np.broadcast_to(v, (3, 48 * 36)).T for v in (rays.origins, rays.directions)
     )
-    place, ray, triangle = mesh.ray.intersects_location(origins, directions, multiple_hits=True)
+    rtree = RayMeshIntersector(mesh)  # mesh.ray is embreex, in float32, where that is installed
+    place, ray, triangle = rtree.intersects_location(origins, directions, multiple_hits=True)
     t = ((place - origins[ray]) * directions[ray]).sum(axis=1) / (directions[ray] ** 2).sum(axis=1)
     nearest = np.full(48 * 36, np.inf)
     np.minimum.at(nearest, ray, t)

@@ -8,7 +8,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Mesh, Region, Scene
-from reference_tracer.tracer import cover, depth_buffer, pieces, render, resolve, settle, sweep
+from reference_tracer.tracer import (
+    cover,
+    depth_buffer,
+    pieces,
+    render,
+    resolve,
+    settle,
+    slabs,
+    sweep,
+    triangle_boxes,
+    verdict,
+)
 from reference_tracer.tracer.certainty import Certainty
 from reference_tracer.tracer.footprints import footprints
 from reference_tracer.tracer.hits import NOTHING, Hits
@@ -96,11 +107,12 @@ def sizes(fine, coarse):
 
 DIVISIONS = {
     "triangles by ones": [(sweep, "_TRIANGLES", 1)],
+    "boxes by twos": [(triangle_boxes, "_TOGETHER", 2)],
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
-    "one slab": [(sweep, "_BINS", 2)],
-    "few slabs": [(sweep, "_BINS", 5)],
-    "pairs by ones": [(sweep, "_PAIRS", 1), (cover, "_VALUES", 1)],
-    "pairs by sevens": [(sweep, "_PAIRS", 7), (cover, "_VALUES", 70)],
+    "one slab": [(slabs, "BINS", 2)],
+    "few slabs": [(slabs, "BINS", 5)],
+    "pairs by ones": [(verdict, "_PAIRS", 1), (cover, "_VALUES", 1)],
+    "pairs by sevens": [(verdict, "_PAIRS", 7), (cover, "_VALUES", 70)],
     "cells by ones": [(cover, "_CELLS", 1)],
     "no padding": [(cover, "_PADDED", np.arange(1, 9, dtype=np.uint8))],
     "much padding": [(cover, "_PADDED", np.full(8, 8, np.uint8))],
@@ -108,12 +120,12 @@ DIVISIONS = {
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
     "vertices by twos": [(pieces, "_CHUNK", 2)],
-    "hits by ones": [(m, "TOGETHER", 1) for m in (resolve, settle, sweep)],
+    "hits by ones": [(m, "TOGETHER", 1) for m in (resolve, settle, verdict)],
     "whole numbers by ones": [(settle, "_TOGETHER", 1)],
     "pieces of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "pieces of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
     "all small": [
-        (sweep, "_TRIANGLES", 2), (sweep, "_BINS", 3), (sweep, "_PAIRS", 5), (cover, "_CELLS", 2),
+        (sweep, "_TRIANGLES", 2), (slabs, "BINS", 3), (verdict, "_PAIRS", 5), (cover, "_CELLS", 2),
         (cover, "_VALUES", 9), (pieces, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),
     ],

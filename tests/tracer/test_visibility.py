@@ -7,7 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
-from reference_tracer.tracer import candidates, cover, pieces, plane, render, sweep, visibility
+from reference_tracer.tracer import (
+    candidates,
+    cover,
+    pieces,
+    plane,
+    render,
+    slabs,
+    sweep,
+    verdict,
+    visibility,
+)
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.candidates import WorldTriangles
 from reference_tracer.tracer.settings import Method, Settings
@@ -120,9 +130,10 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         monkeypatch.setattr(render, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
         monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
         monkeypatch.setattr(pieces, "_CHUNK", triangles)
-        monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
-        for module, name in ((sweep, "_PAIRS"), (cover, "_VALUES"), (cover, "_CELLS")):
+        for module, name in ((verdict, "_PAIRS"), (cover, "_VALUES"), (cover, "_CELLS")):
             monkeypatch.setattr(module, name, pairs)
+        monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
+        monkeypatch.setattr(slabs, "BINS", 2 + triangles % 255)
     divided = traced(mess, settings)
     for name, values in divided.passes().items():
         assert values.tobytes() == whole.passes()[name].tobytes(), name

@@ -1,0 +1,1 @@
+"""The benchmark: certified beside the plain test and beside other ray tracers, in one run."""

@@ -1,0 +1,115 @@
+"""What the benchmark found: a row for each scene, size, camera and method, and the machine."""
+
+from __future__ import annotations
+
+import os
+import platform
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+import numpy as np
+
+LIBRARIES = "embreex", "trimesh", "rtree", "bpy"
+Key = tuple[str, int, int, str, str, str]
+
+
+@dataclass
+class Row:
+    """One picture. Seconds are medians of the rounds, None where something was not run.
+
+    A ratio is that of two times of one round, each round measuring everyone once, so that a slow
+    moment of the machine is shared: the median, the least and the most of all rounds.
+    """
+
+    scene: str
+    triangles: int
+    width: int  # pixels
+    height: int
+    camera: str  # perspective or orthographic
+    method: str
+    precision: str
+    trace_s: float | None = None  # ids, t, barycentrics
+    render_s: float | None = None  # the whole frame with all passes
+    embreex_trace_s: float | None = None
+    embreex_build_s: float | None = None
+    rtree_s: float | None = None
+    bvhtree_s: float | None = None
+    cycles_s: float | None = None  # the whole render, 1 sample, 1 thread
+    workbench_s: float | None = None  # the whole render
+    peak_bytes: int | None = None  # of `trace`, beside the scene
+    render_peak_bytes: int | None = None  # of `render`
+    # Rays really traced, where seconds are for the whole picture; fewer than it has: extrapolated.
+    embreex_rays: int | None = None
+    rtree_rays: int | None = None
+    bvhtree_rays: int | None = None
+    bvhtree_build_s: float | None = None
+    embreex_differs: float | None = None  # share of pixels in which embreex names another triangle
+    ratio_to_mt: float | None = None  # trace against float64 Möller-Trumbore's
+    ratio_to_mt_least: float | None = None
+    ratio_to_mt_most: float | None = None
+    render_ratio_to_mt: float | None = None  # the same of whole frames
+    render_ratio_to_mt_least: float | None = None
+    render_ratio_to_mt_most: float | None = None
+    ratio_to_embreex: float | None = None  # trace against embreex's, without its build
+    ratio_to_embreex_least: float | None = None
+    ratio_to_embreex_most: float | None = None
+    rounds: int = 0
+    stages: dict[str, float] = field(default_factory=dict)  # seconds, by stage, of `render`
+
+    @property
+    def key(self) -> Key:
+        """What tells a row from others."""
+        return self.scene, self.width, self.height, self.camera, self.method, self.precision
+
+    @property
+    def pixels(self) -> int:
+        """Of the picture."""
+        return self.width * self.height
+
+
+@dataclass
+class Bench:
+    """All rows so far."""
+
+    machine: dict[str, str | int | bool | None]
+    quick: bool = False
+    rows: list[Row] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)  # what was left out, and why
+    interrupted: bool = False
+
+    def note(self, text: str) -> None:
+        """Say something, once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+
+def machine(one_core: bool) -> dict[str, str | int | bool | None]:
+    """Return the facts of this machine that times depend on; None for a library that is missing."""
+    return {
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "cpu_count": os.cpu_count(),
+        "machine": platform.machine(),
+        "processor": _processor(),
+        "system": platform.system(),
+        "one_core": one_core,
+        **{name: _version(name) for name in LIBRARIES},
+    }
+
+
+def _processor() -> str:
+    """Return the processor's name, where the system says it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return platform.processor()
+    names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor()
+
+
+def _version(library: str) -> str | None:
+    try:
+        return version(library)
+    except PackageNotFoundError:
+        return None

@@ -1,0 +1,71 @@
+"""Whether there is memory for a picture, asked before any work.
+
+Systems hand out more memory than they have, and end the process that uses it: so what is free has
+to be asked for.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+from pathlib import Path
+
+_GIB = 1 << 30
+
+
+class PictureTooLargeError(MemoryError):
+    """The picture cannot be held in memory; the message says by how much."""
+
+
+def check_memory(width: int, height: int, bytes_per_pixel: int) -> None:
+    """Raise a PictureTooLargeError if a picture of this size does not fit into free memory.
+
+    Where the system does not say what is free, nothing is refused.
+    """
+    needed, free = width * height * bytes_per_pixel, free_memory()
+    if free is not None and needed > free:
+        raise PictureTooLargeError(
+            f"The picture has {width} x {height} pixels, which take {needed / _GIB:.1f} GiB with "
+            f"all outputs, and {free / _GIB:.1f} GiB of memory are free: choose a smaller size, "
+            "or a border."
+        )
+
+
+def free_memory() -> int | None:
+    """Return how many bytes can be had without swapping; None if the system does not say."""
+    if sys.platform == "win32":
+        return _free_on_windows()
+    found = [_free_of_machine(), _free_of_container()]
+    return min((f for f in found if f is not None), default=None)
+
+
+def _free_of_machine() -> int | None:
+    try:
+        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        return next(int(v.split()[1]) for v in lines if v.startswith("MemAvailable:")) << 10
+    except (OSError, ValueError, StopIteration):
+        return None
+
+
+def _free_of_container() -> int | None:
+    folder = Path("/sys/fs/cgroup")
+    try:
+        limit, used = ((folder / name).read_text() for name in ("memory.max", "memory.current"))
+        return int(limit) - int(used)  # "max" is no number: there is no limit
+    except (OSError, ValueError):
+        return None
+
+
+def _free_on_windows() -> int | None:
+    class Status(ctypes.Structure):
+        _fields_ = (
+            ("length", ctypes.c_uint32),
+            ("load", ctypes.c_uint32),
+            ("total", ctypes.c_uint64),
+            ("available", ctypes.c_uint64),
+            ("rest", ctypes.c_uint64 * 5),
+        )
+
+    status = Status(length=ctypes.sizeof(Status))
+    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+    return status.available if done else None

@@ -1,0 +1,52 @@
+"""The script that draws docs/speed.md's pictures and counts what its table says, at a tiny size."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+PROJECT = Path(__file__).parent.parent
+
+
+def test_draw_culling(make, tmp_path: Path):
+    pytest.importorskip("matplotlib")
+    image = pytest.importorskip("PIL.Image")
+    from reference_tracer.scene_files import save_scene
+
+    # Two squares whose edges run through the centres of pixels, one behind the other.
+    camera = make.camera(16, 16, half=8, orthographic=True)
+    quads = make.quad(-4.5, 4.5, -4.5, 4.5, -5), make.quad(-4.5, 4.5, -4.5, 4.5, -6)
+    save_scene(tmp_path / "squares.npz", make.scene(camera, *quads))
+
+    script = PROJECT / "tools" / "draw_culling.py"
+    options = ["--width", "16", "--detail", "4", "--out", tmp_path]
+    done = subprocess.run(
+        [sys.executable, script, tmp_path / "squares.npz", *options], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    head, _, *rows = [
+        [v.strip() for v in line.strip("|").split("|")] for line in done.stdout.splitlines()
+    ]
+    assert [r[0] for r in rows] == ["`squares`", "a sphere", "64 spheres, one inside the other"]
+    squares, sphere, spheres = (
+        {k: float(v.replace(",", "")) for k, v in zip(head[1:], r[1:], strict=True)} for r in rows
+    )
+    # 10 x 10 pixels: those of the squares' four sides and of the diagonal, which all are left.
+    assert (squares["triangles"], squares["pixels left"]) == (4, 36 + 8)
+    assert squares["pixels decided"] == 256 - squares["pixels left"]
+    assert squares["by whole numbers"] == squares["pixels left"]
+    assert sphere["triangles"] == 20 * 4**4 and spheres["triangles"] == 64 * 20 * 4
+    assert 0 < squares["bound (median)"] < 1e-9
+    for found in sphere, spheres:
+        assert found["pixels decided"] + found["pixels left"] == 16 * 9
+        assert found["pairs tested"] <= found["pixels computed"]
+        assert (
+            found["not dropped whole"] <= found["with a pixel in their box"] <= found["triangles"]
+        )
+    for name in "culling", "slabs":
+        target = tmp_path / f"{name}.png"
+        assert target.stat().st_size <= 300_000
+        picture = np.asarray(image.open(target).convert("RGB"))
+        assert picture.shape[1] == 1920 and picture.std() > 20

@@ -1,0 +1,1 @@
+"""What `draw_culling.py` draws and counts, taken from the tracer's own sweep."""
