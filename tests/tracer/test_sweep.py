@@ -17,6 +17,7 @@ from reference_tracer.tracer import (
     settle,
     slabs,
     sweep,
+    triangle_boxes,
     verdict,
 )
 from reference_tracer.tracer.certainty import Certainty
@@ -106,6 +107,7 @@ def sizes(fine, coarse):
 
 DIVISIONS = {
     "triangles by ones": [(sweep, "_TRIANGLES", 1)],
+    "boxes by twos": [(triangle_boxes, "_TOGETHER", 2)],
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
     "one slab": [(slabs, "BINS", 2)],
     "few slabs": [(slabs, "BINS", 5)],
