@@ -25,7 +25,7 @@ from .sweep import world_corners
 _SAMPLE = 1 << 12  # triangles
 _CELLS = 128  # of rows: where the ends of what is seen are looked for
 # Measured on the scenes of the benchmark.
-_PIXEL, _PAIR, _TRIANGLE, _LOOK = 0.02, 0.005, 0.9, 0.1
+_PIXEL, _PAIR, _TRIANGLE, _LOOK = 0.02, 0.005, 0.9, 0.15
 _LOSS = 0.05  # of the time: what more bands may cost, so that nobody is the last for long
 _ROUNDS = 4  # bands that everybody takes, at most
 
