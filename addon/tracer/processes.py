@@ -165,32 +165,33 @@ class Workers:
         """Trace a scene into a frame, whose arrays are replaced by such as are shared.
 
         Yields the share of the work done, from 0 to 1. Whoever stops asking before the end, ends
-        the workers. What counts as time is the clock's, from when they have all started.
+        the workers. What counts as time is the clock's, but for waiting until all have started.
         """
         try:
             if not self._workers:
                 raise WorkerError("the workers have ended: start others")
-            yield from self.wait_until_ready()
             began = time.perf_counter()
-            yield from self._trace(scene, settings, frame)
+            settings = resolved(settings, frame.statistics)
+            job = self._job(scene, settings, frame)  # while they start
+            waiting = time.perf_counter()
+            yield from self.wait_until_ready()
+            began += time.perf_counter() - waiting
+            yield from self._trace(scene, job, frame)
             frame.statistics.seconds += time.perf_counter() - began
         except BaseException:
             self.close()
             raise
         yield 1.0
 
-    def _trace(self, scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
-        settings = resolved(settings, frame.statistics)
+    def _trace(self, scene: Scene, job: Job, frame: Frame) -> Iterator[float]:
         frame.statistics.triangles = scene.triangle_count
-        most_rows = bands(scene.camera, settings)[0].height
-        load, region = workload(scene), scene.camera.region
-        parts = even_bands(region, load, len(self._workers), most_rows)
-        waiting, busy = deque(range(len(parts))), set(self._workers[: len(parts)])
-        shares, done = [0.0] * len(parts), {}
-        job = self._job(scene, settings, frame)
+        busy = set(self._workers)
         for worker in busy:
             self._send(worker, job)
-        while busy:  # also those who come late, for whom nothing is left
+        region, most_rows = scene.camera.region, bands(scene.camera, job.settings)[0].height
+        parts = even_bands(region, workload(scene), len(busy), most_rows)  # while they prepare
+        waiting, shares, done = deque(range(len(parts))), [0.0] * len(parts), {}
+        while busy:  # also those for whom nothing is left
             for worker, message in self._messages():
                 if isinstance(message, float):
                     shares[worker.band] = message
