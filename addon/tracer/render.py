@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import shading
-from .camera import camera_rays, film_positions_of
+from .any_rays import trace_rays
+from .camera import Rays, camera_rays, film_positions_of
 from .certainty import AssumptionError, check_assumptions
 from .frame import Frame
 from .hits import NOTHING, Hits, Statistics
@@ -89,7 +90,12 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
             yield share
 
 
-def trace(scene: Scene, settings: Settings, statistics: Statistics | None = None) -> Hits:
+def trace(
+    scene: Scene,
+    settings: Settings,
+    statistics: Statistics | None = None,
+    rays: Rays | None = None,
+) -> Hits:
     """Return what the rays through the centres of the region's pixels meet, and nothing else.
 
     Parameters
@@ -99,14 +105,20 @@ def trace(scene: Scene, settings: Settings, statistics: Statistics | None = None
         Of which the samples do not count.
     statistics : Statistics, optional
         To count in.
+    rays : Rays, optional
+        Any rays, in their place; t counts in the camera's clip range, in lengths of a direction.
+        They are tested with every triangle, which takes as long as it sounds.
 
     Returns
     -------
     Hits
-        Of the region's pixels, row by row from the lowest.
+        Of the region's pixels, row by row from the lowest; or of the rays.
     """
     statistics = statistics or Statistics()
-    tracer = result_of(_tracer(scene, resolved(settings, statistics), 0.0, statistics))
+    settings = resolved(settings, statistics)
+    if rays:
+        return result_of(trace_rays(scene, rays, settings, statistics))
+    tracer = result_of(_tracer(scene, settings, 0.0, statistics))
     parts = bands(scene.camera, settings)
     return Hits.joined([result_of(tracer(band, 0.0, 0.0)) for band in parts])
 
