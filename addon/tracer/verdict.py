@@ -94,6 +94,7 @@ class Verdict:
                 names = piece.of(used)
                 triangles = WorldTriangles(world_corners(self._scene, *names), *names)
                 surfaces = Surfaces((), 0, triangles)
+            yield "rounding"
             prepared = Prepared(self._around, surfaces)
             for first in range(0, len(at), TOGETHER):
                 part = slice(first, first + TOGETHER)
