@@ -11,12 +11,13 @@ import numpy as np
 
 from ..scene import Scene
 from .camera import Rays
-from .candidates import Pairs, WorldTriangles, batches, world_triangles
+from .candidates import Pairs
 from .certified import Contest
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .visibility import PAIRS, test_pairs, test_planes
+from .world import WorldTriangles, batches, world_triangles
 
 
 def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:

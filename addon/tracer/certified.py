@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from . import exact
 from .bounds import Depths, FromPoint, Parallel, plane_depths
 from .camera import Rays
-from .candidates import Pairs, WorldTriangles
+from .candidates import Pairs
 from .certainty import Certainty
 from .hits import Hits, Statistics
 from .progress import Work, result_of
 from .rivals import CLIP, EDGE, SURE, Candidates, Surfaces
 from .settle import by_bound, by_numbers, by_order, by_ray
+from .world import WorldTriangles
 
 _PAIRS = 1 << 15  # that `nearest` tests at a time
 

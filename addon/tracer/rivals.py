@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from . import exact
 from .camera import Rays
-from .candidates import WorldTriangles
 from .hits import NOTHING
+from .world import WorldTriangles
 
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from .camera import Rays, camera_rays, film_positions_of
-from .candidates import Pairs, WorldTriangles
+from .candidates import Pairs
 from .certainty import Certainty
 from .certified import Contest
 from .depth_buffer import DepthBuffer
@@ -26,7 +26,7 @@ from .progress import Steps, named
 from .resolve import TOGETHER, Prepared
 from .rivals import Surfaces
 from .vector import gather
-from .world import world_corners
+from .world import WorldTriangles, world_corners
 
 _PAIRS = 1 << 15  # that a contest tests at a time
 

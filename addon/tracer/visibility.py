@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import Batch, Pairs, batches, pairs, pixel_bounds, within, world_triangles
+from .candidates import Pairs, pairs, pixel_bounds, within
 from .hits import NOTHING, Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .triangle import METHODS
 from .vector import Vectors
+from .world import Batch, batches, world_triangles
 
 PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up

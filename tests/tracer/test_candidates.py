@@ -7,12 +7,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Region, Scene
-from reference_tracer.tracer import candidates
+from reference_tracer.tracer import candidates, world
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.candidates import batches, pixel_bounds, within, world_triangles
+from reference_tracer.tracer.candidates import pixel_bounds, within
 from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.triangle import METHODS
 from reference_tracer.tracer.visibility import film_positions, within_clip
+from reference_tracer.tracer.world import batches, world_triangles
 
 from .hostile import hostile_camera, hostile_triangles
 
@@ -156,7 +157,7 @@ def forest(make, rng):
 
 @pytest.mark.parametrize("size", [1, 8, 50, 1 << 14])
 def test_batches_hold_every_triangle_once(size, forest, monkeypatch):
-    monkeypatch.setattr(candidates, "BATCH", size)
+    monkeypatch.setattr(world, "BATCH", size)
     names = []
     for batch in batches(forest):
         some = world_triangles(forest, batch, np.float64)
@@ -173,7 +174,7 @@ def test_vertices_are_bit_identical_whatever_the_batch(forest, monkeypatch):
     """A vertex that two triangles share is one point, and stays it in any batch."""
     known = {}
     for size in (1, 3, 10, 64, 1 << 14):
-        monkeypatch.setattr(candidates, "BATCH", size)
+        monkeypatch.setattr(world, "BATCH", size)
         for batch in batches(forest):
             some = world_triangles(forest, batch, np.float64)
             triangles = forest.meshes[batch.mesh].triangles

@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 from reference_tracer.tracer import certified
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.candidates import Pairs, WorldTriangles
+from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.certainty import Certainty
 from reference_tracer.tracer.certified import Contest, decide, nearest
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.reasons import Reason
+from reference_tracer.tracer.world import WorldTriangles
 
 from ..judge import EDGE, NONE, judge_pairs, sights
 from .rational import t_of

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.tracer import pieces as module
-from reference_tracer.tracer.candidates import Batch, has_sound_axes, world_triangles
+from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.film import Film
 from reference_tracer.tracer.instance_boxes import InstanceBoxes
 from reference_tracer.tracer.pieces import Piece, expand, pieces, refused
+from reference_tracer.tracer.world import Batch, world_triangles
 
 from ..judge import OUTSIDE, judge_pairs
 from .exact_film import ExactFilm

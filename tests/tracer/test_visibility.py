@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.tracer import (
-    candidates,
     cover,
     pieces,
     plane,
@@ -17,13 +16,14 @@ from reference_tracer.tracer import (
     sweep,
     verdict,
     visibility,
+    world,
 )
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.candidates import WorldTriangles
 from reference_tracer.tracer.settings import Method, Settings
 from reference_tracer.tracer.triangle import METHODS
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.visibility import NOTHING, film_positions
+from reference_tracer.tracer.world import WorldTriangles
 
 from ..judge import judge
 from .pictures import names_of
@@ -122,7 +122,7 @@ def test_certified_and_auto_against_exact_brute_force(mess):
 def test_the_division_of_the_work_does_not_matter(mess, settings, division, monkeypatch):
     whole = traced(mess, settings)
     for module, name, value in zip(
-        (visibility, candidates, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
+        (visibility, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
     ):
         monkeypatch.setattr(module, name, value)
     if settings in PROVEN:
