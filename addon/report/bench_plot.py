@@ -25,7 +25,10 @@ _LINES = (
     ("workbench_s", "Workbench", "#009e73", "D"),
     ("rtree_s", "trimesh's rtree", "#444444", "v"),
 )
-_STAGES = ("#7a3d9a", "#0072b2", "#009e73", "#e69f00", "#d55e00", "#56b4e9", "#b0723a")
+_STAGES = (
+    *("#7a3d9a", "#0072b2", "#009e73", "#e69f00", "#d55e00", "#56b4e9", "#b0723a", "#cc79a7"),
+    *("#4d4d4d", "#b8a9d9", "#8fd3bd"),
+)
 _OTHER = "#d9d9d9"
 _NAMES_TAKE = 0.72  # of the width that the lines have: room for the longest name
 
