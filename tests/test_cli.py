@@ -15,9 +15,10 @@ import OpenEXR
 import pytest
 import trimesh
 from PIL import Image
-from reference_tracer import __version__, cli, interrupts
+from reference_tracer import __version__, images, interrupts
 from reference_tracer.arguments import AGREE, INPUT_ERROR, INTERRUPTED, settings_from
 from reference_tracer.cli import main
+from reference_tracer.commands import trace as trace_command
 from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes, tradeoff
@@ -137,7 +138,7 @@ def test_interrupted_processes(ball, tmp_path, monkeypatch, capsys):
     def bar():
         yield lambda share: share > 0 and signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(cli, "progress_bar", bar)
+    monkeypatch.setattr(trace_command, "progress_bar", bar)
     before = set(multiprocessing.active_children())
     options = ["--processes", "2", "--samples", "8"]
     assert trace(ball, tmp_path / "new" / "b.png", *options) == INTERRUPTED
@@ -291,7 +292,7 @@ def refuse_memory(*args, **options):
 
 
 def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(cli, "render_with", refuse_memory)
+    monkeypatch.setattr(trace_command, "render_with", refuse_memory)
     assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
@@ -310,7 +311,9 @@ def swallow(*args, **options):
 def interrupted_work(monkeypatch):
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
-    monkeypatch.setattr(cli, "render_with", lambda *given: result_of(swallow(), given[-1]))
+    monkeypatch.setattr(
+        trace_command, "render_with", lambda *given: result_of(swallow(), given[-1])
+    )
 
 
 @pytest.mark.usefixtures("interrupted_work")
@@ -334,7 +337,7 @@ def test_interrupted_while_writing(ball, tmp_path, monkeypatch):
         path.write_bytes(b"half")
         signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr(cli.images, "save_png", half)
+    monkeypatch.setattr(images, "save_png", half)
     assert trace(ball, tmp_path / "b.png", "--method", "textbook_literal") == INTERRUPTED
     assert {p: p.read_bytes() for p in tmp_path.iterdir()} == before
 

@@ -1,0 +1,1 @@
+"""The commands of `reftrace`, one file each: `add` its options, `run` it."""

@@ -1,0 +1,56 @@
+"""What the commands of `reftrace` share."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..arguments import EXIT_CODES, Parser
+from ..images import MissingLibraryError
+
+Commands = Any  # what argparse's add_subparsers returns, which has no public name
+
+
+def command(
+    commands: Commands,
+    name: str,
+    run: Callable[[argparse.Namespace], int],
+    text: str,
+    example: str,
+    source: str | None = None,
+) -> Parser:
+    """Add a command and return its parser.
+
+    Parameters
+    ----------
+    commands
+        The parser's, from `add_subparsers`.
+    name, text, example : str
+        The last two are for its help.
+    run
+        Does the work, and returns the exit code.
+    source : str, optional
+        What its SCENE may be; without it, the command takes none.
+    """
+    parser = commands.add_parser(
+        name,
+        help=text,
+        description=text[0].upper() + text[1:] + ".",
+        epilog=f"example:\n  {example}\n\n{EXIT_CODES}",
+    )
+    parser.set_defaults(run=run)
+    if source:
+        parser.add_argument("scene", type=Path, metavar="SCENE", help=source)
+    return parser
+
+
+def write_study(directory: str, write: Callable[[], None]) -> None:
+    """Write a study; where pictures need a library that is not there, say so and do without."""
+    try:
+        write()
+    except MissingLibraryError as error:
+        print(f"reftrace: {error}", file=sys.stderr)
+    print(f"written to {directory}")

@@ -1,0 +1,59 @@
+"""`reftrace trace`: a scene or a mesh -> a picture."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from .. import images
+from ..arguments import add_camera, add_processes, add_settings, settings_from
+from ..opening import SOURCES, load
+from ..report import folders
+from ..report.progress_bar import progress_bar
+from ..scene import SceneError
+from ..tracer.processes import render_with
+from .parts import Commands, command
+
+_PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
+
+
+def add(commands: Commands) -> None:
+    """Add the command."""
+    parser = command(
+        commands,
+        "trace",
+        run,
+        "trace a scene or a mesh into a picture",
+        "reftrace trace mesh.ply --out mesh.png --width 800",
+        SOURCES,
+    )
+    parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
+    add_settings(parser)
+    add_processes(parser)
+    add_camera(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Trace, and write the picture."""
+    suffix = options.out.suffix.lower()
+    if suffix not in (".png", ".exr"):
+        raise SceneError(f"'{options.out}' must end in .png or .exr")
+    with folders.made_for_file(options.out):
+        scene, stored = load(options)
+        settings = settings_from(options, stored)
+        with progress_bar() as progress:
+            frame = render_with(scene, settings, options.processes, progress)
+        with folders.replacing_file(options.out) as new:
+            if suffix == ".png":
+                images.save_png(new, images.to_display(frame.color))
+            else:
+                images.save_exr(new, frame.passes())
+    s = frame.statistics
+    print(
+        f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
+        f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({s.method}, "
+        f"{settings.precision.value}): {options.out}"
+    )
+    for line in s.required():
+        print(line)
+    return 0

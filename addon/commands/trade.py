@@ -1,0 +1,50 @@
+"""`reftrace trade`: what every way of tracing costs on a scene."""
+
+from __future__ import annotations
+
+import argparse
+from contextlib import nullcontext
+from pathlib import Path
+
+from .. import images
+from ..arguments import add_camera, settings_from
+from ..opening import SOURCES, load
+from ..report import folders
+from ..report.progress_bar import progress_bar
+from ..tracer.progress import result_of
+from ..tracer.settings import Settings
+from .parts import Commands, command, write_study
+
+
+def add(commands: Commands) -> None:
+    """Add the command."""
+    parser = command(
+        commands,
+        "trade",
+        run,
+        "measure what every method, precision, number of samples and size costs on a scene",
+        "reftrace trade sample_scenes/suzanne.blend --out out/",
+        SOURCES,
+    )
+    parser.add_argument("--out", metavar="DIR", help="folder for the table, JSON and plot")
+    parser.add_argument(
+        "--samples", type=int, metavar="N", help="measure up to N x N rays a pixel (default 4)"
+    )
+    add_camera(parser, width=160, height=90, of_scenes=True)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Measure, and print the table."""
+    from ..report import trade as report
+    from ..study import tradeoff
+
+    with folders.made(Path(options.out)) if options.out else nullcontext():
+        scene, _ = load(options)
+        samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
+        with progress_bar() as progress:
+            work = tradeoff.measure(scene, options.width, samples, options.scene.name)
+            trade = result_of(work, progress)
+        print(report.table(trade))
+        if options.out:
+            write_study(options.out, lambda: report.write(options.out, trade, images.save_png))
+    return 0
