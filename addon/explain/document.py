@@ -5,76 +5,22 @@ In comes a `Derivation`; out goes a list of blocks, which hold text and no marku
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ..images import to_display
 from .answers import SENTENCES as CERTAINTIES
 from .arithmetic import FLOATS, Arithmetic
-from .derivation import Derivation, Quantity, Test
-from .digits import Parts, exact_text, marked, off_text, text, ulps
-from .formulas import ERRATA, component_labels
+from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
+from .derivation import Derivation, Test
+from .digits import text
+from .formulas import ERRATA
 from .judgement import SENTENCES as REASONS
 from .judgement import Judgement
 
-
-@dataclass(frozen=True)
-class Heading:
-    """A title, of level 1 to 3."""
-
-    level: int
-    text: str
-
-
-@dataclass(frozen=True)
-class Paragraph:
-    """Sentences; `tone` is "", "answer" (the result), "note" or "warning"."""
-
-    text: str
-    tone: str = ""
-
-
-@dataclass(frozen=True)
-class Table:
-    """Rows of text below a head."""
-
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-@dataclass(frozen=True)
-class Row:
-    """A number: its label and formula, and for each float its digits and its error in ulp."""
-
-    label: str
-    formula: str
-    remark: str
-    floats: tuple[tuple[Parts, str], ...]
-    exact: str
-
-
-@dataclass(frozen=True)
-class Numbers:
-    """Numbers below one another, in float32, float64 and exactly."""
-
-    rows: tuple[Row, ...]
-
-
-@dataclass(frozen=True)
-class Swatch:
-    """A colour to look at: sRGB as #rrggbb, and the text beside it."""
-
-    srgb: str
-    text: str
-
-
-Block = Heading | Paragraph | Table | Numbers | Swatch
-
 READING = (
     "How to read the tables: every number is computed three times, from the same input and by the "
-    "same formula: in float32, in float64, and exactly, with fractions of whole numbers. Marked "
-    "digits are wrong. “off” is the error in ulp, units in the last place: a number that is as good "
-    "as its type allows is off by 0.5 at most. An exact number that ends in … has more digits (the "
-    "JSON has it whole, as a fraction)."
+    "same formula: in float32, in float64, and exactly, with fractions of whole numbers. A float "
+    "is written with as many digits as tell it from its neighbours; marked ones are wrong. “off” is the error in ulp, units in the last place: a number that is as "
+    "good as its type allows is off by 0.5 at most. An exact number that ends in … has more digits "
+    "(the JSON has it whole, as a fraction)."
 )
 
 
@@ -147,7 +93,8 @@ def _candidates(derivation: Derivation) -> list[Block]:
     planes = len(tests) - triangles
     lines = [
         f"Of {pixel.triangles:,} triangles in the scene, {triangles + pixel.left_out:,} have a box "
-        "on the film that holds the pixel's centre, before the eye or behind it; no other can be met."
+        "on the film that holds the pixel's centre, before the eye or behind it; no other can be "
+        "met."
     ]
     if pixel.left_out:
         lines.append(
@@ -266,18 +213,3 @@ def _certain(derivation: Derivation) -> list[Block]:
         names = "; ".join(sorted(derivation.title_of(n) for n in certified.ties))
         out.append(Paragraph(f"All that this pixel may be said to see: {names}.", "warning"))
     return out
-
-
-def numbers(quantities: tuple[Quantity, ...]) -> Numbers:
-    """Return a table of numbers, a row for each component."""
-    rows = []
-    for q in quantities:
-        labels = component_labels(q.formula, q.count)
-        for k, label in enumerate(labels):
-            exact = q.exact(k)
-            values = [q.values[kind][k] for kind in FLOATS]
-            floats = tuple((marked(v, exact), off_text(ulps(v, exact))) for v in values)
-            formula, remark = (q.formula.right, q.formula.remark) if k == 0 else ("", "")
-            truth = "undefined" if exact is None else exact_text(exact)
-            rows.append(Row(label, formula, remark, floats, truth))
-    return Numbers(tuple(rows))

@@ -18,6 +18,10 @@ class Formula(NamedTuple):
     right: str = ""
     remark: str = ""
 
+    def __str__(self) -> str:
+        right = f" = {self.right}" if self.right else ""
+        return f"{self.label}{right}{self.remark and f' ({self.remark})'}"
+
 
 CAMERA = {
     "left": Formula("u_min", "", "view window, at depth 1 (perspective) or in metres"),
@@ -80,12 +84,12 @@ COLOR = {
 }
 
 ERRATA = (
-    "nₛ₂ is 0 on the edge p₁p₂ and nₛ₃ on the edge p₃p₁. So s₂ as the textbook prints it weighs p₃, "
-    "and s₃ weighs p₂: the opposite of x = s₁ p₁ + s₂ p₂ + s₃ p₃. Constant shading never shows it; "
-    "colours between corners would. Here sᵢ weighs pᵢ.",
-    "x cancels out of nₛ₁ + nₛ₂ + nₛ₃, so s₁ + s₂ + s₃ = 1 always holds exactly and says nothing. In "
-    "floating point, rounding makes the printed test fail for about every second hit. The repaired "
-    "test allows the sum 10⁻⁶ in float32 and 10⁻⁹ in float64.",
+    "nₛ₂ is 0 on the edge p₁p₂ and nₛ₃ on the edge p₃p₁. So s₂ as the textbook prints it weighs "
+    "p₃, and s₃ weighs p₂: the opposite of x = s₁ p₁ + s₂ p₂ + s₃ p₃. Constant shading never shows "
+    "it; colours between corners would. Here sᵢ weighs pᵢ.",
+    "x cancels out of nₛ₁ + nₛ₂ + nₛ₃, so s₁ + s₂ + s₃ = 1 always holds exactly and says nothing. "
+    "In floating point, rounding makes the printed test fail for about every second hit. The "
+    "repaired test allows the sum 10⁻⁶ in float32 and 10⁻⁹ in float64.",
 )
 
 

@@ -10,9 +10,10 @@ from __future__ import annotations
 from functools import singledispatch
 from html import escape
 
+from .blocks import Block, Heading, Numbers, Paragraph, Row, Swatch, Table
 from .derivation import Derivation
 from .digits import Parts
-from .document import Block, Heading, Numbers, Paragraph, Row, Swatch, Table, blocks
+from .document import blocks
 from .formulas import Formula
 from .mathml import math
 
@@ -29,7 +30,8 @@ STYLE = """
 .derivation table { border-collapse: collapse; font-size: .92em; }
 .derivation th, .derivation td { text-align: left; padding: .18em .9em .18em 0;
   vertical-align: baseline; white-space: nowrap; }
-.derivation thead th { color: var(--muted); font-weight: 400; border-bottom: 1px solid var(--muted); }
+.derivation thead th { color: var(--muted); font-weight: 400;
+  border-bottom: 1px solid var(--muted); }
 .derivation tbody th { font-weight: 400; padding-right: 1.6em; }
 .derivation-first th, .derivation-first td { padding-top: .55em; }
 .derivation-number { font-family: ui-monospace, Consolas, "DejaVu Sans Mono", monospace;
@@ -106,7 +108,7 @@ def _cells(row: tuple[str, ...]) -> str:
 
 @_block.register
 def _(block: Numbers) -> str:
-    head = "", "float32", "off", "float64", "off", "exact"
+    head = "", "", "float32", "off", "float64", "off", "exact"
     return _table(head, (_number(row) for row in block.rows))
 
 
@@ -120,15 +122,18 @@ def _table(head: tuple[str, ...], rows) -> str:
 
 
 def _number(row: Row) -> str:
-    first = "" if row.label.endswith((".y", ".z")) else ' class="derivation-first"'
-    remark = f'<span class="derivation-remark">{escape(row.remark)}</span>' if row.remark else ""
+    first, shown = "", ""
+    if row.formula:
+        first = ' class="derivation-first"'
+        shown = math(row.formula)
+        if row.formula.remark:
+            shown += f'<span class="derivation-remark">{escape(row.formula.remark)}</span>'
     cells = "".join(
         f'<td class="derivation-number">{_marked(parts)}</td><td class="derivation-off">{off}</td>'
         for parts, off in row.floats
     )
-    shown = math(Formula(row.label, row.formula), row.label)
     return (
-        f"<tr{first}><th>{shown}{remark}</th>{cells}"
+        f"<tr{first}><th>{shown}</th><td>{math(Formula(row.label))}</td>{cells}"
         f'<td class="derivation-number">{row.exact}</td></tr>'
     )
 

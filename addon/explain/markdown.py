@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from functools import singledispatch
 
+from .blocks import Block, Heading, Numbers, Paragraph, Swatch, Table
 from .derivation import Derivation
 from .digits import Parts
-from .document import Block, Heading, Numbers, Paragraph, Swatch, Table, blocks
+from .document import blocks
 
 _ESCAPED = re.compile(r"([\\`*_{}\[\]<>|#~])")
 _HEAD = "| | | float32 | off | float64 | off | exact |\n|---|---|---|--:|---|--:|---|"
@@ -55,10 +56,7 @@ def _cell(plain: str) -> str:
 def _(block: Numbers) -> str:
     lines = [_HEAD]
     for row in block.rows:
-        left = f"= {row.formula}" if row.formula else ""
-        if row.remark:
-            left += f" ({row.remark})"
-        cells = [row.label, left.strip()]
+        cells = [str(row.formula or ""), row.label]
         for parts, off in row.floats:
             cells += [_marked(parts), off]
         lines.append(f"| {' | '.join([*cells, row.exact])} |")

@@ -11,16 +11,16 @@ from html import escape
 
 from .formulas import VECTORS, Formula
 
-_TOKEN = re.compile(r"([A-Za-z]+)(?:([ₓₛᵢ₁₂₃]+)|_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
-_INDEX = str.maketrans("ₓₛᵢ₁₂₃", "xsi123")
+_TOKEN = re.compile(r"([A-Za-z]+)([ₛᵢ₁₂₃]+)?(?:_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
+_INDEX = str.maketrans("ₛᵢ₁₂₃", "si123")
 
 
-def math(formula: Formula, label: str) -> str:
+def math(formula: Formula) -> str:
     """Return `label = right side`, or the label alone where a number is given."""
-    inner = inline(label)
+    inner = inline(formula.label)
     if formula.right:
         inner += f"<mo>=</mo>{_right(formula.right)}"
-    return f"<math>{inner}</math>"
+    return f'<math displaystyle="true">{inner}</math>'
 
 
 def _right(text: str) -> str:
@@ -44,7 +44,7 @@ def inline(text: str) -> str:
     for token in _TOKEN.finditer(text):
         word, small, index, component, number, square, bars, operator = token.groups()
         if word:
-            out.append(_word(word, (small or "").translate(_INDEX) or index or component))
+            out.append(_word(word, [(small or "").translate(_INDEX), index or component]))
         elif number:
             out.append(f"<mn>{number}</mn>")
         elif square:
@@ -52,14 +52,16 @@ def inline(text: str) -> str:
         elif bars:
             out.append("<mo>‖</mo>")
         else:
-            out.append(f"<mo>{escape(operator)}</mo>")
+            still = ' stretchy="false"' if operator in "()" else ""
+            out.append(f"<mo{still}>{escape(operator)}</mo>")
     return "".join(out)
 
 
-def _word(word: str, index: str | None) -> str:
+def _word(word: str, indices: list[str | None]) -> str:
     kind = ' class="derivation-vector"' if word in VECTORS else ""
     letter = f"<mi{kind}>{word}</mi>"
-    return f"<msub>{letter}<mi>{index}</mi></msub>" if index else letter
+    below = "".join(f"<mi>{index}</mi>" for index in indices if index)
+    return f"<msub>{letter}<mrow>{below}</mrow></msub>" if below else letter
 
 
 def _last_group(out: list[str]) -> str:

@@ -7,8 +7,8 @@ float64 these numbers are the tracer's own, to the last bit, and a test holds th
     camera      u = u_min + X w,  v = v_min + Y h,  d = u right + v up + forward
     plane       t = −((o − p) · n) / (d · n)
     triangle    n = (p₃ − p₁) × (p₂ − p₁),  t = −((o − p₁) · n) / (d · n),  x = o + t d
-                n_s1 = (p₂ − p₃) × (x − p₃)  n_s2 = (p₁ − p₂) × (x − p₂)  n_s3 = (p₃ − p₁) × (x − p₁)
-                s₁ = n · n_s1 / ‖n‖²,  s₂ = n · n_s3 / ‖n‖²,  s₃ = n · n_s2 / ‖n‖²
+                nₛ₁ = (p₂ − p₃) × (x − p₃), nₛ₂ = (p₁ − p₂) × (x − p₂), nₛ₃ = (p₃ − p₁) × (x − p₁)
+                s₁ = n · nₛ₁ / ‖n‖²,  s₂ = n · nₛ₃ / ‖n‖²,  s₃ = n · nₛ₂ / ‖n‖²
 
 The last line has the textbook's first erratum mended: see `formulas.ERRATA`.
 """
