@@ -5,7 +5,7 @@ Stored is what tracing finds. What follows from it is computed when it is asked 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -58,7 +58,7 @@ class Frame:
             scene,
             np.zeros((h, w, 4), np.float32),
             np.full((h, w), np.inf),
-            np.moveaxis(np.zeros((3, h, w)), 0, -1),  # stored as `Hits` has them
+            _vectors(h, w),
             *(np.full((h, w), NOTHING, np.int32) for _ in range(2)),
             np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
             np.zeros(h, bool),
@@ -67,18 +67,12 @@ class Frame:
     @property
     def position(self) -> NDArray[np.float64]:
         """Where each ray ends in world space, (h, w, 3) metres; zero where nothing is hit."""
-        out = np.empty((*self.t.shape, 3))
-        for rows in self._parts():
-            out[rows] = self.positions(rows).reshape(out[rows].shape)
-        return out
+        return self._by_rows(self.positions)
 
     @property
     def normal(self) -> NDArray[np.float64]:
         """Geometric unit normals in world space, (h, w, 3), as `shading.normals` has them."""
-        out = np.empty((*self.t.shape, 3))
-        for rows in self._parts():
-            out[rows] = shading.normals(self.scene, self.hits(rows)).reshape(out[rows].shape)
-        return out
+        return self._by_rows(lambda rows: shading.normals(self.scene, self.hits(rows)))
 
     @property
     def object_index(self) -> NDArray[np.int32]:
@@ -99,12 +93,15 @@ class Frame:
         film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
         return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
 
-    def _parts(self) -> Iterator[slice]:
-        """Yield some rows after others."""
+    def _by_rows(self, of: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
         height, width = self.t.shape
+        out = _vectors(height, width)
         together = max(1, _PIXELS // width)
         for y in range(0, height, together):
-            yield slice(y, min(y + together, height))
+            rows = slice(y, min(y + together, height))
+            out[rows] = of(rows).reshape(-1, width, 3)
+        return out
 
     @property
     def depth(self) -> NDArray[np.float64]:
@@ -159,3 +156,8 @@ class Frame:
             "rows_done",
         )
         return {name: getattr(self, name) for name in names}
+
+
+def _vectors(height: int, width: int) -> NDArray[np.float64]:
+    """Return zeros, (h, w, 3), each component by itself in memory, as the tracer has vectors."""
+    return np.moveaxis(np.zeros((3, height, width)), 0, -1)
