@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import Comparison
+from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
 from ..report import extremes as extremes_report
 from ..report import trade_plot
@@ -30,7 +31,7 @@ class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
     file: str
-    content: Comparison | Trade | tuple[BreakingPoint, ...]
+    content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...]
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
 
@@ -63,6 +64,11 @@ def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
     return _keep(BreakingPoint, tuple(breaking_points(rows)), lines)
 
 
+def keep_derivation(scene: Any, derivation: Derivation, sentence: str) -> Result:
+    """Remember the derivation of a pixel of a scene."""
+    return _keep(Derivation, derivation, [sentence], scene.name)
+
+
 def _show_plots(
     context: Any, plots: Callable[[], Iterable[tuple[str, NDArray[np.uint8]]]], command: str
 ) -> list[str]:
@@ -92,7 +98,7 @@ def latest(kind: type, scene: Any) -> Result | None:
 
     Parameters
     ----------
-    kind : {Comparison, Trade, BreakingPoint}
+    kind : {Comparison, Derivation, Trade, BreakingPoint}
     scene : bpy.types.Scene
     """
     found = _latest.get(kind)

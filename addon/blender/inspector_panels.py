@@ -1,0 +1,123 @@
+"""The inspector's panels: in the Render properties, and in the sidebars of 3D view and images."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..explain.answers import SENTENCES
+from ..explain.arithmetic import Arithmetic
+from ..explain.derivation import Derivation, Test
+from ..explain.digits import exact_text, marked, off_text, text, ulps
+from ..explain.judgement import SENTENCES as REASONS
+from . import results
+from .inspector import REFERENCE_TRACER_OT_inspect
+from .panel_parts import NARROW, Properties, Sidebar, table, wrapped
+from .pixel_operators import (
+    TEXT,
+    REFERENCE_TRACER_OT_draw_ray,
+    REFERENCE_TRACER_OT_remove_ray,
+    REFERENCE_TRACER_OT_save_pixel,
+)
+
+_KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
+
+
+class _Inspector:
+    bl_label = "Pixel Inspector"
+
+    def draw(self, context: Any) -> None:
+        """Draw the buttons, and the latest pixel's key numbers."""
+        layout = self.layout
+        on = REFERENCE_TRACER_OT_inspect.running
+        layout.operator(
+            REFERENCE_TRACER_OT_inspect.bl_idname,
+            icon="EYEDROPPER",
+            text="Click a Pixel (Esc: End)" if on else None,
+            depress=on,
+        )
+        layout.prop(context.window_manager.reference_tracer_inspector, "draw_ray")
+        row = layout.row(align=True)
+        row.operator(REFERENCE_TRACER_OT_draw_ray.bl_idname, text="Draw", icon="LIGHT_SPOT")
+        row.operator(REFERENCE_TRACER_OT_remove_ray.bl_idname, text="Remove", icon="TRASH")
+        row.operator(REFERENCE_TRACER_OT_save_pixel.bl_idname, text="Save", icon="FILE_TICK")
+        found = results.latest(Derivation, context.scene)
+        if found:
+            _draw(layout, context, found.content, found.lines[0])
+
+
+def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
+    pixel = derivation.pixel
+    box = layout.box()
+    box.label(text=f"Pixel ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
+    wrapped(box, context, said)
+    wrapped(box, context, f"This is {SENTENCES[derivation.certified.certainty]}.")
+    seen = next((t for t in derivation.tests if t.candidate is derivation.seen), None)
+    if seen:
+        _numbers(layout.box(), seen)
+    box = layout.box()
+    box.label(text=f"Tested: {len(derivation.tests)}" + _left_out(derivation))
+    for number, test in enumerate(derivation.tests, 1):
+        judged = test.judgements[Arithmetic.EXACT]
+        icon = "CHECKMARK" if judged.accepted else "X"
+        box.label(text=f"2.{number} {test.candidate.title}", icon=icon)
+        for reason in judged.reasons[:1]:
+            wrapped(box, context, REASONS[reason], "BLANK1")
+    wrapped(layout, context, f"All of it is in the text '{TEXT}'.", "TEXT")
+
+
+def _left_out(derivation: Derivation) -> str:
+    left = derivation.pixel.left_out
+    return f", {left:,} more left out" if left else ""
+
+
+def _numbers(layout: Any, test: Test) -> None:
+    """Draw the key numbers of what is seen: as they are in float32, float64 and exactly."""
+    quantities = {q.key: q for q in test.quantities}
+    for key in (k for k in _KEYS if k in quantities):
+        quantity = quantities[key]
+        exact = quantity.exact(0)
+        column = layout.column(align=True)
+        column.scale_y = 0.8
+        column.label(text=quantity.formula.label)
+        rows = []
+        for kind in (Arithmetic.FLOAT32, Arithmetic.FLOAT64):
+            value = quantity.values[kind][0]
+            parts = marked(value, exact)
+            wrong = f"{parts.right}[{parts.wrong}]{parts.exponent}" if parts.wrong else text(value)
+            rows.append((kind.value, wrong, f"{off_text(ulps(value, exact))} ulp"))
+        rows.append(("exact", "–" if exact is None else exact_text(exact)[:20], ""))
+        table(column, rows, NARROW / 1.5)
+
+
+class RENDER_PT_reference_tracer_inspector(Properties, _Inspector, bpy.types.Panel):
+    bl_parent_id = "RENDER_PT_reference_tracer"
+    bl_options = {"DEFAULT_CLOSED"}
+
+
+class VIEW3D_PT_reference_tracer_inspector(Sidebar, _Inspector, bpy.types.Panel):
+    bl_parent_id = "VIEW3D_PT_reference_tracer"
+
+
+class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
+    bl_space_type, bl_region_type, bl_category = "IMAGE_EDITOR", "UI", "Reference Tracer"
+
+
+CLASSES = (
+    RENDER_PT_reference_tracer_inspector,
+    VIEW3D_PT_reference_tracer_inspector,
+    IMAGE_PT_reference_tracer_inspector,
+)
+
+
+def register() -> None:
+    """Register the panels, below those of `panels.py`."""
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)
