@@ -9,11 +9,11 @@ import bpy
 from ..explain.answers import SENTENCES
 from ..explain.arithmetic import Arithmetic
 from ..explain.derivation import Derivation, Test
-from ..explain.digits import exact_text, marked, off_text, text, ulps
+from ..explain.digits import exact_text, marked, off_text, ulps
 from ..explain.judgement import SENTENCES as REASONS
 from . import results
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .panel_parts import NARROW, Properties, Sidebar, table, wrapped
+from .panel_parts import Properties, Sidebar, wrapped
 from .pixel_operators import (
     TEXT,
     REFERENCE_TRACER_OT_draw_ray,
@@ -61,10 +61,15 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
     for number, test in enumerate(derivation.tests, 1):
         judged = test.judgements[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
-        box.label(text=f"2.{number} {test.candidate.title}", icon=icon)
+        box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:
             wrapped(box, context, REASONS[reason], "BLANK1")
     wrapped(layout, context, f"All of it is in the text '{TEXT}'.", "TEXT")
+
+
+def _t(test: Test) -> str:
+    t = next((q.values[Arithmetic.EXACT] for q in test.quantities if q.key == "t"), ())
+    return f", t = {float(t[0]):.6g}" if t else ""
 
 
 def _left_out(derivation: Derivation) -> str:
@@ -73,22 +78,35 @@ def _left_out(derivation: Derivation) -> str:
 
 
 def _numbers(layout: Any, test: Test) -> None:
-    """Draw the key numbers of what is seen: as they are in float32, float64 and exactly."""
+    """Draw the key numbers of what is seen; wrong digits are in brackets."""
     quantities = {q.key: q for q in test.quantities}
-    for key in (k for k in _KEYS if k in quantities):
-        quantity = quantities[key]
-        exact = quantity.exact(0)
+    for quantity in (quantities[key] for key in _KEYS if key in quantities):
         column = layout.column(align=True)
         column.scale_y = 0.8
-        column.label(text=quantity.formula.label)
-        rows = []
-        for kind in (Arithmetic.FLOAT32, Arithmetic.FLOAT64):
+        _number(column, quantity.formula.label, "", "ulp")
+        exact = quantity.exact(0)
+        for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
             value = quantity.values[kind][0]
-            parts = marked(value, exact)
-            wrong = f"{parts.right}[{parts.wrong}]{parts.exponent}" if parts.wrong else text(value)
-            rows.append((kind.value, wrong, f"{off_text(ulps(value, exact))} ulp"))
-        rows.append(("exact", "–" if exact is None else exact_text(exact)[:20], ""))
-        table(column, rows, NARROW / 1.5)
+            right, wrong, exponent = marked(value, exact)
+            shown = f"{right}[{wrong}]{exponent}" if wrong else right
+            _number(column, name, shown, off_text(ulps(value, exact)))
+        _number(column, "exact", "undefined" if exact is None else exact_text(exact), "")
+
+
+def _number(layout: Any, name: str, value: str, off: str) -> None:
+    """Draw a number with its error; an exact one may be longer than there is room."""
+    if not value:  # a head
+        split = layout.split(factor=0.8)
+        split.label(text=name)
+        split.label(text=off)
+        return
+    split = layout.split(factor=0.15)
+    split.label(text=name)
+    if off:
+        split = split.split(factor=0.765)
+    split.label(text=value)
+    if off:
+        split.label(text=off)
 
 
 class RENDER_PT_reference_tracer_inspector(Properties, _Inspector, bpy.types.Panel):

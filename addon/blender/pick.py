@@ -58,21 +58,21 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
     image, camera = space.image, export_camera(context.scene)
     if image is None:
         raise SceneError("No image is open here: open the render, or one of the comparison's")
-    u, v = region.view2d.region_to_view(x, y)
+    u, v = region.view2d.region_to_view(x + 0.5, y + 0.5)  # the middle of a screen's pixel
     if not (0 <= u < 1 and 0 <= v < 1):
         raise SceneError(f"That is outside of the image '{image.name}'")
-    width, height = size = tuple(image.size)
-    own, whole = (camera.region.width, camera.region.height), (camera.width, camera.height)
-    if image.type == "RENDER_RESULT" and size in ((0, 0), whole):  # Blender may not say its size
+    if image.type == "RENDER_RESULT":  # Blender doesn't say how large it is
+        if context.scene.render.use_crop_to_border:
+            return Pick(int(u * camera.region.width), int(v * camera.region.height), "RENDER")
         return _within(camera, u, v, "RENDER")
+    width, height = size = tuple(image.size)
+    own = camera.region.width, camera.region.height
     if size != own:
         raise SceneError(
             f"The image '{image.name}' has {width} x {height} pixels, the picture {own[0]} x "
             f"{own[1]}: it is of something else, or the resolution has changed since"
         )
-    source = "RENDER" if image.type == "RENDER_RESULT" else "SCENE"
-    if image.get(images.MARK) in _OURS:
-        source = "COMPARISON"
+    source = "COMPARISON" if image.get(images.MARK) in _OURS else "SCENE"
     return Pick(int(u * width), int(v * height), source)
 
 
@@ -95,7 +95,7 @@ def _of_view(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
     if any(place is None for place in shown):
         raise SceneError("The camera's frame is not in this view")
     low, high = np.min(shown, axis=0), np.max(shown, axis=0)
-    u, v = (np.array((x + 0.5, y + 0.5)) - low) / (high - low)  # the middle of a screen's pixel
+    u, v = (np.array((x + 0.5, y + 0.5)) - low) / (high - low)
     if not (0 <= u < 1 and 0 <= v < 1):
         raise SceneError("That is outside of the camera's frame")
     return _within(camera, u, v, "SCENE")

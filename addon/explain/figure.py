@@ -20,11 +20,14 @@ RAY: Color = (1.0, 0.55, 0.0, 1.0)
 HIT: Color = (1.0, 1.0, 1.0, 1.0)
 WEIGHTS: tuple[Color, ...] = ((0.9, 0.1, 0.1, 1.0), (0.1, 0.7, 0.15, 1.0), (0.1, 0.25, 0.95, 1.0))
 ACCEPTED: Color = (0.05, 0.75, 0.85, 1.0)
+GLASS: Color = (0.05, 0.75, 0.85, 0.25)
 REJECTED: Color = (0.6, 0.6, 0.6, 1.0)
 
-# As seen from the eye, in lengths at depth 1: a ray is a cone that begins there, so that it is
-# equally thin wherever it goes, some pixels wide.
+# Radii as seen from the eye, in lengths at depth 1: a ray is a cone that begins there, so that it
+# is equally thin wherever it goes, some pixels wide. And at most so much of the triangle that is
+# seen, which they must not hide.
 _THIN, _DOT, _SMALL_DOT = 0.0012, 0.004, 0.0025
+_OF_TRIANGLE = 0.05
 _LIFT = 5e-4  # how far the weights lie before their triangle, for both to be seen
 _MARGIN = 0.15  # around what a piece of a plane has to hold
 _SIDES = 8
@@ -48,18 +51,26 @@ def shapes(derivation: Derivation) -> list[Shape]:
     o, d = pixel.origin, pixel.direction
     end = _end(derivation)
     size = max(end, 1e-30)
-    out = [_cone("Ray", o, o + end * d, _THIN * size, RAY)]
+    largest = _OF_TRIANGLE * _extent(derivation)
+    out = [_cone("Ray", o, o + end * d, min(_THIN * size, largest / 2), RAY)]
     for number, test in enumerate(derivation.tests, 1):
         t = _t(test)
         is_seen = test.candidate is derivation.seen
         near = t is not None and abs(t) <= 3 * size
         if near and is_seen:
-            out.append(_dot("Hit", o + t * d, _DOT * abs(t), HIT))
+            out.append(_dot("Hit", o + t * d, min(_DOT * abs(t), largest), HIT))
             out += _weights(derivation, test, t)
         elif near:
             out.append(_dot(f"2.{number} x", o + t * d, _SMALL_DOT * abs(t), _color(test)))
-        out += _surface(test, f"2.{number}", o + t * d if near else None, 0.25 * size)
+        x = o + t * d if near else None
+        out += _surface(test, f"2.{number}", x, 0.25 * size, -_LIFT / 2 * d if is_seen else None)
     return out
+
+
+def _extent(derivation: Derivation) -> float:
+    """Return the size of the triangle that is seen, inf where none is."""
+    seen = derivation.seen
+    return float(np.ptp(seen.points, axis=0).max()) if seen and not seen.is_plane else np.inf
 
 
 def _end(derivation: Derivation) -> float:
@@ -103,8 +114,13 @@ def _weights(derivation: Derivation, test: Test, t: float) -> list[Shape]:
     return out
 
 
-def _surface(test: Test, name: str, x: NDArray | None, size: float) -> list[Shape]:
-    """Return a triangle's outline, and a piece of its plane that holds it and x."""
+def _surface(
+    test: Test, name: str, x: NDArray | None, size: float, lift: NDArray | None
+) -> list[Shape]:
+    """Return a triangle's outline, and a piece of its plane that holds it and x.
+
+    That of what is seen, which has a lift, is a pane of glass; all others are their edges.
+    """
     candidate, color = test.candidate, _color(test)
     points = candidate.points[:1] if candidate.is_plane else candidate.points
     out = []
@@ -116,7 +132,11 @@ def _surface(test: Test, name: str, x: NDArray | None, size: float) -> list[Shap
         least = size if candidate.is_plane else 0.0
         corners = _piece(np.array(_normal(test)), around, least)
         edges = [(0, 1), (1, 2), (2, 3), (3, 0)]
-        out.append(Shape(f"{name} plane of {candidate.object}", corners, edges, [], color))
+        title = f"{name} plane of {candidate.object}"
+        if lift is None:
+            out.append(Shape(title, corners, edges, [], color))
+        else:
+            out.append(Shape(title, corners + (_t(test) or 0) * lift, [], [(0, 1, 2, 3)], GLASS))
     return out
 
 
@@ -145,9 +165,10 @@ def _cone(name: str, start: NDArray, end: NDArray, radius: float, color: Color) 
     u, v = _across(end - start)
     angles = 2 * np.pi * np.arange(_SIDES) / _SIDES
     ring = [end + radius * (np.cos(a) * u + np.sin(a) * v) for a in angles]
+    middle = _SIDES + 1  # a line by itself is drawn however thin the cone is
     faces: list[tuple[int, ...]] = [(0, 1 + k, 1 + (k + 1) % _SIDES) for k in range(_SIDES)]
     faces.append(tuple(range(_SIDES, 0, -1)))
-    return Shape(name, np.array([start, *ring]), [(0, 1)], faces, color, True)
+    return Shape(name, np.array([start, *ring, end]), [(0, middle)], faces, color, True)
 
 
 def _dot(name: str, center: NDArray, radius: float, color: Color) -> Shape:
