@@ -15,7 +15,7 @@ import numpy as np
 from .arithmetic import Number
 
 EXACT_DIGITS = 24  # significant: a float64 has 17
-_PLAIN = range(-5, 16)  # decimal exponents that are written without "e"
+_PLAIN = range(-4, 16)  # decimal exponents that are written without "e"
 
 
 class Parts(NamedTuple):

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender import ray_objects, results
+from reference_tracer.blender.compare import export_open_file
 from reference_tracer.blender.images import MARK
 from reference_tracer.compare.comparison import Comparison
 from reference_tracer.explain import markdown, reproducer
+from reference_tracer.explain.candidates import gather
 from reference_tracer.explain.derivation import Derivation, derive
 
 ops = bpy.ops.reference_tracer
+DOCS = Path(__file__).resolve().parents[2] / "docs"
 PIXEL = {"x": 60, "y": 33}
 
 
@@ -187,3 +191,14 @@ def test_far_away_a_drawing_keeps_its_shape(build, opened):
 def test_the_inspector_needs_a_mouse(suzanne):
     with pytest.raises(RuntimeError, match="no mouse to click with"):
         ops.inspect()
+
+
+def test_the_pixel_of_the_docs_is_the_sample_scenes(opened):
+    """docs/pixel.json, which float32 gets wrong, is what the command there writes."""
+    opened("exercise_perspective")
+    scene, _, _ = export_open_file(bpy.context)
+    now, stored = gather(scene, 207, 192, limit=3), reproducer.read(DOCS / "pixel.json")
+    np.testing.assert_array_equal(now.direction, stored.direction)
+    assert [c.object for c in now.candidates] == [c.object for c in stored.candidates]
+    for own, kept in zip(now.candidates, stored.candidates, strict=True):
+        np.testing.assert_allclose(own.points, kept.points, atol=1e-6)

@@ -105,7 +105,7 @@ def test_command_for_the_trade(blender, folder):
 
 
 def test_command_for_a_pixel(blender, folder):
-    inside, outside = folder("explain")
+    path, inside = folder
     done = blender.run(
         SCENE,
         *("--command", "reference_tracer", "explain"),
@@ -113,7 +113,7 @@ def test_command_for_a_pixel(blender, folder):
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "The pixel sees Suzanne" in done.stdout
-    assert (outside / "pixel.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert (path / "pixel.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
 def test_command_refuses_a_file_that_is_not_there(blender, folder):
