@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
 from ..arguments import Parser, add_camera, refuse
@@ -63,9 +65,23 @@ def run(options: argparse.Namespace) -> int:
         why = f"is not for '{options.scene}', which is one pixel by itself"
         refuse(options, ("pixel", "limit", *own), why)
         return finish(options, reproducer.read(options.scene))
-    with redirect_stdout(sys.stderr):  # what was exported is no part of the Markdown
+    with _told_aside():
         scene, _ = load(options)
     return finish(options, pixel_of(options, scene, options.scene.name))
+
+
+@contextmanager
+def _told_aside() -> Iterator[None]:
+    """Send what is said meanwhile, by Blender too, to stderr: it is no part of the Markdown."""
+    sys.stdout.flush()
+    own = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        os.dup2(own, 1)
+        os.close(own)
 
 
 def check_options(options: argparse.Namespace) -> None:
