@@ -96,14 +96,14 @@ def _numbers(layout: Any, test: Test) -> None:
 def _number(layout: Any, name: str, value: str, off: str) -> None:
     """Draw a number with its error; an exact one may be longer than there is room."""
     if not value:  # a head
-        split = layout.split(factor=0.8)
+        split = layout.split(factor=0.83)
         split.label(text=name)
         split.label(text=off)
         return
-    split = layout.split(factor=0.15)
+    split = layout.split(factor=0.14)
     split.label(text=name)
     if off:
-        split = split.split(factor=0.765)
+        split = split.split(factor=0.81)
     split.label(text=value)
     if off:
         split.label(text=off)

@@ -25,6 +25,7 @@ from story import (
     window,
 )
 
+BUTTON = 44  # pixels from the top of the image editor's sidebar to the middle of our button
 DERIVATION = "explain.derivation.Derivation"
 
 
@@ -105,7 +106,8 @@ def in_images():
     yield 1
     yield from show_tab(area)
     before = settings()
-    noted["started"] = list(invoke("inspect"))
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    yield from click(sidebar, 0.4 * sidebar.width, sidebar.height - BUTTON)
     noted["running"] = running()
     region = region_of(area)
     for name, x, y in (("Traced", 470, 300), ("Difference", 400, 190), ("Blender", 600, 200)):
