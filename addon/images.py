@@ -23,12 +23,37 @@ def to_display(color: NDArray[np.floating]) -> NDArray[np.uint8]:
     cut off at 1, and what is not a number is black.
     """
     color = np.nan_to_num(np.asarray(color, dtype=np.float64), posinf=1.0, neginf=0.0)
+    return np.rint(255 * encoded(color)).astype(np.uint8)
+
+
+def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return linear premultiplied RGBA or RGB (..., 4 or 3) as sRGB's curve, straight, 0 to 1."""
+    color = np.asarray(color, dtype=np.float64)
     alpha = np.clip(color[..., 3:], 0, 1)
-    straight = np.clip(color[..., :3] / np.where(alpha > 0, alpha, 1), 0, 1)
-    encoded = np.where(
-        straight <= 0.0031308, 12.92 * straight, 1.055 * straight ** (1 / 2.4) - 0.055
-    )
-    return np.rint(255 * np.concatenate((encoded, alpha), axis=-1)).astype(np.uint8)
+    straight = color[..., :3]
+    if color.shape[-1] == 4:
+        straight = straight / np.where(alpha > 0, alpha, 1)
+    return np.concatenate((curve(np.clip(straight, 0, 1)), alpha), axis=-1)
+
+
+def decoded(stored: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return what :func:`encoded` was made of: linear RGBA or RGB, alpha premultiplied."""
+    stored = np.asarray(stored, dtype=np.float64)
+    linear, alpha = curve_undone(stored[..., :3]), stored[..., 3:]
+    if stored.shape[-1] == 4:
+        linear = linear * alpha
+    return np.concatenate((linear, alpha), axis=-1)
+
+
+def curve(linear: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return sRGB's transfer function (IEC 61966-2-1) of linear values, 0 to 1."""
+    with np.errstate(invalid="ignore"):
+        return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def curve_undone(stored: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the linear values of which :func:`curve` makes the stored ones."""
+    return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
 
 
 def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
