@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -54,15 +54,18 @@ class Gathered:
     settings: Settings
     picture: NDArray[np.float32]
     blender: dict[str, Any]
-    known: Known = Known()
+    known: Known = field(default_factory=Known)
     owner: NDArray[np.int32] | None = None  # (h, w), of `known.names`; None: not asked for
 
     @property
     def shown(self) -> Shown:
         """Blender's picture, with whose surfaces it shows where that is known."""
+        smooth = self.blender["settings"]["anti_aliasing"]
+        shown = Shown(self.picture, sums=int(smooth) if smooth.isdigit() else 0)
         if self.owner is None:
-            return Shown(self.picture)
-        return Shown(self.picture, self.owner, numbered(self.known.names, self.manifest.owners))
+            return shown
+        owners = numbered(self.known.names, self.manifest.owners)
+        return replace(shown, owner=self.owner, owners=owners)
 
     def steps(self, trace: Steps = steps) -> Work[Comparison]:
         """Do the work that is left; yields the share of it that is done."""

@@ -20,6 +20,9 @@ UNITS = 4
 # (measured in 4.3). Eight such steps are allowed.
 LEAST = 8 * 2.0**-14
 
+# Workbench adds up the logarithms of 1 + a colour in half floats; of a dark one, this is lost.
+LEAST_SUMMED = 2.0**-12
+
 # A rasteriser interpolates a colour attribute between corners that it has rounded to 1/256 pixel,
 # by an approximate 1/w: a ramp over a few pixels is off by as much as this (measured 0.0013).
 INTERPOLATED = 2.0**-9
@@ -178,16 +181,18 @@ def differing(
     second: NDArray,
     interpolated: NDArray[np.bool_] | bool = False,
     levels: int = 0,
+    sums: int = 0,
 ) -> NDArray[np.bool_]:
     """Return which pixels of two (..., c) pictures differ by more than rounding.
 
     UNITS of a half float's last place are allowed, but at least LEAST; where a colour is
     `interpolated` (...), INTERPOLATED more. What is not finite differs from everything. Where the
     second picture was stored in so many `levels` above 0 of sRGB's curve, as a PNG is, half a level
-    is allowed in place of that.
+    is allowed in place of that. A mean of `sums` samples, added up in half floats, loses half a
+    unit with each.
     """
     size = np.maximum(np.abs(first), np.abs(second))
-    apart, allowed = difference(first, second, interpolated, levels)
+    apart, allowed = difference(first, second, interpolated, levels, sums)
     with np.errstate(invalid="ignore"):
         return ~((apart <= allowed) & np.isfinite(size)).all(axis=-1)
 
@@ -197,6 +202,7 @@ def difference(
     second: NDArray,
     interpolated: NDArray[np.bool_] | bool = False,
     levels: int = 0,
+    sums: int = 0,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return how far two pictures are apart, (..., c), and how far :func:`differing` allows."""
     first, second = first.astype(np.float64), second.astype(np.float64)
@@ -209,4 +215,6 @@ def difference(
             return apart, np.broadcast_to((0.5 + LEVEL_SLACK) / levels + more, apart.shape)
         size = np.maximum(np.abs(first), np.abs(second))
         unit = np.spacing(np.minimum(size, 2.0**15).astype(np.float16))  # the last binade
-        return apart, np.maximum(UNITS * unit.astype(np.float64), LEAST) + more
+        unit = unit.astype(np.float64)
+        more = more + sums / 2 * np.maximum(unit, LEAST_SUMMED)
+        return apart, np.maximum(UNITS * unit, LEAST) + more

@@ -1,4 +1,4 @@
-"""The camera certificate: do the tracer and Blender see the same points in the same places?
+"""The camera certificate: the tracer and Blender see the same points in the same places.
 
 In come positions of known points on the film, as the tracer's camera has them and as Blender's own
 matrix has them; out goes the largest distance in pixels, held against what float32 may do. It is

@@ -1,4 +1,4 @@
-"""The threshold self-check: would this comparison have found a fault in this very scene?
+"""The threshold self-check: whether this comparison would have found a fault in this very scene.
 
 Known faults are made, one at a time, and judged as the comparison itself was. A fault that changes
 no pixel here, as a mirrored camera before a symmetric scene, cannot be seen: that is said, with the

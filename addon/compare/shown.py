@@ -35,6 +35,8 @@ class Shown:
         Whose each instance of the traced scene is, then each plane; NOTHING at the end.
     levels : int
         Above 0 where the picture was stored in so many levels of sRGB's curve: 255 for a PNG.
+    sums : int
+        How many samples were added up in half floats; 0 for one.
     opaque : bool
         The picture has no alpha: it is not compared.
     lit : bool
@@ -47,6 +49,7 @@ class Shown:
     owner: NDArray[np.int32] | None = None
     owners: NDArray[np.int32] | None = None
     levels: int = 0
+    sums: int = 0
     opaque: bool = False
     lit: bool = False
     transform: Transform | None = None
@@ -79,7 +82,9 @@ class Shown:
         """Return where the colour is another than (..., 4) traced ones."""
         traced = colors if self.transform is None else transformed(colors, self.transform)
         last = 3 if self.opaque else 4
-        return differing(traced[..., :last], self.color[..., :last], interpolated, self.levels)
+        return differing(
+            traced[..., :last], self.color[..., :last], interpolated, self.levels, self.sums
+        )
 
     def difference(self, colors: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return how far (..., 4) traced colours are from these, and how far they may be, (...).
@@ -88,7 +93,9 @@ class Shown:
         """
         traced = colors if self.transform is None else transformed(colors, self.transform)
         last = 3 if self.opaque else 4
-        apart, allowed = difference(traced[..., :last], self.color[..., :last], False, self.levels)
+        apart, allowed = difference(
+            traced[..., :last], self.color[..., :last], False, self.levels, self.sums
+        )
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         return tuple(np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
 

@@ -18,6 +18,7 @@ from .shown import Shown, Transform
 
 MOST = 0.5  # of the differing pixels away from edges that a transform must account for
 ENOUGH = 4096  # pixels on which it is tried
+LEAST = 0.01  # an exposure or gamma nearer to 1 would be one of rounding
 _FIT = 0.02  # values from here up to 1 less this are fitted: others say little of a curve
 
 
@@ -83,11 +84,13 @@ def _candidates(colors: NDArray, shown: Shown, more: Sequence[Named]) -> Iterato
         told = (a > _FIT) & (b > _FIT) & np.isfinite(b)
     if told.any():
         factor = float(np.median(b[told] / a[told]))
-        yield Named(f"an exposure of {np.log2(factor):+.3g} stops", lambda c: c * factor)
+        if abs(factor - 1) > LEAST:
+            yield Named(f"an exposure of {np.log2(factor):+.3g} stops", lambda c: c * factor)
     told &= (a < 1 - _FIT) & (b < 1 - _FIT)
     if told.any():
         power = float(np.median(np.log(b[told]) / np.log(a[told])))
-        yield Named(f"a gamma of {1 / power:.3g}", lambda c: np.clip(c, 0, None) ** power)
+        if abs(power - 1) > LEAST:
+            yield Named(f"a gamma of {1 / power:.3g}", lambda c: np.clip(c, 0, None) ** power)
 
 
 def _cut_off(of: Callable[[NDArray], NDArray], levels: int) -> Transform:
