@@ -6,6 +6,7 @@ PNG needs Pillow and EXR needs OpenEXR, the extra `images`; inside Blender, Blen
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -101,6 +102,72 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
         OpenEXR.File(header, channels).write(str(path))
     except RuntimeError as error:
         raise OSError(f"cannot write '{path}': {error}") from error
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A picture from a file.
+
+    `color` is (h, w, 4) float32, linear RGBA with premultiplied alpha, row 0 at the bottom;
+    `levels` above 0 of sRGB's curve in which it was stored, 0 for floats; `opaque` where the file
+    has no alpha.
+    """
+
+    color: NDArray[np.float32]
+    levels: int
+    opaque: bool
+
+
+def load(path: str | Path) -> Picture:
+    """Read a PNG, of 8 bits and sRGB's curve, or an EXR.
+
+    Raises
+    ------
+    MissingLibraryError
+        If Pillow or OpenEXR is not installed.
+    OSError
+        If there is no such file, or it is no such picture.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise OSError(f"there is no file '{path}'")
+    readers = {".png": _load_png, ".exr": _load_exr}
+    if path.suffix.lower() not in readers:
+        raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
+    return readers[path.suffix.lower()](path)
+
+
+def _load_png(path: Path) -> Picture:
+    try:
+        from PIL import Image
+    except ImportError:
+        raise _missing("PNG files", "Pillow") from None
+    try:
+        with Image.open(path) as image:
+            if image.mode.startswith("I"):
+                raise OSError(f"'{path}' has 16 bits a channel: save it with 8, or as an EXR")
+            opaque = not (image.has_transparency_data or "A" in image.mode)
+            stored = np.asarray(image.convert("RGBA"))[::-1]
+    except (ValueError, SyntaxError) as error:
+        raise OSError(f"'{path}' cannot be read: {error}") from error
+    return Picture(decoded(stored / 255).astype(np.float32), 255, opaque)
+
+
+def _load_exr(path: Path) -> Picture:
+    try:
+        import OpenEXR
+    except ImportError:
+        raise _missing("EXR files", "OpenEXR") from None
+    try:
+        with OpenEXR.File(str(path), separate_channels=True) as file:
+            channels = {k: np.array(c.pixels, np.float32) for k, c in file.channels().items()}
+    except (RuntimeError, OSError) as error:
+        raise OSError(f"'{path}' cannot be read: {error}") from error
+    if not {"R", "G", "B"} <= channels.keys():
+        raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(channels))}")
+    alpha = channels.get("A", np.ones_like(channels["R"]))
+    color = np.stack((*(channels[c] for c in "RGB"), alpha), axis=-1)[::-1]
+    return Picture(np.ascontiguousarray(color), 0, "A" not in channels)
 
 
 def _missing(what: str, library: str) -> MissingLibraryError:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,7 @@ from ..tracer.progress import Work
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import images
+from .alternatives import alternatives
 from .animation import values_kept
 from .camera import export_camera
 from .engine import Certified, export_certified, export_for_render
@@ -34,6 +35,7 @@ from .identity import draw_identity
 from .planes import stand_ins
 from .temporary import temporary_scene
 from .unmodelled import of_shading
+from .view_transforms import view_transforms
 from .viewport import (
     FILTER_RADIUS,
     SAMPLE_RADIUS,
@@ -47,25 +49,19 @@ from .viewport import (
 
 @dataclass(frozen=True, eq=False)
 class Gathered:
-    """The exported scene, how to trace it, and Blender's own picture of it."""
+    """The exported scene, how to trace it, and the picture of it that is judged by it."""
 
     scene: Scene
     manifest: Manifest
     settings: Settings
-    picture: NDArray[np.float32]
+    shown: Shown
     blender: dict[str, Any]
-    known: Known = field(default_factory=Known)
-    owner: NDArray[np.int32] | None = None  # (h, w), of `known.names`; None: not asked for
+    known: Known
 
     @property
-    def shown(self) -> Shown:
-        """Blender's picture, with whose surfaces it shows where that is known."""
-        smooth = self.blender["settings"]["anti_aliasing"]
-        shown = Shown(self.picture, sums=int(smooth) if smooth.isdigit() else 0)
-        if self.owner is None:
-            return shown
-        owners = numbered(self.known.names, self.manifest.owners)
-        return replace(shown, owner=self.owner, owners=owners)
+    def picture(self) -> NDArray[np.float32]:
+        """The picture's colours, (h, w, 4) linear RGBA."""
+        return self.shown.color
 
     def steps(self, trace: Steps = steps) -> Work[Comparison]:
         """Do the work that is left; yields the share of it that is done."""
@@ -146,7 +142,10 @@ def gather(
         self_check=checked,
         next_frame=later,
     )
-    return Gathered(exported, manifest, settings, drawn, blender, known, owner)
+    shown = Shown(drawn, sums=int(smooth) if smooth.isdigit() else 0)
+    if found:
+        shown = replace(shown, owner=owner, owners=numbered(names, manifest.owners))
+    return Gathered(exported, manifest, settings, shown, blender, known)
 
 
 def _exported(tmp: Any, layer: str, source: str) -> Certified:
@@ -209,6 +208,29 @@ def _failure_written(folder: Path) -> Iterator[None]:
         with suppress(OSError):  # which may be what the error is
             files.write_failure(folder, error)
         raise
+
+
+def gather_against(
+    context: Any,
+    picture: Shown,
+    about: dict[str, Any],
+    settings: Settings,
+    self_check: bool = False,
+) -> Gathered:
+    """Export the context's scene as a render has it, for a picture that Blender need not have made.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    scene, manifest, _ = export_open_file(context)
+    known = Known(
+        alternatives=alternatives(context, scene, manifest),
+        curves=view_transforms(context.scene, scene),
+        self_check=self_check,
+    )
+    return Gathered(scene, manifest, settings, picture, about, known)
 
 
 def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:

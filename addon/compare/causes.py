@@ -84,9 +84,9 @@ def find_causes(
     if at_most is not None:
         out.passed_over = _thin(settle.open, at_most)
     shown = _shades(frame, shown, curves, settle)
-    yield from scaled(look_again(scene, shown, band, settle), 0.1, 0.7)
-    yield from scaled(look_beyond(scene, shown, settle), 0.8, 0.05)
-    yield from scaled(look_around(scene, shown, filter_radius, settle), 0.85, 0.05)
+    yield from scaled(look_around(scene, shown, filter_radius, settle), 0.1, 0.1)
+    yield from scaled(look_again(scene, shown, band, settle), 0.2, 0.6)
+    yield from scaled(look_beyond(scene, shown, settle), 0.8, 0.1)
     for number, feature in enumerate(unmodelled):
         if feature.bounds is not None and not feature.everywhere and settle.open.any():
             inside = settle.open & covered(scene.camera, feature.bounds)

@@ -127,8 +127,8 @@ class Comparison:
         psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
         x, y = m["largest_difference"]["pixel"]
         out = [
-            f"{p['agree']:,} of {p['total']:,} pixels agree with Blender's "
-            f"{self.blender['source']} picture, {p['differ']:,} differ",
+            f"{p['agree']:,} of {p['total']:,} pixels agree with {self._other()}, "
+            f"{p['differ']:,} differ",
             *(
                 f"  {DESCRIPTIONS[Cause[name.upper()]].label}: {n:,}"
                 f"{_at(p['examples'].get(name, ()))}"
@@ -146,6 +146,12 @@ class Comparison:
             f"verdict: {self.verdict}",
         ]
         return out
+
+    def _other(self) -> str:
+        """Name the picture that is compared."""
+        if "picture" in self.blender:
+            return f"the picture '{self.blender['picture']}'"
+        return f"Blender's {self.blender['source']} picture"
 
     def _evidence(self) -> list[str]:
         """Say what else was found out of the pixels that differ."""
