@@ -51,24 +51,29 @@ def draw_identity(
         As :func:`viewport.picture` does.
     """
     drawn = [o for o in tmp.view_layers[layer].objects if o.type not in _NOT_DRAWN]
-    if len(drawn) > MOST:
+    owners = [o.get(STANDS_FOR) or o.name_full for o in drawn]
+    names = tuple(dict.fromkeys(owners))
+    if len(names) > MOST:
         return None
-    names = tuple(o.get(STANDS_FOR) or o.name_full for o in drawn)
+    number = {name: n for n, name in enumerate(names)}
+    numbers = [number[owner] for owner in owners]
     prepare(tmp, True)
     tmp.display.shading.color_type = "OBJECT"
-    with _colored(tmp, layer, drawn):
-        found = decode(picture(tmp, layer, source, camera, True), len(drawn))
+    with _colored(tmp, layer, drawn, colors_of(len(names))[numbers]):
+        found = decode(picture(tmp, layer, source, camera, True), len(names))
     return names, found
 
 
 @contextmanager
-def _colored(tmp: Any, layer: str, objects: list[Any]) -> Iterator[None]:
-    """Show copies of objects, each in the colour of its number; stand-ins are coloured as such."""
+def _colored(
+    tmp: Any, layer: str, objects: list[Any], colors: NDArray[np.float32]
+) -> Iterator[None]:
+    """Show copies of objects in colours (n, 3); stand-ins, which are ours, are coloured as such."""
     copies: dict[Any, Any] = {}
     collections: list[Any] = []
     view_layer = tmp.view_layers[layer]
     try:
-        for obj, color in zip(objects, colors_of(len(objects)), strict=True):
+        for obj, color in zip(objects, colors, strict=True):
             if STANDS_FOR in obj:
                 obj.color = (*color, 1.0)
                 continue

@@ -95,16 +95,10 @@ def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
         at_most=SAMPLE,
     )
     found = yield from scaled(finding, 0.3, 0.7)
-    counts = [int((found.cause == c).sum()) for c in (Cause.AGREE, Cause.UNEXPLAINED)]
-    looked_at = found.cause.size - counts[0] - found.passed_over
-    return FaultRow(
-        fault.name,
-        fault.text,
-        changed,
-        looked_at + found.passed_over,
-        looked_at,
-        counts[1],
-    )
+    looked_at = int((found.cause != Cause.AGREE).sum())
+    unexplained = int((found.cause == Cause.UNEXPLAINED).sum())
+    differ = looked_at + found.passed_over
+    return FaultRow(fault.name, fault.text, changed, differ, looked_at, unexplained)
 
 
 def _changed(case: Case, wrong: Wrong, frame: Frame) -> NDArray[np.bool_]:
