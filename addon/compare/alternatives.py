@@ -78,7 +78,7 @@ def look_elsewhere(
     for number, other in enumerate(alternatives):
         if not settle.open.any():
             return
-        traced = Frame.empty(other.scene.camera)
+        traced = Frame.empty(other.scene)
         share = 1 / len(alternatives)
         yield from scaled(steps(other.scene, Settings(), traced), number * share, share / 2)
         ramp = shading.interpolated(other.scene, traced.instance_index)

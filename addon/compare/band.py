@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, result_of
-from ..tracer.visibility import NOTHING, Hits
+from ..tracer.visibility import NOTHING
 from .bounds import SNAPPING, pixel_error, view_error
 
 
@@ -25,15 +25,11 @@ def sample_bands(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDAr
     """Do the work of :func:`sample_band`, some rows at a time; yields the share that is done."""
     own = np.zeros(frame.t.shape)  # of the surface that the pixel itself shows
     for number, rows in enumerate(all_rows):
-        seen = frame.instance_index[rows] != NOTHING
-        hits = Hits(
-            frame.t[rows][seen],
-            frame.instance_index[rows][seen],
-            frame.triangle_index[rows][seen],
-            frame.barycentrics[rows][seen].T,
-        )
-        view = view_error(scene, hits, frame.position[rows][seen])
-        own[rows][seen] = pixel_error(scene.camera, hits.t, view)
+        hits = frame.hits(rows)
+        seen = np.flatnonzero(hits.instance != NOTHING)
+        hits = hits.take(seen)
+        view = view_error(scene, hits, frame.positions(rows)[seen])
+        own[rows].reshape(-1)[seen] = pixel_error(scene.camera, hits.t, view)
         yield number / len(all_rows)
     band = np.full(own.shape, SNAPPING)
     reach, most = 1, max(own.shape)

@@ -295,7 +295,7 @@ def trace_and_compare(
     shown = picture if isinstance(picture, Shown) else Shown(picture)
     checking = _CHECKING if known and known.self_check else 0.0
     tracing, methods, rest = ((1 - checking) * s for s in (_TRACING, _METHODS, _COMPARING))
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     for share in trace(scene, settings, frame):
         yield tracing * share
     rows = yield from scaled(list_methods(scene, settings, frame, trace), tracing, methods)

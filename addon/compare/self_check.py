@@ -80,7 +80,7 @@ def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
         return FaultRow(fault.name, fault.text, 0, 0, 0, 0, "there is nothing to get wrong")
     frame = case.frame
     if wrong.scene is not case.scene:
-        frame = Frame.empty(wrong.scene.camera)
+        frame = Frame.empty(wrong.scene)
         yield from scaled(trace(wrong.scene, Settings(), frame), 0.0, 0.3)
     changed = int(_changed(case, wrong, frame).sum())
     if not changed:
