@@ -1,0 +1,1 @@
+"""One ray, step by step, with the scene's own numbers."""

@@ -1,0 +1,127 @@
+"""A derivation as JSON: every number whole, exact ones as a fraction, too.
+
+A float is a JSON number that means it to the bit; inf and NaN, which JSON lacks, are strings. What
+is exact is {"decimal": "…", "rational": "numerator/denominator"}.
+"""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .arithmetic import FLOATS, Arithmetic, Number
+from .digits import exact_text, text, ulps
+from .judgement import SENTENCES
+
+if TYPE_CHECKING:
+    from .answers import Answer
+    from .derivation import Derivation, Quantity, Test
+
+SCHEMA = "reference_tracer.derivation/1"
+
+
+def text_of(derivation: Derivation) -> str:
+    """Return the JSON text."""
+    return json.dumps(to_dict(derivation), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def to_dict(derivation: Derivation) -> dict[str, Any]:
+    """Return a derivation in dicts, lists, strings and numbers."""
+    pixel, camera = derivation.pixel, derivation.pixel.camera
+    return {
+        "schema": SCHEMA,
+        "source": pixel.source,
+        "pixel": {"x": pixel.x, "y": pixel.y, "column": pixel.column, "row": pixel.row},
+        "camera": {
+            "name": camera.name,
+            "orthographic": camera.orthographic,
+            "width": camera.width,
+            "height": camera.height,
+            "clip_start": camera.clip_start,
+            "clip_end": camera.clip_end,
+            "steps": [_quantity(q) for q in derivation.camera],
+        },
+        "ray": [_quantity(q) for q in derivation.ray],
+        "candidates": [_test(t) for t in derivation.tests],
+        "scene": {
+            "triangles": pixel.triangles,
+            "candidates_left_out": pixel.left_out,
+            "not_finite": pixel.refused,
+        },
+        "nearest": dict(derivation.nearest),
+        "answers": [_answer(a, derivation) for a in derivation.answers],
+        "certified": _answer(derivation.certified, derivation)
+        | {
+            "certainty": derivation.certified.certainty.name.lower(),
+            "may_be_seen": [
+                {"object": derivation.title_of(n), "instance": n[0], "triangle": n[1]}
+                for n in sorted(derivation.certified.ties)
+            ],
+        },
+        "color": {
+            "linear_rgba": [float(c) for c in derivation.color],
+            "steps": [_quantity(q) for q in derivation.shading],
+        },
+    }
+
+
+def _quantity(quantity: Quantity) -> dict[str, Any]:
+    return {
+        "key": quantity.key,
+        "label": quantity.formula.label,
+        "formula": quantity.formula.right,
+        "components": [_component(quantity, k) for k in range(quantity.count)],
+    }
+
+
+def _component(quantity: Quantity, index: int) -> dict[str, Any]:
+    exact = quantity.exact(index)
+    out: dict[str, Any] = {kind: number(quantity.values[kind][index]) for kind in FLOATS}
+    out["exact"] = None if exact is None else number(exact)
+    off = {kind: ulps(quantity.values[kind][index], exact) for kind in FLOATS}
+    out["ulp"] = {kind: None if v is None or np.isinf(v) else v for kind, v in off.items()}
+    return out
+
+
+def number(value: Number) -> Any:
+    """Return a number as JSON has it."""
+    if isinstance(value, Fraction):
+        rational = f"{value.numerator}/{value.denominator}"
+        return {"decimal": exact_text(value), "rational": rational}
+    return float(text(value)) if np.isfinite(value) else text(value)
+
+
+def _test(test: Test) -> dict[str, Any]:
+    c = test.candidate
+    return {
+        "object": c.object,
+        "kind": "plane" if c.is_plane else "triangle",
+        "mesh": c.mesh,
+        "instance": c.instance,
+        "triangle": c.triangle,
+        "slot": c.slot,
+        "colors": c.colors.astype(float).tolist(),
+        "steps": [_quantity(q) for q in test.quantities],
+        "judgements": {
+            kind: {
+                "accepted": j.accepted,
+                "as_printed": j.literal,
+                "reasons": [{"code": r.value, "sentence": SENTENCES[r]} for r in j.reasons],
+            }
+            for kind, j in ((kind, test.judgements[kind]) for kind in Arithmetic)
+        },
+    }
+
+
+def _answer(answer: Answer, derivation: Derivation) -> dict[str, Any]:
+    return {
+        "method": answer.method.value,
+        "precision": answer.precision.value,
+        "object": derivation.title_of(answer.seen),
+        "instance": answer.seen[0],
+        "triangle": answer.seen[1],
+        "t": number(np.float64(answer.t)),
+    }

@@ -1,0 +1,202 @@
+"""A scene and one of its pixels -> the triangles and planes whose box on the film holds it.
+
+Not only what lies before the camera and within its clip range: a teacher shows, too, why what is
+behind the eye is not seen. So the boxes are asked for twice, of the camera and of one that looks
+the other way; and first of the instances' own boxes, so that a forest takes no longer than a tree.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera, Instance, Mesh, Region, Scene
+from ..tracer.camera import Rays
+from ..tracer.candidates import Pairs
+from ..tracer.certified import Contest
+from ..tracer.hits import NOTHING, Name, Statistics
+from ..tracer.pieces import refused
+from ..tracer.progress import result_of
+from ..tracer.settings import Method, Settings
+from ..tracer.triangle import METHODS
+from ..tracer.visibility import candidates, plan, within_clip
+from ..tracer.world import WorldTriangles
+from .pixel import Candidate, Pixel, check_pixel
+
+LIMIT = 8  # candidates that one still reads
+
+_PLAIN = Settings(Method.TEXTBOOK)
+_FARTHEST = 1e300  # metres: no clip range
+_CUBE = np.array(  # a box's twelve triangles, by corners numbered x + 2 y + 4 z
+    [
+        *((0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4)),
+        *((2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)),
+    ]
+)
+
+
+def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Pixel:
+    """Return what the ray through a pixel's centre may meet.
+
+    Parameters
+    ----------
+    scene : Scene
+    x, y : int
+        Of the traced picture, the camera's region; (0, 0) is its lower left.
+    limit : int
+        Keep so many triangles: first what is seen and all that is tied with it, then what the
+        textbook accepts, the nearest first, then what the ray passes, the closest miss first.
+        Infinite planes do not count.
+
+    Raises
+    ------
+    SceneError
+        If there is no such pixel.
+    """
+    check_pixel(scene.camera, x, y)
+    column, row = scene.camera.region.x0 + x, scene.camera.region.y0 + y
+    triangles = _triangles(scene, Region(column, row, column + 1, row + 1))
+    planes = tuple(
+        Candidate(
+            scene.objects[p.object],
+            len(scene.instances) + k,
+            NOTHING,
+            np.stack((p.point, p.normal)),
+            p.color[None],
+        )
+        for k, p in enumerate(scene.planes)
+    )
+    pixel = Pixel(
+        scene.camera,
+        x,
+        y,
+        planes,
+        scene.background,
+        first_plane=len(scene.instances),
+        triangles=scene.triangle_count,
+        refused=refused(scene),
+        source=source,
+    )
+    order = _order(pixel, triangles)
+    kept = order[: max(limit, _needed(pixel, triangles, order))]
+    return replace(
+        pixel,
+        candidates=(*(_candidate(scene, triangles, k) for k in kept), *planes),
+        left_out=len(order) - len(kept),
+    )
+
+
+def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
+    """Return the triangles whose boxes on the film hold the tile's one pixel, each once."""
+    found: dict[Name, NDArray[np.float64]] = {}
+    for camera in _both_ways(replace(scene.camera, region=tile)):
+        near = _near_instances(scene, camera)
+        some = replace(scene, camera=camera, instances=[scene.instances[k] for k in near])
+        for pairs in _pairs(some, 0.0):
+            names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
+            found |= zip(names, np.moveaxis(pairs.corners, 2, 0), strict=True)
+    if not found:
+        return WorldTriangles.none()
+    instance, triangle = np.array(list(found), np.int32).T
+    return WorldTriangles(np.stack(list(found.values()), axis=2), instance, triangle)
+
+
+def _both_ways(camera: Camera) -> list[Camera]:
+    """Return the camera without clipping, and one that looks along the same rays backwards."""
+    if camera.orthographic:
+        return [replace(camera, clip_start=-_FARTHEST, clip_end=_FARTHEST)]
+    start = min(camera.clip_start, 1.0) * 2.0**-20  # nearer, every box would fill the picture
+    ahead = replace(camera, clip_start=start, clip_end=_FARTHEST)
+    turned = camera.world_from_camera.copy()
+    turned[:3, :3] *= -1  # right, up and forward: −d = u (−right) + v (−up) + (−forward)
+    return [ahead, replace(ahead, world_from_camera=turned)]
+
+
+def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
+    """Yield the pairs of a camera's one pixel with what may cover it."""
+    for _, pairs in candidates(result_of(plan(scene, _PLAIN, reach)), scene.camera.region):
+        if pairs is not None and len(pairs.row):
+            yield pairs
+
+
+def _near_instances(scene: Scene, camera: Camera) -> NDArray[np.intp]:
+    """Return which instances have a bounding box that the ray may meet."""
+    cubes = [Mesh(_corners(mesh), _CUBE) for mesh in scene.meshes]
+    blank = [Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances]
+    boxes = replace(scene, camera=camera, meshes=cubes, instances=blank, planes=())
+    near = [pairs.instance for pairs in _pairs(boxes, 0.5)]
+    return np.unique(np.concatenate([np.zeros(0, np.intp), *near]))
+
+
+def _corners(mesh: Mesh) -> NDArray[np.float64]:
+    low, high = mesh.bounds
+    return np.array([[(low, high)[k >> a & 1][a] for a in range(3)] for k in range(8)])
+
+
+def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
+    """Return the triangles' order for a reader: hits by t, then near misses."""
+    rays = pixel.rays()
+    hit, t, s = METHODS[Method.TEXTBOOK](rays, *triangles.corners)
+    with np.errstate(invalid="ignore"):
+        outside = np.nan_to_num(np.maximum(0.0, -s.min(axis=0)), nan=np.inf)
+        distance = np.nan_to_num(np.abs(t), nan=np.inf)
+    seen = hit & within_clip(pixel.camera, t)
+    return np.lexsort((triangles.triangle, triangles.instance, distance, outside, ~seen))
+
+
+def _needed(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp]) -> int:
+    """Return how many of the first in order hold all that is seen, or tied with what is seen."""
+    names = seen_by_proof(pixel, triangles)
+    numbered = zip(triangles.instance[order], triangles.triangle[order], strict=True)
+    return max((k for k, name in enumerate(numbered, start=1) if name in names), default=0)
+
+
+def seen_by_proof(pixel: Pixel, triangles: WorldTriangles) -> frozenset[Name]:
+    """Return the names of what is certainly seen, of these triangles and the pixel's planes."""
+    hits = contest_hits(pixel, triangles, Statistics())
+    return hits.ties.get(0, frozenset()) | {(int(hits.instance[0]), int(hits.triangle[0]))}
+
+
+def contest_hits(pixel: Pixel, triangles: WorldTriangles, statistics: Statistics):
+    """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
+    planes = [(c.points[0], c.points[1]) for c in pixel.candidates if c.is_plane]
+    clip = pixel.camera.clip_start, pixel.camera.clip_end
+    rays: Rays = pixel.rays()
+    contest = Contest(rays, planes, pixel.first_plane, *clip)
+    every = np.arange(len(triangles.instance))
+    if len(every):
+        contest.enter(Pairs(np.zeros_like(every), every, triangles))
+    return result_of(contest.hits(statistics))
+
+
+def _candidate(scene: Scene, triangles: WorldTriangles, k: int) -> Candidate:
+    instance = scene.instances[triangles.instance[k]]
+    triangle, mesh = int(triangles.triangle[k]), scene.meshes[instance.mesh]
+    slot = min(int(mesh.slots[triangle]), len(instance.colors) - 1)
+    colors = instance.colors[slot : slot + 1]
+    if mesh.corner_colors is not None:
+        colors = mesh.corner_colors[triangle]
+    return Candidate(
+        scene.objects[instance.object],
+        int(triangles.instance[k]),
+        triangle,
+        np.ascontiguousarray(triangles.corners[..., k]),
+        colors,
+        mesh.name,
+        slot,
+    )
+
+
+def world_triangles(pixel: Pixel, kept: Sequence[Candidate] | None = None) -> WorldTriangles:
+    """Return the pixel's candidates that are triangles, as the tracer takes them."""
+    kept = [c for c in (pixel.candidates if kept is None else kept) if not c.is_plane]
+    if not kept:
+        return WorldTriangles.none()
+    return WorldTriangles(
+        np.stack([c.points for c in kept], axis=2),
+        np.array([c.instance for c in kept], np.int32),
+        np.array([c.triangle for c in kept], np.int32),
+    )

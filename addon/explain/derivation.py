@@ -1,0 +1,205 @@
+"""One pixel, step by step: camera, ray, every candidate, the nearest, its colour, how sure it is.
+
+In comes a scene and a pixel (or a `Pixel` by itself); out goes a `Derivation`, which the writers
+beside this file turn into Markdown, HTML and JSON. Every number comes in float32, float64 and
+exactly, side by side.
+
+What is exact: in the camera's steps, the numbers of the camera as they are stored, in float64. From
+the ray on, that ray and the corners in world space, as float64 has them: *these* are the scene, as
+they are for the certified tracer, and no rounding follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..scene import Scene
+from ..tracer.hits import Name
+from . import textbook
+from .answers import NOWHERE, Answer, certified_answer, plain_answers
+from .arithmetic import Arithmetic, Number
+from .as_json import to_dict
+from .candidates import LIMIT, gather
+from .formulas import CAMERA, COLOR, PLANE, RAY, STORED, TRIANGLE, Formula
+from .judgement import Judgement, judge
+from .pixel import Candidate, Pixel
+from .textbook import Steps
+
+Columns = dict[Arithmetic, Steps]
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """A number, or a vector of three, in every arithmetic.
+
+    `values` maps to as many numbers each; exactly, there are none where one would divide by 0.
+    """
+
+    key: str
+    formula: Formula
+    values: Mapping[Arithmetic, tuple[Number, ...]]
+
+    @property
+    def count(self) -> int:
+        """1, or 3 of a vector."""
+        return len(self.values[Arithmetic.FLOAT64])
+
+    def exact(self, index: int) -> Number | None:
+        """Return the truth of a component, None where there is none."""
+        values = self.values[Arithmetic.EXACT]
+        return values[index] if values else None
+
+
+@dataclass(frozen=True, eq=False)
+class Test:
+    """The ray against one candidate."""
+
+    __test__ = False  # no test of pytest's
+
+    candidate: Candidate
+    quantities: tuple[Quantity, ...]
+    judgements: Mapping[Arithmetic, Judgement]
+
+
+@dataclass(frozen=True, eq=False)
+class Derivation:
+    """The whole of it.
+
+    `nearest` is the index of the nearest test that each arithmetic accepts by the textbook, None
+    for none; `seen` that of what is certainly seen, and `color` its colour, linear RGBA.
+    """
+
+    pixel: Pixel
+    camera: tuple[Quantity, ...]
+    ray: tuple[Quantity, ...]
+    tests: tuple[Test, ...]
+    nearest: Mapping[Arithmetic, int | None]
+    answers: tuple[Answer, ...]
+    certified: Answer
+    shading: tuple[Quantity, ...]  # the colour's steps; none where it is constant
+    color: tuple[float, ...]
+
+    @property
+    def seen(self) -> Candidate | None:
+        """What is certainly seen; None for the background."""
+        return self.named(self.certified.seen)
+
+    def named(self, name: Name) -> Candidate | None:
+        """Return the candidate of a name; None for NOWHERE."""
+        return next((t.candidate for t in self.tests if t.candidate.name == name), None)
+
+    def title_of(self, name: Name) -> str:
+        """Return what a reader calls what has this name."""
+        found = self.named(name)
+        return found.title if found else "nothing"
+
+    def to_dict(self) -> dict:
+        """Return what JSON can hold of it: see `as_json.py`."""
+        return to_dict(self)
+
+
+def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Derivation:
+    """Derive a pixel of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    x, y : int
+        Of the traced picture, the camera's region; (0, 0) is its lower left pixel.
+    limit : int
+        Show at most so many triangles, unless more are tied for the first: see
+        :func:`candidates.gather`.
+    source : str
+        What a reader calls the scene.
+
+    Raises
+    ------
+    SceneError
+        If there is no such pixel.
+    """
+    return derive_pixel(gather(scene, x, y, limit, source))
+
+
+def derive_pixel(pixel: Pixel) -> Derivation:
+    """Derive a pixel that stands alone."""
+    camera: Columns = {
+        kind: textbook.camera_steps(kind, pixel.camera, pixel.column, pixel.row)
+        for kind in Arithmetic
+    }
+    ray: Columns = {kind: {"o": steps["o"], "d": steps["d"]} for kind, steps in camera.items()}
+    ray[Arithmetic.EXACT] = {  # from here on, the truth is about what float64 has stored
+        name: Arithmetic.EXACT.vector(ray[Arithmetic.FLOAT64][name]) for name in ("o", "d")
+    }
+    tests = tuple(_test(pixel, ray, candidate) for candidate in pixel.candidates)
+    certified = certified_answer(pixel)
+    seen = next((t for t in tests if t.candidate.name == certified.seen), None)
+    shading, color = _color(pixel, seen, certified)
+    return Derivation(
+        pixel,
+        _quantities(camera, CAMERA | RAY[pixel.camera.orthographic]),
+        _quantities(ray, STORED),
+        tests,
+        {kind: _nearest(tests, kind) for kind in Arithmetic},
+        tuple(plain_answers(pixel)),
+        certified,
+        shading,
+        color,
+    )
+
+
+def _quantities(columns: Columns, formulas: Mapping[str, Formula]) -> tuple[Quantity, ...]:
+    def values(kind: Arithmetic, key: str) -> tuple[Number, ...]:
+        value = columns[kind].get(key, ())
+        return value if isinstance(value, tuple) else (value,)
+
+    return tuple(
+        Quantity(key, formula, {kind: values(kind, key) for kind in Arithmetic})
+        for key, formula in formulas.items()
+        if key in columns[Arithmetic.FLOAT64]
+    )
+
+
+def _test(pixel: Pixel, ray: Columns, candidate: Candidate) -> Test:
+    columns = {}
+    for kind in Arithmetic:
+        points = [kind.vector(p) for p in candidate.points]
+        steps = textbook.plane_steps if candidate.is_plane else textbook.triangle_steps
+        columns[kind] = steps(ray[kind]["o"], ray[kind]["d"], *points)
+    return Test(
+        candidate,
+        _quantities(columns, PLANE if candidate.is_plane else TRIANGLE),
+        {kind: judge(steps, pixel.camera) for kind, steps in columns.items()},
+    )
+
+
+def _nearest(tests: tuple[Test, ...], kind: Arithmetic) -> int | None:
+    """Return the accepted test with the least t, of equals that of the lowest name."""
+    accepted = [
+        (_value(test, "t", kind), test.candidate.name, k)
+        for k, test in enumerate(tests)
+        if test.judgements[kind].accepted
+    ]
+    return min(accepted)[2] if accepted else None
+
+
+def _value(test: Test, key: str, kind: Arithmetic) -> Number:
+    return next(q.values[kind][0] for q in test.quantities if q.key == key)
+
+
+def _color(
+    pixel: Pixel, seen: Test | None, certified: Answer
+) -> tuple[tuple[Quantity, ...], tuple[float, ...]]:
+    """Return the steps and the value of the colour of what is certainly seen."""
+    if seen is None or certified.seen == NOWHERE:
+        return (), tuple(map(float, pixel.background))
+    colors = seen.candidate.colors
+    if len(colors) == 1:
+        return (), (*map(float, colors[0][:3]), 1.0)
+    columns = {}
+    for kind in Arithmetic:
+        weights = [_value(seen, f"s{k}", kind) for k in (1, 2, 3)]
+        corners = [kind.vector(c[:3]) for c in colors]
+        columns[kind] = textbook.color_steps(weights, corners)
+    mean = (colors * certified.s[:, None]).sum(axis=0)  # as `tracer.shading.colors` has it
+    return _quantities(columns, COLOR), (*map(float, mean[:3].astype("float32")), 1.0)

@@ -1,0 +1,122 @@
+"""Numbers as text: whole, so that they can be read back, and with the digits that are wrong marked.
+
+A float is written with the fewest digits that mean it and no other. An exact number is written with
+EXACT_DIGITS digits, and "…" where it has more.
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+
+from .arithmetic import Number
+
+EXACT_DIGITS = 24  # significant: a float64 has 17
+_PLAIN = range(-5, 16)  # decimal exponents that are written without "e"
+
+
+class Parts(NamedTuple):
+    """A number's text: the digits that are right, those that are not, and the exponent."""
+
+    right: str
+    wrong: str
+    exponent: str
+
+    def __str__(self) -> str:
+        return "".join(self)
+
+
+def text(value: Number) -> str:
+    """Return a number as text that means it: reading it gives the same float, to the bit."""
+    if isinstance(value, Fraction):
+        return exact_text(value)
+    if not isinstance(value, np.float32):
+        return repr(float(value))
+    short = str(value)
+    # By way of float64, as readers go: in theory it may round to the neighbour.
+    return short if np.isnan(value) or np.float32(float(short)) == value else repr(float(value))
+
+
+def exact_text(value: Fraction) -> str:
+    """Return an exact number as a decimal, correctly rounded to EXACT_DIGITS, "…" if inexact."""
+    if not value:
+        return "0"
+    decimal = as_decimal(value)
+    more = "" if Fraction(decimal) == value else "…"
+    sign, digits, exponent = decimal.as_tuple()
+    place = len(digits) - 1 + int(exponent)
+    if place in _PLAIN:
+        return f"{decimal:f}{more}"
+    shown = "".join(map(str, digits))
+    point = f".{shown[1:]}" if shown[1:] else ""
+    return f"{'-' * sign}{shown[0]}{point}{more}e{place:+03d}"
+
+
+def as_decimal(value: Fraction) -> Decimal:
+    """Return a number correctly rounded to EXACT_DIGITS significant digits, no zeros at its end."""
+    with localcontext() as context:
+        context.prec, context.Emax, context.Emin = EXACT_DIGITS, 10**9, -(10**9)
+        return (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
+
+
+def ulps(value: np.floating, exact: Fraction | None) -> float | None:
+    """Return how far a float is from the truth, in units in the last place of the truth's float.
+
+    A correctly rounded number is at most 0.5 off. None where there is no truth, no finite number,
+    or the truth is 0 and the float is not: then no digit of it is right.
+    """
+    if exact is None or not np.isfinite(value):
+        return None
+    error = abs(Fraction(float(value)) - exact)
+    if not error:
+        return 0.0
+    if not exact:
+        return None
+    try:
+        return float(error / unit_in_last_place(exact, type(value)))
+    except OverflowError:
+        return float("inf")
+
+
+def unit_in_last_place(exact: Fraction, kind: type[np.floating]) -> Fraction:
+    """Return the distance between neighbouring floats of a type around a number that is not 0."""
+    limits = np.finfo(kind)
+    size = abs(exact)
+    power = size.numerator.bit_length() - size.denominator.bit_length()
+    if Fraction(2) ** power > size:
+        power -= 1  # 2^power <= size < 2^(power + 1)
+    return Fraction(2) ** (max(power, int(limits.minexp)) - int(limits.nmant))
+
+
+def marked(value: np.floating, exact: Fraction | None) -> Parts:
+    """Return a float's text with its wrong digits apart.
+
+    A digit is wrong where the error is more than half of one in its place; none is in a number that
+    is correctly rounded.
+    """
+    whole = text(value)
+    off = ulps(value, exact)
+    if exact is None or not np.isfinite(value) or (off is not None and off <= 0.5):
+        return Parts(whole, "", "")
+    mantissa, mark, power = whole.partition("e")
+    exponent = int(power) if mark else 0
+    error = abs(Fraction(float(value)) - exact)
+    point = mantissa.find(".") if "." in mantissa else len(mantissa)
+    for at, sign in enumerate(mantissa):
+        if sign.isdigit():
+            place = point - at - 1 if at < point else point - at
+            if 2 * error > Fraction(10) ** (place + exponent):
+                return Parts(mantissa[:at], mantissa[at:], mark + power)
+    return Parts(whole, "", "")
+
+
+def off_text(off: float | None) -> str:
+    """Return an error in ulp, short: 0, 0.31, 2.5, 8.4e+03; "–" where there is none to tell."""
+    if off is None:
+        return "–"
+    if off == 0:
+        return "0"
+    return f"{off:.2g}" if off < 1000 else f"{off:.1e}"

@@ -1,0 +1,216 @@
+"""A derivation as a lecture: headings, sentences and tables, for Markdown and HTML alike.
+
+In comes a `Derivation`; out goes a list of blocks, which hold text and no markup.
+"""
+
+from __future__ import annotations
+
+from ..images import to_display
+from .answers import SENTENCES as CERTAINTIES
+from .arithmetic import FLOATS, Arithmetic
+from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
+from .derivation import Derivation, Test
+from .digits import text
+from .formulas import ERRATA
+from .judgement import SENTENCES as REASONS
+from .judgement import Judgement
+
+READING = (
+    "How to read the tables: every number is computed three times, from the same input and by the "
+    "same formula: in float32, in float64, and exactly, with fractions of whole numbers. A float "
+    "is written with as many digits as tell it from its neighbours; marked digits are wrong. “off” "
+    "is the error in ulp, units in the last place: a number that is as good as its type allows is "
+    "off by 0.5 at most. An exact number that ends in … has more digits (the JSON has it whole, as "
+    "a fraction)."
+)
+
+
+def blocks(derivation: Derivation) -> list[Block]:
+    """Return the whole lecture."""
+    return [
+        *_opening(derivation),
+        *_camera(derivation),
+        *_candidates(derivation),
+        *(block for k, test in enumerate(derivation.tests, 1) for block in _test(k, test)),
+        *_nearest(derivation),
+        *_color(derivation),
+        *_certain(derivation),
+    ]
+
+
+def _opening(derivation: Derivation) -> list[Block]:
+    pixel, camera = derivation.pixel, derivation.pixel.camera
+    of = f" of {pixel.source}" if pixel.source else ""
+    kind = "orthographic" if camera.orthographic else "perspective"
+    part = ""
+    if (camera.region.width, camera.region.height) != (camera.width, camera.height):
+        part = (
+            f" The border shows a part: this is pixel ({pixel.column}, {pixel.row}) of the whole."
+        )
+    return [
+        Heading(1, f"The ray through pixel ({pixel.x}, {pixel.y}){of}"),
+        Paragraph(answer_sentence(derivation), "answer"),
+        Paragraph(
+            f"Camera “{camera.name}”: {kind}, {camera.width} × {camera.height} pixels, it shows "
+            f"depths from {text_float(camera.clip_start)} m to {text_float(camera.clip_end)} m. "
+            f"Pixel (0, 0) is the lower left.{part}"
+        ),
+        Paragraph(READING, "note"),
+    ]
+
+
+def answer_sentence(derivation: Derivation) -> str:
+    """Return what is seen, in a sentence."""
+    seen = derivation.seen
+    if seen is None:
+        return "The ray meets nothing within the clip range: the pixel shows the background."
+    return f"The pixel sees {seen.title}, at t = {text_float(derivation.certified.t)} m."
+
+
+def text_float(value: float) -> str:
+    """Return a float64 with the fewest digits that mean it."""
+    return repr(float(value))
+
+
+def _camera(derivation: Derivation) -> list[Block]:
+    return [
+        Heading(2, "1. From the pixel to the ray"),
+        Paragraph(
+            "The camera looks through its view window, which the pixels divide evenly. The ray "
+            "through the middle of a pixel is x = o + t d."
+        ),
+        numbers(derivation.camera),
+        Paragraph(
+            "From here on, the ray in float64 and the corners in float64 are the scene, exactly as "
+            "they are stored; the exact numbers below are about them. Float32 has them rounded."
+        ),
+        numbers(derivation.ray),
+    ]
+
+
+def _candidates(derivation: Derivation) -> list[Block]:
+    pixel, tests = derivation.pixel, derivation.tests
+    triangles = sum(not t.candidate.is_plane for t in tests)
+    planes = len(tests) - triangles
+    lines = [
+        f"Of {pixel.triangles:,} triangles in the scene, {triangles + pixel.left_out:,} have a box "
+        "on the film that holds the pixel's centre, before the eye or behind it; no other can be "
+        "met."
+    ]
+    if pixel.left_out:
+        lines.append(
+            f"{triangles:,} of them are below, {pixel.left_out:,} are left out: what is seen and "
+            "all that is tied with it comes first, then what the textbook accepts, the nearest "
+            "first, then what the ray passes most closely."
+        )
+    if planes:
+        lines.append(f"Infinite planes may be met by any ray: {planes:,}, all below.")
+    if pixel.refused:
+        lines.append(f"{pixel.refused:,} triangles have a corner that is not finite: left out.")
+    out: list[Block] = [
+        Heading(2, "2. What the ray may meet"),
+        Paragraph(" ".join(lines)),
+    ]
+    if not tests:
+        return out
+    rows = tuple(_summary(k, test) for k, test in enumerate(tests, 1))
+    out.append(Table(("", "surface", "t", "s₁", "s₂", "s₃", *(k.value for k in Arithmetic)), rows))
+    if triangles:
+        out += [Paragraph(f"Erratum {k}: {e}", "note") for k, e in enumerate(ERRATA, 1)]
+    return out
+
+
+def _summary(number: int, test: Test) -> tuple[str, ...]:
+    values = {q.key: text(q.values[Arithmetic.FLOAT64][0]) for q in test.quantities}
+    said = [test.judgements[kind].accepted for kind in Arithmetic]
+    cells = (values.get(key, "") for key in ("t", "s1", "s2", "s3"))
+    return f"2.{number}", test.candidate.title, *cells, *("hit" if s else "no" for s in said)
+
+
+def _test(number: int, test: Test) -> list[Block]:
+    c = test.candidate
+    mesh = "" if c.is_plane else f" (mesh “{c.mesh}”, instance {c.instance}, slot {c.slot})"
+    rows = tuple(_judged(kind, test.judgements[kind]) for kind in Arithmetic)
+    out: list[Block] = [
+        Heading(3, f"2.{number} {c.title}{mesh}"),
+        numbers(test.quantities),
+        Table(("", "verdict", "why", "as printed"), rows),
+    ]
+    truth = test.judgements[Arithmetic.EXACT].accepted
+    for kind in FLOATS:
+        said = test.judgements[kind].accepted
+        if said != truth:
+            does = "accepts what is truly missed" if said else "rejects what is truly hit"
+            out.append(Paragraph(f"{kind.capitalize()} {does}.", "warning"))
+    return out
+
+
+def _judged(kind: Arithmetic, judgement: Judgement) -> tuple[str, ...]:
+    why = "; ".join(REASONS[r] for r in judgement.reasons) or "all conditions hold"
+    printed = {None: "–", True: "hit", False: "no"}[judgement.literal]
+    if judgement.accepted and judgement.literal is False:
+        printed = "lost: the sum is not 1"
+    return kind.value, "accepted" if judgement.accepted else "rejected", why, printed
+
+
+def _nearest(derivation: Derivation) -> list[Block]:
+    rows = []
+    for kind in Arithmetic:
+        k = derivation.nearest[kind]
+        if k is None:
+            rows.append((kind.value, "nothing", "–"))
+            continue
+        test = derivation.tests[k]
+        t = next(q for q in test.quantities if q.key == "t").values[kind][0]
+        rows.append((kind.value, test.candidate.title, text(t)))
+    methods = tuple(
+        (
+            a.method.value,
+            a.precision.value,
+            derivation.title_of(a.seen),
+            text(a.precision.dtype.type(a.t)),
+            "as proven" if a.seen == derivation.certified.seen else "differs",
+        )
+        for a in derivation.answers
+    )
+    return [
+        Heading(2, "3. The nearest"),
+        Paragraph("Of all that is accepted, the least t is seen: the textbook's answer."),
+        Table(("", "sees", "t"), tuple(rows)),
+        Paragraph("What the tracer's methods see, beside what is proven:"),
+        Table(("method", "precision", "sees", "t", ""), methods),
+    ]
+
+
+def _color(derivation: Derivation) -> list[Block]:
+    seen = derivation.seen
+    if seen is None:
+        said = "Nothing is met, so the pixel has the background's colour."
+    elif derivation.shading:
+        said = "The colour is the mean of those at the corners, weighed by s₁, s₂, s₃; alpha is 1."
+    elif seen.is_plane:
+        said = f"Constant shading: the colour of {seen.object}; alpha is 1."
+    else:
+        said = (
+            f"Constant shading: the colour of material slot {seen.slot} of {seen.object}; alpha is "
+            "1 on every surface, and light plays no part."
+        )
+    steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
+    rgba = ", ".join(text_float(v) for v in derivation.color)
+    shown = to_display([[derivation.color]])[0, 0, :3]
+    srgb = "#" + "".join(f"{v:02x}" for v in shown)
+    text_ = f"linear RGBA ({rgba}); on a screen (sRGB) {srgb}"
+    return [Heading(2, "4. Its colour"), Paragraph(said), *steps, Swatch(srgb, text_)]
+
+
+def _certain(derivation: Derivation) -> list[Block]:
+    certified = derivation.certified
+    said = CERTAINTIES[certified.certainty]
+    out: list[Block] = [
+        Heading(2, "5. How certain this is"),
+        Paragraph(f"{answer_sentence(derivation)} This is {said}.", "answer"),
+    ]
+    if certified.ties:
+        names = "; ".join(sorted(derivation.title_of(n) for n in certified.ties))
+        out.append(Paragraph(f"All that this pixel may be said to see: {names}.", "warning"))
+    return out

@@ -1,0 +1,98 @@
+"""What each number is called, and the formula that it comes from, written once for all outputs.
+
+A formula is plain text: it is what Markdown shows, and `mathml.py` sets it for HTML. Vectors are
+the letters of `VECTORS`; everything else is a number.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+VECTORS = frozenset({"o", "d", "n", "p", "x", "c", "e", "right", "up", "forward"})
+
+
+class Formula(NamedTuple):
+    """The left side of a formula, its right side (empty where a number is given), and a remark."""
+
+    label: str
+    right: str = ""
+    remark: str = ""
+
+    def __str__(self) -> str:
+        right = f" = {self.right}" if self.right else ""
+        return f"{self.label}{right}{self.remark and f' ({self.remark})'}"
+
+
+CAMERA = {
+    "left": Formula("u_min", "", "view window, at depth 1 (perspective) or in metres"),
+    "right_end": Formula("u_max"),
+    "bottom": Formula("v_min"),
+    "top": Formula("v_max"),
+    "width": Formula("w", "(u_max − u_min) / columns", "a pixel's width"),
+    "height": Formula("h", "(v_max − v_min) / rows", "a pixel's height"),
+    "px": Formula("X", "column + ½", "the pixel's centre, in pixels"),
+    "py": Formula("Y", "row + ½"),
+    "right": Formula("right", "", "the camera's frame, in world space"),
+    "up": Formula("up"),
+    "forward": Formula("forward"),
+    "eye": Formula("e", "", "the camera's position"),
+    "u": Formula("u", "u_min + X w"),
+    "v": Formula("v", "v_min + Y h"),
+}
+RAY = {
+    False: {  # perspective
+        "o": Formula("o", "e"),
+        "d": Formula("d", "u right + v up + forward", "not normalised: t is the depth"),
+    },
+    True: {  # orthographic
+        "o": Formula("o", "e + (u right + v up)"),
+        "d": Formula("d", "forward", "the same for all pixels: t is the depth"),
+    },
+}
+STORED = {"o": Formula("o"), "d": Formula("d")}
+PLANE = {
+    "p": Formula("p", "", "a point of the plane"),
+    "n": Formula("n", "", "its normal"),
+    "from_p": Formula("(o − p) · n"),
+    "towards": Formula("d · n"),
+    "t": Formula("t", "−((o − p) · n) / (d · n)"),
+    "x": Formula("x", "o + t d"),
+}
+TRIANGLE = {
+    "p1": Formula("p₁", "", "corners, in world space"),
+    "p2": Formula("p₂"),
+    "p3": Formula("p₃"),
+    "n": Formula("n", "(p₃ − p₁) × (p₂ − p₁)", "the plane's normal; its length is twice the area"),
+    "from_p": Formula("(o − p₁) · n"),
+    "towards": Formula("d · n", "", "0: parallel"),
+    "t": Formula("t", "−((o − p₁) · n) / (d · n)"),
+    "x": Formula("x", "o + t d", "where the ray meets the plane"),
+    "ns1": Formula("nₛ₁", "(p₂ − p₃) × (x − p₃)"),
+    "ns2": Formula("nₛ₂", "(p₁ − p₂) × (x − p₂)", "0 on the edge p₁p₂"),
+    "ns3": Formula("nₛ₃", "(p₃ − p₁) × (x − p₁)", "0 on the edge p₃p₁"),
+    "area": Formula("‖n‖²", "n · n"),
+    "s1": Formula("s₁", "(n · nₛ₁) / ‖n‖²", "weighs p₁"),
+    "s2": Formula("s₂", "(n · nₛ₃) / ‖n‖²", "weighs p₂; printed as s₃ (erratum 1)"),
+    "s3": Formula("s₃", "(n · nₛ₂) / ‖n‖²", "weighs p₃; printed as s₂ (erratum 1)"),
+    "sum": Formula("s₁ + s₂ + s₃", "", "printed: must be 1 (erratum 2)"),
+}
+COLOR = {
+    "c1": Formula("c₁", "", "colours at the corners, linear"),
+    "c2": Formula("c₂"),
+    "c3": Formula("c₃"),
+    "color": Formula("c", "s₁ c₁ + s₂ c₂ + s₃ c₃"),
+}
+
+ERRATA = (
+    "nₛ₂ is 0 on the edge p₁p₂ and nₛ₃ on the edge p₃p₁. So s₂ as the textbook prints it weighs "
+    "p₃, and s₃ weighs p₂: the opposite of x = s₁ p₁ + s₂ p₂ + s₃ p₃. Constant shading never shows "
+    "it; colours between corners would. Here sᵢ weighs pᵢ.",
+    "x cancels out of nₛ₁ + nₛ₂ + nₛ₃, so s₁ + s₂ + s₃ = 1 always holds exactly and says nothing. "
+    "In floating point, rounding makes the printed test fail for about every second hit. The "
+    "repaired test allows the sum 10⁻⁶ in float32 and 10⁻⁹ in float64.",
+)
+
+
+def component_labels(formula: Formula, count: int) -> list[str]:
+    """Return the label of a number, or the three of a vector's components."""
+    return [formula.label] if count == 1 else [f"{formula.label}.{k}" for k in "xyz"]

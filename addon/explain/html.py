@@ -1,0 +1,143 @@
+"""A derivation as HTML: a fragment for a page of the caller's, or a page by itself.
+
+No script and no network: formulas are MathML. The fragment's classes begin with `derivation-`; its
+colours are the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page
+once.
+"""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from html import escape
+
+from .blocks import Block, Heading, Numbers, Paragraph, Row, Swatch, Table
+from .derivation import Derivation
+from .digits import Parts
+from .document import blocks
+from .formulas import Formula
+from .mathml import math
+
+STYLE = """
+.derivation { color: var(--ink); line-height: 1.5; }
+.derivation h1, .derivation h2, .derivation h3 { line-height: 1.25; text-wrap: balance; }
+.derivation h2 { margin-top: 2.2em; border-bottom: 1px solid var(--muted); padding-bottom: .2em; }
+.derivation h3 { margin-top: 1.8em; }
+.derivation p { max-width: 46em; }
+.derivation-answer { font-weight: 600; border-left: .25em solid var(--accent); padding-left: .8em; }
+.derivation-warning { font-weight: 600; color: var(--accent); }
+.derivation-note { color: var(--muted); font-size: .92em; }
+.derivation-scroll { overflow-x: auto; margin: 1em 0; }
+.derivation table { border-collapse: collapse; font-size: .92em; }
+.derivation th, .derivation td { text-align: left; padding: .18em .9em .18em 0;
+  vertical-align: baseline; white-space: nowrap; }
+.derivation thead th { color: var(--muted); font-weight: 400;
+  border-bottom: 1px solid var(--muted); }
+.derivation tbody th { font-weight: 400; padding-right: 1.6em; }
+.derivation-first th, .derivation-first td { padding-top: .55em; }
+.derivation-number { font-family: ui-monospace, Consolas, "DejaVu Sans Mono", monospace;
+  font-variant-numeric: tabular-nums; font-size: .94em; }
+.derivation td.derivation-off { color: var(--muted); font-size: .85em; text-align: right;
+  padding-right: 2em; }
+.derivation-remark { color: var(--muted); font-size: .85em; margin-left: 1em; }
+.derivation-wrong { color: var(--paper); background: var(--accent); border-radius: .15em;
+  padding: 0 .1em; }
+.derivation-vector { font-weight: bold; font-style: normal; }
+.derivation-swatch { display: inline-block; width: 2.6em; height: 1.4em; vertical-align: middle;
+  margin-right: .8em; border: 1px solid var(--muted); border-radius: .2em; }
+"""
+
+_PAGE_STYLE = """
+:root { color-scheme: light dark; --ink: #1b1b1f; --paper: #fdfdfb; --muted: #6a6a70;
+  --accent: #b3261e; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e8e6e1; --paper: #17181b; --muted: #9a9aa2; --accent: #ff8f7f; }
+}
+body { background: var(--paper); font: 17px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif;
+  margin: 0 auto; padding: 2em 1.5em 6em; max-width: 78em; }
+@media print { body { font-size: 10pt; } }
+"""
+
+
+def fragment(derivation: Derivation) -> str:
+    """Return a <section> for a page that has STYLE in it."""
+    inner = "\n".join(_block(block) for block in blocks(derivation))
+    return f'<section class="derivation">\n{inner}\n</section>\n'
+
+
+def page(derivation: Derivation) -> str:
+    """Return a page by itself, readable in light and dark."""
+    title = blocks(derivation)[0].text
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{escape(title)}</title>\n<style>{_PAGE_STYLE}{STYLE}</style>\n"
+        f"<body>\n{fragment(derivation)}</body>\n</html>\n"
+    )
+
+
+@singledispatch
+def _block(block: Block) -> str:
+    raise TypeError(type(block).__name__)
+
+
+@_block.register
+def _(block: Heading) -> str:
+    return f"<h{block.level}>{escape(block.text)}</h{block.level}>"
+
+
+@_block.register
+def _(block: Paragraph) -> str:
+    kind = f' class="derivation-{block.tone}"' if block.tone else ""
+    return f"<p{kind}>{escape(block.text)}</p>"
+
+
+@_block.register
+def _(block: Swatch) -> str:
+    color = f'<span class="derivation-swatch" style="background:{block.srgb}"></span>'
+    return f"<p>{color}{escape(block.text)}</p>"
+
+
+@_block.register
+def _(block: Table) -> str:
+    return _table(block.head, (_cells(row) for row in block.rows))
+
+
+def _cells(row: tuple[str, ...]) -> str:
+    return f"<tr><th>{escape(row[0])}</th>{''.join(f'<td>{escape(c)}</td>' for c in row[1:])}</tr>"
+
+
+@_block.register
+def _(block: Numbers) -> str:
+    head = "", "", "float32", "off", "float64", "off", "exact"
+    return _table(head, (_number(row) for row in block.rows))
+
+
+def _table(head: tuple[str, ...], rows) -> str:
+    names = "".join(f"<th>{escape(name)}</th>" for name in head)
+    return (
+        f'<div class="derivation-scroll"><table><thead><tr>{names}</tr></thead>\n<tbody>\n'
+        + "\n".join(rows)
+        + "\n</tbody></table></div>"
+    )
+
+
+def _number(row: Row) -> str:
+    first, shown = "", ""
+    if row.formula:
+        first = ' class="derivation-first"'
+        shown = math(row.formula)
+        if row.formula.remark:
+            shown += f'<span class="derivation-remark">{escape(row.formula.remark)}</span>'
+    cells = "".join(
+        f'<td class="derivation-number">{_marked(parts)}</td><td class="derivation-off">{off}</td>'
+        for parts, off in row.floats
+    )
+    return (
+        f"<tr{first}><th>{shown}</th><td>{math(Formula(row.label))}</td>{cells}"
+        f'<td class="derivation-number">{row.exact}</td></tr>'
+    )
+
+
+def _marked(parts: Parts) -> str:
+    wrong = f'<mark class="derivation-wrong">{parts.wrong}</mark>' if parts.wrong else ""
+    return f"{parts.right}{wrong}{parts.exponent}"

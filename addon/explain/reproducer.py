@@ -1,0 +1,180 @@
+"""One pixel as a small file that stands alone: `reftrace explain pixel.json` derives it again.
+
+It is JSON: camera, ray, candidates, every number such that reading gives it back to the bit. It
+holds nothing that runs, and is checked when it is read, as it may come from anywhere.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Camera, Region, SceneError, ViewWindow
+from ..tracer.hits import NOTHING
+from .pixel import Candidate, Pixel
+
+SCHEMA = "reference_tracer.pixel/1"
+_COUNTS = "first_plane", "triangles", "left_out", "refused"
+
+
+def text(pixel: Pixel) -> str:
+    """Return a pixel as the text of a file."""
+    camera = asdict(pixel.camera) | {"world_from_camera": pixel.camera.world_from_camera.tolist()}
+    content = {
+        "schema": SCHEMA,
+        "rerun": "reftrace explain THIS_FILE.json",
+        "source": pixel.source,
+        "x": pixel.x,
+        "y": pixel.y,
+        "camera": camera,
+        "ray": {"origin": pixel.origin.tolist(), "direction": pixel.direction.tolist()},
+        "background": pixel.background.tolist(),
+        **{name: getattr(pixel, name) for name in _COUNTS},
+        "candidates": [
+            vars(c) | {"points": c.points.tolist(), "colors": c.colors.tolist()}
+            for c in pixel.candidates
+        ],
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False, default=np.generic.item) + "\n"
+
+
+def read(path: str | Path) -> Pixel:
+    """Read a pixel.
+
+    Raises
+    ------
+    SceneError
+        If there is no such file, it is none of ours, or something in it is wrong, which is named.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise SceneError(f"there is no file '{path}'")
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"'{path}' is not JSON: {error}") from error
+    try:
+        return _pixel(content)
+    except SceneError as error:
+        raise SceneError(f"'{path}': {error}") from error
+
+
+def _pixel(content: Any) -> Pixel:
+    schema = content.get("schema") if isinstance(content, dict) else None
+    if schema != SCHEMA:
+        raise SceneError(f"its schema is {schema!r}, not {SCHEMA!r}: no pixel to explain")
+    first_plane = _whole(content, "first_plane", "")
+    candidates = tuple(
+        _candidate(c, f"candidates[{k}]")
+        for k, c in enumerate(_get(content, "candidates", "", list))
+    )
+    planes = [c.instance for c in candidates if c.is_plane]
+    if planes != list(range(first_plane, first_plane + len(planes))):
+        raise SceneError("its planes are not numbered one by one from first_plane")
+    if any(c.instance >= first_plane for c in candidates if not c.is_plane):
+        raise SceneError("a triangle's instance is not below first_plane")
+    if len({c.name for c in candidates}) < len(candidates):
+        raise SceneError("two of its candidates have the same instance and triangle")
+    pixel = Pixel(
+        _camera(_get(content, "camera", "", dict)),
+        _whole(content, "x", ""),
+        _whole(content, "y", ""),
+        candidates,
+        _array(content, "background", "", (4,)).astype(np.float32),
+        source=_get(content, "source", "", str),
+        **{name: _whole(content, name, "") for name in _COUNTS},
+    )
+    _check_ray(pixel, _get(content, "ray", "", dict))
+    return pixel
+
+
+def _check_ray(pixel: Pixel, ray: dict) -> None:
+    """Raise a SceneError if the file's ray is not its camera's: one of them was changed."""
+    for name, own in (("origin", pixel.origin), ("direction", pixel.direction)):
+        if not np.array_equal(_array(ray, name, "ray.", (3,)), own):
+            raise SceneError(
+                f"ray.{name} is not that of the camera's pixel, {own.tolist()}: change the camera, "
+                "and write this there"
+            )
+
+
+def _camera(c: dict) -> Camera:
+    window = _get(c, "window", "camera.", dict)
+    region = _get(c, "region", "camera.", dict)
+    sides, ends = ("left", "right", "bottom", "top"), ("x0", "y0", "x1", "y1")
+    return Camera(
+        _array(c, "world_from_camera", "camera.", (4, 4)),
+        ViewWindow(**{k: float(_array(window, k, "camera.window.", ())) for k in sides}),
+        _whole(c, "width", "camera."),
+        _whole(c, "height", "camera."),
+        _get(c, "orthographic", "camera.", bool),
+        *(float(_array(c, k, "camera.", ())) for k in ("clip_start", "clip_end")),
+        Region(**{k: _whole(region, k, "camera.region.") for k in ends}),
+        _get(c, "name", "camera.", str),
+    )
+
+
+def _candidate(c: Any, where: str) -> Candidate:
+    if not isinstance(c, dict):
+        raise SceneError(f"{where} must be an object in braces")
+    where += "."
+    triangle = _get(c, "triangle", where, int)
+    colors = _array(c, "colors", where, None)
+    if colors.shape not in ((1, 4), (3, 4)):
+        raise SceneError(f"{where}colors must be one RGBA, or one for each corner")
+    points = _array(c, "points", where, (2, 3) if triangle == NOTHING else (3, 3))
+    if triangle == NOTHING and not points[1].any():
+        raise SceneError(f"{where}points[1], the plane's normal, is zero")
+    if triangle < NOTHING:
+        raise SceneError(f"{where}triangle is {triangle}; a plane has {NOTHING}")
+    return Candidate(
+        _get(c, "object", where, str),
+        _whole(c, "instance", where),
+        triangle,
+        points,
+        colors.astype(np.float32),
+        _get(c, "mesh", where, str),
+        _whole(c, "slot", where),
+    )
+
+
+def _get(content: dict, key: str, where: str, kind: type) -> Any:
+    if key not in content:
+        raise SceneError(f"{where}{key} is missing")
+    value = content[key]
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        names = {dict: "an object in braces", list: "a list", str: "text", int: "a whole number"}
+        raise SceneError(f"{where}{key} must be {names.get(kind, 'true or false')}")
+    return value
+
+
+def _whole(content: dict, key: str, where: str) -> int:
+    value = _get(content, key, where, int)
+    if not 0 <= value < 2**31:
+        raise SceneError(f"{where}{key} is {value}; it must be between 0 and 2^31 - 1")
+    return value
+
+
+def _array(
+    content: dict, key: str, where: str, shape: tuple[int, ...] | None
+) -> NDArray[np.float64]:
+    """Return finite numbers of a shape, any if None."""
+    if key not in content:
+        raise SceneError(f"{where}{key} is missing")
+    try:
+        values = np.array(content[key], dtype=np.float64)
+    except (ValueError, TypeError, OverflowError):
+        values = np.array(np.nan)
+    if not np.isfinite(values).all() or (shape is not None and values.shape != shape):
+        what = "finite numbers" if shape is None else f"{_size(shape)} finite numbers"
+        raise SceneError(f"{where}{key} must be {what if shape != () else 'a finite number'}")
+    return values
+
+
+def _size(shape: tuple[int, ...]) -> str:
+    return " x ".join(map(str, shape))

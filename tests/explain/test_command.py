@@ -1,0 +1,81 @@
+"""`reftrace explain`."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+import trimesh
+from reference_tracer.arguments import AGREE, INPUT_ERROR
+from reference_tracer.cli import main
+from reference_tracer.explain import as_json, reproducer
+from reference_tracer.scene_files import save_scene
+
+SMALL = ["--width", "24", "--height", "16"]
+
+
+@pytest.fixture
+def ball(tmp_path):
+    path = tmp_path / "ball.ply"
+    trimesh.creation.icosphere(2, radius=1.0).export(path)
+    return str(path)
+
+
+def explain(*arguments):
+    return main(["explain", *map(str, arguments)])
+
+
+def test_markdown_is_printed_and_nothing_else(ball, capsys):
+    assert explain(ball, "--pixel", 12, 8, *SMALL) == AGREE
+    text = capsys.readouterr().out
+    assert text.startswith("# The ray through pixel (12, 8) of ball.ply\n")
+    assert "ball.ply, triangle" in text and text.rstrip().endswith("change it.**")
+
+
+def test_files_by_their_endings(ball, tmp_path, capsys):
+    out = tmp_path / "new"
+    for suffix, begins in ((".md", "# The ray"), (".html", "<!DOCTYPE html>"), (".JSON", "{")):
+        path = out / f"pixel{suffix}"
+        assert explain(ball, "--pixel", 12, 8, "--out", path, *SMALL) == AGREE
+        assert path.read_text(encoding="utf-8").startswith(begins)
+        printed = capsys.readouterr().out
+        assert printed.startswith("The pixel sees ball.ply, triangle") and str(path) in printed
+    assert json.loads((out / "pixel.JSON").read_text())["schema"] == as_json.SCHEMA
+
+
+def test_reproducer_reruns_without_the_scene(ball, tmp_path, capsys):
+    pixel = tmp_path / "pixel.json"
+    assert explain(ball, "--pixel", 12, 8, "--reproducer", pixel, "--limit", 3, *SMALL) == AGREE
+    first = capsys.readouterr().out
+    assert json.loads(pixel.read_text())["schema"] == reproducer.SCHEMA
+    (tmp_path / "ball.ply").unlink()
+    assert explain(pixel) == AGREE
+    assert capsys.readouterr().out == first
+
+
+def test_a_scene_file(ball_scene, tmp_path, capsys):
+    save_scene(tmp_path / "scene.npz", ball_scene)
+    assert explain(tmp_path / "scene.npz", "--pixel", 12, 9) == AGREE
+    assert "of scene.npz" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ([], "--pixel X Y says which pixel"),
+        (["--pixel", "24", "0"], "x must be between 0 and 23"),
+        (["--pixel", "0", "-1"], "y must be between 0 and 15"),
+        (["--pixel", "0", "0", "--limit", "0"], "--limit is 0"),
+        (["--pixel", "0", "0", "--out", "pixel.pdf"], "must end in .md or .html or .json"),
+        (["--pixel", "0", "0", "--reproducer", "pixel.npz"], "must end in .json"),
+    ],
+)
+def test_what_is_wrong_is_said(ball, capsys, options, says):
+    assert explain(ball, *SMALL, *options) == INPUT_ERROR
+    assert says in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", [["--pixel", "1", "1"], ["--limit", "3"], ["--width", "9"]])
+def test_a_pixel_takes_no_option_of_a_scene(tmp_path, capsys, option):
+    assert explain(tmp_path / "pixel.json", *option) == INPUT_ERROR
+    assert "which is one pixel by itself" in capsys.readouterr().err

@@ -1,0 +1,120 @@
+"""The page: well-formed, the same numbers as the Markdown, no script, no network."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+from reference_tracer.explain import formulas, html, markdown
+from reference_tracer.explain.derivation import derive
+from reference_tracer.explain.formulas import Formula
+from reference_tracer.explain.mathml import math
+
+from .printed import tables
+
+MATH = formulas.CAMERA | formulas.PLANE | formulas.TRIANGLE | formulas.COLOR
+VOID = {"meta"}
+
+
+class Reader(HTMLParser):
+    """Checks that elements are closed in order; keeps the cells of the tables of numbers."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.tags, self.classes, self.cells, self.text = [], set(), set(), [], []
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.add(tag)
+        attributes = dict(attributes)
+        self.classes |= set((attributes.get("class") or "").split())
+        assert not {"src", "href", "onclick"} & set(attributes)
+        if tag not in VOID:
+            self.open.append((tag, attributes.get("class")))
+        if (tag, attributes.get("class")) == ("td", "derivation-number"):
+            self.cells.append("")
+
+    def handle_endtag(self, tag):
+        assert self.open.pop()[0] == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+        if ("td", "derivation-number") in self.open:
+            self.cells[-1] += data
+
+
+def read(text):
+    reader = Reader()
+    reader.feed(text)
+    assert not reader.open
+    return reader
+
+
+@pytest.fixture
+def derivation(ball_scene):
+    return derive(ball_scene, 12, 9)
+
+
+def test_page(derivation):
+    text = html.page(derivation)
+    reader = read(text)
+    assert text.startswith("<!DOCTYPE html>")
+    assert {"math", "mfrac", "table", "mark", "h1"} <= reader.tags
+    assert not {"script", "link", "img", "iframe"} & reader.tags
+    assert "http" not in text and "url(" not in text and "@import" not in text
+    assert all(name.startswith("derivation") for name in reader.classes)
+
+
+def test_fragment_leaves_colours_to_its_page(derivation):
+    text = html.fragment(derivation)
+    assert text.startswith("<section") and "<style" not in text
+    assert html.page(derivation).count(text) == 1
+    for name in ("--ink", "--muted", "--accent", "--paper"):
+        assert f"var({name})" in html.STYLE and f"{name}:" not in html.STYLE
+
+
+def test_the_numbers_are_those_of_the_markdown(derivation):
+    expected = []
+    for _, columns, _ in tables(markdown.text(derivation)):
+        for label in columns["float32"]:
+            row = (
+                columns[kind].get(label, "undefined") for kind in ("float32", "float64", "exact")
+            )
+            expected += row
+    cells = read(html.page(derivation)).cells
+    assert len(cells) == len(expected) > 200
+    for cell, value in zip(cells, expected, strict=True):
+        assert cell == value if isinstance(value, str) else type(value)(float(cell)) == value
+
+
+@pytest.mark.parametrize(
+    "name", ["<script>alert(1)</script>", "a|b*c_d`e", "&amp;", 'x" onclick="y']
+)
+def test_names_are_text(ball_scene, name):
+    names = [name] * len(ball_scene.objects)
+    found = derive(replace(ball_scene, objects=names), 12, 9, source=name)
+    reader = read(html.page(found))
+    assert "script" not in reader.tags
+    assert any(name in piece for piece in reader.text)
+    rows = [line for line in markdown.text(found).splitlines() if line.startswith("| 2.")]
+    assert len(rows) == len(found.tests)
+    assert {row.replace("\\|", "").count("|") for row in rows} == {10}  # no cell more
+
+
+@pytest.mark.parametrize("formula", MATH.values(), ids=MATH)
+def test_formulas_are_mathml(formula):
+    tree = ElementTree.fromstring(math(formula))
+    assert "".join(tree.itertext()).strip()
+    shown = formula.label + formula.right
+    assert len(list(tree.iter("mfrac"))) == (1 if " / " in shown else 0)
+    assert len(list(tree.iter("msup"))) == shown.count("²")
+
+
+def test_a_fraction():
+    tree = math(Formula("t", "−((o − p₁) · n) / (d · n)"))
+    root = ElementTree.fromstring(tree)
+    above, below = root.find("mfrac")
+    assert "".join(above.itertext()) == "(o−p1)·n" and "".join(below.itertext()) == "d·n"
+    assert [e.text for e in root if e.tag == "mo"] == ["=", "−"]
+    assert [e.get("class") for e in below.iter("mi")] == ["derivation-vector"] * 2
