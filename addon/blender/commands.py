@@ -6,6 +6,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -17,6 +18,7 @@ from ..arguments import (
     SIZES_DIFFER,
     Parser,
     add_judge,
+    add_page,
     add_settings,
     check,
     settings_from,
@@ -24,7 +26,7 @@ from ..arguments import (
 )
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import SizeError
-from ..report import files
+from ..report import files, page
 from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.certainty import AssumptionError
@@ -70,6 +72,7 @@ def _parser() -> Parser:
     )
     add_settings(sub)
     add_judge(sub)
+    add_page(sub)
     sub = command(
         "trade",
         _trade,
@@ -136,9 +139,12 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
         settings=settings,
         judge=options.judge.upper() if options.judge else None,
         as_is=options.as_is or None,
+        trade=options.trade,
+        extremes=options.extremes,
     )
     comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
+    print(f"open {Path(options.out) / page.NAME} in a browser")
     return VERDICT_CODES[comparison.verdict]
 
 

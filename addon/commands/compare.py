@@ -7,7 +7,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from ..arguments import add_judge, add_processes, add_settings
+from ..arguments import add_judge, add_page, add_processes, add_settings
 from ..opening import open_blend
 from ..report import files, folders
 from ..report.progress_bar import progress_bar
@@ -30,6 +30,7 @@ def add(commands: Commands) -> None:
     add_settings(parser)
     add_processes(parser)
     add_judge(parser)
+    add_page(parser)
 
 
 def run(options: argparse.Namespace) -> int:

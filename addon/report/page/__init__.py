@@ -5,5 +5,6 @@
 """
 
 from .document import NAME, write
+from .extras import Extras, extras
 
-__all__ = ["NAME", "write"]
+__all__ = ["NAME", "Extras", "extras", "write"]

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from ...compare.cause import Cause
 from ...compare.comparison import Comparison
+from ...explain import html
+from ...explain.derivation import Derivation
 from ...images import MissingLibraryError, to_display
 from ...scene import Camera, Scene
 from ...study.extremes import Row
@@ -44,7 +46,7 @@ def content(
     trade: Trade | None = None,
     extremes: Sequence[Row] | None = None,
     literal: Frame | None = None,
-    derivations: Mapping[tuple[int, int], str] | None = None,
+    derivations: Mapping[tuple[int, int], Derivation] | None = None,
     left_out: Iterable[str] = (),
     limit: int = LIMIT,
 ) -> dict[str, Any]:
@@ -57,8 +59,8 @@ def content(
         Where they were measured.
     literal : Frame, optional
         The same scene by the textbook's test taken literally.
-    derivations : dict of str, optional
-        HTML fragments by pixel, (x, y) from the lower left of the picture.
+    derivations : dict of Derivation, optional
+        By pixel, (x, y) from the lower left of the picture.
     left_out : iterable of str
         Sentences on what the page does not have, and why.
     limit : int
@@ -84,7 +86,8 @@ def content(
         "pictures": _pictures(comparison, literal),
         "pixels": pixels,
         "derivations": [
-            {"pixel": list(pixel), "html": html} for pixel, html in (derivations or {}).items()
+            {"pixel": list(pixel), "html": html.fragment(derivation)}
+            for pixel, derivation in (derivations or {}).items()
         ],
         "trade": _study(trade, trade_report.to_dict, _trade_plots, missing),
         "extremes": _study(extremes, _extremes_dict, extremes_report.pictures, missing),

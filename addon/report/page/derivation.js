@@ -9,7 +9,7 @@ function drawDerivation() {
   const { x, y } = state;
   const own = page.derivations.find(({ pixel }) => pixel[0] === x && pixel[1] === y);
   byId("fragment").replaceChildren();
-  if (own) byId("fragment").innerHTML = own.html; // the project's own markup: names are escaped in it
+  if (own) byId("fragment").append(exactDerivation(own.html));
   if (!pixels.surfaces) {
     byId("derivation").replaceChildren(element("p", { class: "muted" }, "The triangles are not in this page: it would be too large."));
     return;
@@ -19,6 +19,13 @@ function drawDerivation() {
   const results = PRECISIONS.map((precision) => derive(x, y, surface, precision));
   byId("derivation").replaceChildren(
     ...[candidatesTable(x, y, candidates, surface), stepsTable(surface, results), errata(surface)].filter(Boolean));
+}
+
+/** The derivation that was written with the page: the project's own markup, names escaped in it. */
+function exactDerivation(html) {
+  const inner = element("div");
+  inner.innerHTML = html;
+  return element("details", { class: "exact" }, element("summary", {}, "Every candidate in float32, float64 and exactly"), inner);
 }
 
 /** The surfaces seen here and in the eight pixels around, each accepted or rejected. */

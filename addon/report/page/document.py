@@ -16,6 +16,8 @@ from pathlib import Path
 from typing import Any
 
 from ...compare.comparison import Comparison
+from ...explain import html as explained
+from ...explain.derivation import Derivation
 from ...study.extremes import Row
 from ...study.trade import Trade
 from ...tracer.frame import Frame
@@ -37,7 +39,7 @@ def write(
     trade: Trade | None = None,
     extremes: Sequence[Row] | None = None,
     literal: Frame | None = None,
-    derivations: Mapping[tuple[int, int], str] | None = None,
+    derivations: Mapping[tuple[int, int], Derivation] | None = None,
     left_out: Sequence[str] = (),
 ) -> None:
     """Write a page; see :func:`content.content` for what it is given.
@@ -57,7 +59,7 @@ def html(held: Mapping[str, Any]) -> str:
     text = _text("page.html")
     policy = _policy([_text(name) for name in _SCRIPT.findall(text)])
     # As functions: what replaces a match may hold backslashes.
-    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", text)
+    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}{explained.STYLE}</style>", text)
     text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
     data = _DATA.replace("></", f">{json_text(held)}</")
     return text.replace(_POLICY, policy).replace(_DATA, data)

@@ -41,9 +41,7 @@ class Surfaces:
 
 def seen(frame: Frame) -> Surfaces:
     """Return the surfaces that a frame sees, each once."""
-    instance, triangle = (
-        a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index)
-    )
+    instance, triangle = (a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index))
     names = np.where(instance == NOTHING, -1, (instance << 32) | (triangle + 1))
     unique, number = np.unique(np.append(names.ravel(), -1), return_inverse=True)
     number = number.ravel()[:-1].reshape(names.shape)
