@@ -25,6 +25,9 @@ function drawDerivation() {
 function exactDerivation(html) {
   const inner = element("div");
   inner.innerHTML = html;
+  for (const heading of inner.querySelectorAll("h1, h2, h3")) { // they stand below this page's own
+    heading.setAttribute("aria-level", Number(heading.localName[1]) + 2);
+  }
   return element("details", { class: "exact" }, element("summary", {}, "Every candidate in float32, float64 and exactly"), inner);
 }
 

@@ -28,6 +28,7 @@ const KEYS = [
   [["+", "="], "zoom in on the pixel", () => zoomAbout(1.5)],
   [["-", "−"], "zoom out", () => zoomAbout(1 / 1.5)],
   [["0"], "the whole picture", () => setView(0, 0, 0)],
+  [["f"], "the pictures on the full screen", () => (document.fullscreenElement ? document.exitFullscreen() : stage.requestFullscreen())],
   [["t"], "light or dark", toggleTheme],
   [["l"], "larger type, for a projector", toggleLarge],
 ];

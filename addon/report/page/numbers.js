@@ -50,7 +50,7 @@ function signed(text, infinity) {
   return text.replace(/-/g, "−");
 }
 
-/** As C and Python write %.<digits>g. */
+/** As C and Python write %.<digits>g (but a number that lies just between two goes up). */
 function general(value, digits = 6) {
   if (!Number.isFinite(value)) return shortest(value);
   if (value === 0) return "0";
