@@ -1,7 +1,8 @@
 "use strict";
 // The pictures that can be shown: those of the JSON, and maps that are drawn from the numbers.
 
-const layers = new Map(); // by id: { id, label, note, canvas, values }
+// By id: { id, label, note, canvas, values, key: what its colours mean }.
+const layers = new Map();
 
 const CERTAINTY_COLORS = { 0: [120, 120, 120], 1: [46, 77, 89], 2: [86, 180, 233], 3: [240, 228, 66] };
 const DIM = 0.42; // of what agrees, on the screen
@@ -48,6 +49,8 @@ function drawCauses() {
 
 function drawCertainty() {
   const layer = layers.get("certainty");
+  const there = [...new Set(pixels.certainty)].sort();
+  layer.key = there.map((c) => [page.certainties[c].name, `rgb(${CERTAINTY_COLORS[c]})`]);
   const image = new ImageData(WIDTH, HEIGHT);
   for (let pixel = 0; pixel < pixels.certainty.length; pixel++) {
     const i = offsetOf(pixel % WIDTH, Math.floor(pixel / WIDTH));

@@ -82,7 +82,7 @@ const lines = (values) => element("span", { class: "lines" }, ...values.map((v) 
 
 function swatch(rgba) {
   const hex = `#${[...rgba].slice(0, 3).map((v) => v.toString(16).padStart(2, "0")).join("")}`;
-  const made = element("span", { class: "swatch" }, element("i"), element("code", {}, hex));
+  const made = element("span", { class: "swatch" }, element("i"), element("code", {}, rgba[3] ? hex : "transparent"));
   made.firstChild.style.background = `rgba(${rgba[0]}, ${rgba[1]}, ${rgba[2]}, ${rgba[3] / 255})`;
   return made;
 }

@@ -132,7 +132,7 @@ function drawPane(context, pane) {
       clip(context, start, pane.y, (k ? pane.x + pane.width : border) - start, pane.height);
     }
     drawPicture(context, pane, layers.get(id));
-    if (state.marks || id === "causes") drawMarks(context, pane);
+    if (state.marks || id === "causes") drawMarks(context, pane, id === "causes");
     context.restore();
     drawLabel(context, pane, layers.get(id), k);
   });

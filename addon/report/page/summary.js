@@ -43,7 +43,7 @@ function tiles(score) {
   ];
   if (score.not_decidable) found.push(["Not decidable", score.not_decidable, percent(score.not_decidable, score.total)]);
   if (score.not_traced) found.push(["Not traced", score.not_traced, percent(score.not_traced, score.total)]);
-  found.push(["Proven", proven, certainty.ambiguous ? `and ${count(certainty.ambiguous)} ambiguous` : percent(proven, score.total)]);
+  found.push(["Proven", proven, !proven ? `${words(page.comparison.tracer.method)} proves nothing` : certainty.ambiguous ? `and ${count(certainty.ambiguous)} ambiguous` : percent(proven, score.total)]);
   return found;
 }
 
