@@ -10,7 +10,7 @@ const TYPES = {
   uint8: Uint8Array,
   int32: Int32Array,
   uint32: Uint32Array,
-  int64: BigInt64Array,
+  uint64: BigUint64Array,
   float32: Float32Array,
   float64: Float64Array,
 };

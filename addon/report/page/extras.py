@@ -18,7 +18,7 @@ from ...tracer.progress import Work, scaled
 from ...tracer.render import Steps, steps
 from ...tracer.settings import Method, Precision, Settings
 
-LITERAL_SECONDS = 5.0  # of the textbook's picture: a literal one takes as long again
+LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
 DERIVED = 3  # examples of each cause whose derivation is written out
 DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
 

@@ -99,7 +99,8 @@ function tracedT(pixel) {
   if (!surface) return pixels.surface[pixel] ? null : Infinity;
   if (!pixels.t_offset) return null;
   const { t } = derive(pixel % WIDTH, Math.floor(pixel / WIDTH), surface, "float64");
-  return ulpsAbove(Number.isFinite(t) ? t : 0, pixels.t_offset[pixel]);
+  const numbered = pixels.t_offset[pixel]; // 0, -1, 1, -2, 2... as 0, 1, 2, 3, 4...
+  return ulpsAbove(Number.isFinite(t) ? t : 0, (numbered >> 1n) ^ -(numbered & 1n));
 }
 
 /** The surfaces that a pixel and its eight neighbours see, its own first. */

@@ -84,12 +84,13 @@ def table(scene: Scene, surfaces: Surfaces) -> dict[str, Any]:
     }
 
 
-def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.int64]:
+def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.uint64]:
     """Return by how many ulp the traced t is above what the textbook's formula gives, (h, w).
 
     The page computes the formula's t itself; with these small numbers it has the traced one, too,
     to the last bit, in a fraction of the space. They are differences of bit patterns (modulo 2^64).
-    Where nothing is seen, or the formula gives no number, they count from 0.
+    Where nothing is seen, or the formula gives no number, they count from 0. As 0, -1, 1, -2, 2...
+    are numbered 0, 1, 2, 3, 4..., all but the lowest bytes are zero, and compress.
     """
     t = frame.t.ravel()
     formula = np.zeros(len(t))
@@ -102,7 +103,8 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.int6
     formula[~np.isfinite(formula)] = 0.0
     with np.errstate(over="ignore"):
         offsets = t.view(np.int64) - formula.view(np.int64)
-    return np.where(np.isfinite(t), offsets, 0).reshape(frame.t.shape)
+    offsets = np.where(np.isfinite(t), offsets, 0).reshape(frame.t.shape)
+    return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
 
 
 def _textbook_t(scene: Scene, rays: Rays, surfaces: Surfaces, number: NDArray) -> NDArray:
