@@ -8,6 +8,7 @@ import io
 import json
 import re
 import zlib
+from pathlib import Path
 
 import jsonschema
 import numpy as np
@@ -24,6 +25,7 @@ from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 FOLDER = document._HERE
+PROJECT = Path(__file__).resolve().parents[2]
 DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
 SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 
@@ -242,3 +244,40 @@ def test_the_pages_files_are_short():
         lines = file.read_text(encoding="utf-8").splitlines()
         assert len(lines) <= 280, file.name
         assert not any("</script" in line for line in lines if file.suffix == ".js"), file.name
+
+
+def test_the_python_in_the_docs_reads_a_page(differing, tmp_path):
+    docs = (PROJECT / "docs" / "page.md").read_text(encoding="utf-8")
+    [code] = re.findall(r"```python\n(.*?)```", docs, re.DOTALL)
+    page.write(tmp_path / "page.html", differing)
+    names: dict = {}
+    exec(code.replace("out/demo/page.html", str(tmp_path / "page.html")), names)
+    where = differing.causes.cause != 0
+    assert np.array_equal(names["cause"], differing.causes.cause[where])
+
+
+# Machado, Oliveira and Fernandes, "A physiologically-based model for simulation of color vision
+# deficiency", 2009: severity 1, of linear sRGB.
+DEFICIENT = {
+    "none": np.eye(3),
+    "protan": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
+               [-0.003882, -0.048116, 1.051998]],
+    "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
+               [-0.011820, 0.042940, 0.968881]],
+    "tritan": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
+               [0.004733, 0.691367, 0.303900]],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", DEFICIENT)
+def test_causes_are_told_apart_whatever_colours_one_sees(kind):
+    """By CIE 1976's distance in L*a*b*; 10 is what one sees at a glance."""
+    from itertools import combinations
+
+    from reference_tracer.report.pictures import CAUSE_COLORS
+    from skimage.color import rgb2lab
+
+    linear = np.clip(np.array(list(CAUSE_COLORS.values())) @ np.array(DEFICIENT[kind]).T, 0, 1)
+    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    for first, second in combinations(rgb2lab(srgb), 2):
+        assert np.linalg.norm(first - second) > 10

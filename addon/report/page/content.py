@@ -119,7 +119,7 @@ def _plane(plane: Any, instance: int) -> dict[str, Any]:
 
 def _causes(comparison: Comparison) -> list[dict[str, Any]]:
     """Return what there is to say of each cause, in the order of their numbers."""
-    pixels = comparison.pixels
+    pixels, told = comparison.pixels, comparison.to_dict().get("causes", {})
     count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
     return [
         {
@@ -129,6 +129,7 @@ def _causes(comparison: Comparison) -> list[dict[str, Any]]:
             "pixels": count[c.name.lower()],
             "color": _hex(CAUSE_COLORS[c]) if c in CAUSE_COLORS else None,
         }
+        | {k: v for k, v in told.get(c.name.lower(), {}).items() if k in ("sentence", "unit")}
         for c in Cause
     ]
 

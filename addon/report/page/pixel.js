@@ -38,6 +38,8 @@ function reasonOf(cause, pixel) {
     const { object, feature, detail } = unmodelled;
     return `${object}: ${feature}${detail ? ` (${detail})` : ""}`;
   }
+  const hidden = page.comparison.hidden?.[figure];
+  if (cause.name === "hidden" && hidden) return `only one side shows ${hidden.object}: ${hidden.reason}`;
   if (cause.sentence) return filled(cause.sentence, { figure, allowed });
   return Number.isNaN(figure) ? "" : `${general(figure, 3)} (allowed: ${general(allowed, 3)})`;
 }

@@ -12,13 +12,14 @@ function table(caption, heads, rows, right = [], kind = "") {
 }
 
 const card = (title, ...children) => element("section", { class: "card" }, element("h2", {}, title), ...children);
+const px = (value) => `${general(value, 3)} px`;
 const wide = (made) => (made.classList.add("wide"), made);
 const facts = (pairs) => element("dl", { class: "facts" },
   ...pairs.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
 const seconds = (value) => `${general(value, 3)} s`;
 
 function drawTables() {
-  byId("tables").replaceChildren(...[methodsCard(), metricsCard(), splitCard(), blenderCard(), ...extraCards(),
+  byId("tables").replaceChildren(...[methodsCard(), metricsCard(), splitCard(), blenderCard(), certificateCard(), selfCheckCard(), enginesCard(),
     manifestCard(), tradeCard(), extremesCard(), leftOutCard()].filter(Boolean));
   byId("colophon").textContent = `Traced in plain Python and numpy, and compared with Blender ${page.comparison.blender.version}, by Reference Tracer. This page fetches nothing.`;
 }
@@ -40,15 +41,20 @@ function metricsCard() {
     ["SSIM", ssim.toFixed(6)],
     ["Largest difference", element("span", {}, `${general(most.value, 4)} at `,
       element("button", { type: "button", class: "link", onclick: () => visit(x, y) }, `(${x}, ${y})`))],
-  ]), element("p", { class: "muted" }, "Of linear RGBA, over all pixels."));
+  ]), element("p", { class: "muted" }, "Of linear RGBA, over all pixels."),
+  page.comparison.transform ? element("p", {}, `Colours: ${page.comparison.transform}.`) : null);
 }
 
 /** The counts of interior and boundary pixels apart. */
 function splitCard() {
   const parts = ["interior", "boundary"].filter((name) => page.comparison.pixels[name]);
   if (!parts.length) return null;
-  const names = [...new Set(parts.flatMap((name) => Object.keys(page.comparison.pixels[name])))];
-  const rows = names.map((name) => [words(name), ...parts.map((part) => count(page.comparison.pixels[part][name] ?? 0))]);
+  const scores = parts.map((name) => page.comparison.pixels[name]);
+  const causes = [...CAUSES.values()].filter((cause) => cause.pixels);
+  const rows = [
+    ...["total", "agree", "differ"].map((name) => [words(name), ...scores.map((score) => count(score[name]))]),
+    ...causes.map(({ name, label }) => [`– ${label}`, ...scores.map((score) => count(score.by_cause[name] ?? 0))]),
+  ];
   return card("Inside and at edges", table("Pixels in the interior of surfaces, and at their boundaries", ["", ...parts.map(words)], rows, [1, 2]));
 }
 
@@ -66,16 +72,36 @@ const said = (value) =>
   value === true ? "yes" : value === false ? "no" : typeof value === "number" ? general(value)
     : typeof value === "object" && value !== null ? JSON.stringify(value) : String(value);
 
-/** What a comparison may have besides, in whatever rows it has: a card for each. */
-function extraCards() {
-  const titles = { certificate: "Camera certificate", self_check: "Self-check", engines: "Engines" };
-  return Object.entries(titles).filter(([key]) => page.comparison[key]).map(([key, title]) => {
-    const held = page.comparison[key];
-    if (!Array.isArray(held)) return card(title, facts(Object.entries(held).map(([name, v]) => [words(name), said(v)])));
-    const heads = [...new Set(held.flatMap(Object.keys))];
-    const right = heads.map((h, k) => (typeof held[0][h] === "number" ? k : -1));
-    return wide(card(title, table(title, heads.map(words), held.map((row) => heads.map((h) => said(row[h] ?? ""))), right)));
-  });
+/** Do the tracer's camera and Blender's see known points in the same places? */
+function certificateCard() {
+  const held = page.comparison.certificate;
+  if (!held) return null;
+  return card("Camera certificate", element("p", { class: held.passed ? "yes" : "no" },
+    held.passed ? "✓ The two cameras are the same" : "✗ The two cameras differ"), facts([
+    ["Known points", count(held.points)],
+    ["Farthest apart", px(held.largest)],
+    ["Allowed", `${px(held.allowed)}, by float32`],
+  ]));
+}
+
+/** Faults that were made on purpose, and whether the comparison found them. */
+function selfCheckCard() {
+  const held = page.comparison.self_check;
+  if (!held?.length) return null;
+  const rows = held.map((f) => [f.text, element("span", { class: f.result === "missed" ? "no" : f.result === "caught" ? "yes" : "muted" }, f.result),
+    count(f.changed), count(f.differ), `${count(f.unexplained)} of ${count(f.looked_at)}`, f.note]);
+  return wide(card("Would a fault have been found?",
+    table("Known faults, made on purpose and judged like this comparison", ["Fault", "", "Pixels changed", "Differ", "Unexplained", ""], rows, [2, 3, 4])));
+}
+
+/** Several engines against certified, in whatever columns they come. */
+function enginesCard() {
+  const held = page.comparison.engines;
+  if (!held?.length) return null;
+  const heads = [...new Set(held.flatMap(Object.keys))];
+  const right = heads.map((head, k) => (typeof held[0][head] === "number" ? k : -1));
+  return wide(card("Engines", table("Each held against the certified picture", heads.map(words),
+    held.map((row) => heads.map((head) => said(row[head] ?? ""))), right)));
 }
 
 function manifestCard() {
