@@ -175,6 +175,9 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
         "t_offset": None,
         "colors": None,
     }
+    identity = getattr(comparison, "identity", None)
+    if identity is not None:
+        found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
     missing, taken = [], size(found)
     for name, what, made in _by_priority(scene, comparison, seen):
         part = made()
