@@ -121,17 +121,21 @@ def _causes(comparison: Comparison) -> list[dict[str, Any]]:
     """Return what there is to say of each cause, in the order of their numbers."""
     pixels, told = comparison.pixels, comparison.to_dict().get("causes", {})
     count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
-    return [
-        {
-            "value": int(c),
-            "name": c.name.lower(),
-            "label": _words(c.name),
-            "pixels": count[c.name.lower()],
-            "color": _hex(CAUSE_COLORS[c]) if c in CAUSE_COLORS else None,
-        }
-        | {k: v for k, v in told.get(c.name.lower(), {}).items() if k in ("sentence", "unit")}
-        for c in Cause
-    ]
+    out = []
+    for cause in Cause:
+        name = cause.name.lower()
+        own = {"label": name} | told.get(name, {})
+        out.append(
+            {
+                "value": int(cause),
+                "name": name,
+                "label": _words(own["label"]),
+                "pixels": count[name],
+                "color": _hex(CAUSE_COLORS[cause]) if cause in CAUSE_COLORS else None,
+            }
+            | {k: own[k] for k in ("sentence", "unit") if k in own}
+        )
+    return out
 
 
 def _words(name: str) -> str:

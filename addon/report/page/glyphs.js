@@ -20,11 +20,12 @@ const SHAPES = {
 const SHAPE_OF = { edge: "circle", depth_tie: "triangle", not_modelled: "diamond",
   not_decidable: "bars", unexplained: "cross", not_traced: "line" };
 
-/** By their values, the causes that a pixel may differ for, each with its shape. */
+/** By their values, the causes that a pixel may differ for, the worst first, each with its shape. */
 const CAUSES = new Map();
 {
   const free = Object.keys(SHAPES).filter((shape) => !Object.values(SHAPE_OF).includes(shape));
-  for (const cause of page.causes.filter((c) => c.color)) {
+  const worst = (cause) => Number(cause.name !== "unexplained");
+  for (const cause of page.causes.filter((c) => c.color).sort((a, b) => worst(a) - worst(b))) {
     CAUSES.set(cause.value, { ...cause, shape: SHAPE_OF[cause.name] ?? free.shift() ?? "circle" });
   }
 }
