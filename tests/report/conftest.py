@@ -15,6 +15,10 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
+from .browser import chromium, show
+
+__all__ = ["chromium", "show"]  # fixtures
+
 HOSTILE = (
     '</script><script>window.hacked = "name"</script>',
     "<img src=x onerror=\"window.hacked='image'\">",

@@ -242,7 +242,7 @@ def test_the_pages_files_are_short():
     assert len(files) > 15
     for file in files:
         lines = file.read_text(encoding="utf-8").splitlines()
-        assert len(lines) <= 280, file.name
+        assert len(lines) <= 250, file.name
         assert not any("</script" in line for line in lines if file.suffix == ".js"), file.name
 
 

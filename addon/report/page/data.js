@@ -62,7 +62,13 @@ async function loadPicture({ id, label, note, png }) {
   canvas.height = image.naturalHeight;
   const context = canvas.getContext("2d", { willReadFrequently: true });
   context.drawImage(image, 0, 0);
-  return { id, label, note, canvas, values: context.getImageData(0, 0, canvas.width, canvas.height).data };
+  return {
+    id,
+    label,
+    note,
+    canvas,
+    values: context.getImageData(0, 0, canvas.width, canvas.height).data,
+  };
 }
 
 /** Make an element; children are elements or text, never markup. */

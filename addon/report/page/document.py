@@ -59,7 +59,8 @@ def html(held: Mapping[str, Any]) -> str:
     text = _text("page.html")
     policy = _policy([_text(name) for name in _SCRIPT.findall(text)])
     # As functions: what replaces a match may hold backslashes.
-    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}{explained.STYLE}</style>", text)
+    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", text)
+    text = text.replace("</head>", f"<style>{explained.STYLE}</style>\n</head>")
     text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
     data = _DATA.replace("></", f">{json_text(held)}</")
     return text.replace(_POLICY, policy).replace(_DATA, data)

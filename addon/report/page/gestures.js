@@ -49,14 +49,18 @@ canvas.addEventListener("pointerup", (event) => {
 canvas.addEventListener("pointercancel", (event) => fingers.delete(event.pointerId));
 
 // Zooming out stops at the whole picture; from there the wheel scrolls the page, as elsewhere.
-canvas.addEventListener("wheel", (event) => {
-  if (event.deltaY > 0 && !state.view.scale) return;
-  event.preventDefault();
-  const place = placeOf(event);
-  const found = fromCanvas(place.x, place.y);
-  const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1;
-  if (found) zoomAbout(Math.exp(-0.0022 * lines * event.deltaY), found.x, found.y);
-}, { passive: false });
+canvas.addEventListener(
+  "wheel",
+  (event) => {
+    if (event.deltaY > 0 && !state.view.scale) return;
+    event.preventDefault();
+    const place = placeOf(event);
+    const found = fromCanvas(place.x, place.y);
+    const lines = event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 30 : 1;
+    if (found) zoomAbout(Math.exp(-0.0022 * lines * event.deltaY), found.x, found.y);
+  },
+  { passive: false },
+);
 
 // In hover swap the right picture is seen while the pointer is over the left one.
 canvas.addEventListener("pointerenter", () => state.mode === "swap" && change({ swapped: true }));
@@ -76,7 +80,14 @@ handle.addEventListener("pointermove", (event) => {
   moveSplit((event.clientX - box.left) / box.width);
 });
 handle.addEventListener("keydown", (event) => {
-  const step = { ArrowLeft: -0.02, ArrowRight: 0.02, Home: -1, End: 1, PageUp: 0.1, PageDown: -0.1 }[event.key];
+  const step = {
+    ArrowLeft: -0.02,
+    ArrowRight: 0.02,
+    Home: -1,
+    End: 1,
+    PageUp: 0.1,
+    PageDown: -0.1,
+  }[event.key];
   if (step === undefined) return;
   event.preventDefault();
   event.stopPropagation();

@@ -4,21 +4,126 @@
 // Drawn in a square from -1 to 1; a shape is a list of polygons, closed or open.
 const SHAPES = {
   circle: null, // the one that is no polygon
-  cross: [[[-0.8, -0.8], [0.8, 0.8]], [[-0.8, 0.8], [0.8, -0.8]]],
-  triangle: [[[0, -0.95], [0.9, 0.7], [-0.9, 0.7], [0, -0.95]]],
-  square: [[[-0.75, -0.75], [0.75, -0.75], [0.75, 0.75], [-0.75, 0.75], [-0.75, -0.75]]],
-  diamond: [[[0, -1], [1, 0], [0, 1], [-1, 0], [0, -1]]],
-  plus: [[[0, -1], [0, 1]], [[-1, 0], [1, 0]]],
-  turned: [[[0, 0.95], [0.9, -0.7], [-0.9, -0.7], [0, 0.95]]],
-  bars: [[[-0.9, -0.5], [0.9, -0.5]], [[-0.9, 0.5], [0.9, 0.5]]],
-  hexagon: [[[-0.5, -0.87], [0.5, -0.87], [1, 0], [0.5, 0.87], [-0.5, 0.87], [-1, 0], [-0.5, -0.87]]],
-  chevron: [[[-0.9, 0.5], [0, -0.5], [0.9, 0.5]]],
-  hourglass: [[[-0.8, -0.8], [0.8, -0.8], [-0.8, 0.8], [0.8, 0.8], [-0.8, -0.8]]],
-  line: [[[-0.9, 0], [0.9, 0]]],
-  star: [[[0, -1], [0, 1]], [[-0.87, -0.5], [0.87, 0.5]], [[-0.87, 0.5], [0.87, -0.5]]],
+  cross: [
+    [
+      [-0.8, -0.8],
+      [0.8, 0.8],
+    ],
+    [
+      [-0.8, 0.8],
+      [0.8, -0.8],
+    ],
+  ],
+  triangle: [
+    [
+      [0, -0.95],
+      [0.9, 0.7],
+      [-0.9, 0.7],
+      [0, -0.95],
+    ],
+  ],
+  square: [
+    [
+      [-0.75, -0.75],
+      [0.75, -0.75],
+      [0.75, 0.75],
+      [-0.75, 0.75],
+      [-0.75, -0.75],
+    ],
+  ],
+  diamond: [
+    [
+      [0, -1],
+      [1, 0],
+      [0, 1],
+      [-1, 0],
+      [0, -1],
+    ],
+  ],
+  plus: [
+    [
+      [0, -1],
+      [0, 1],
+    ],
+    [
+      [-1, 0],
+      [1, 0],
+    ],
+  ],
+  turned: [
+    [
+      [0, 0.95],
+      [0.9, -0.7],
+      [-0.9, -0.7],
+      [0, 0.95],
+    ],
+  ],
+  bars: [
+    [
+      [-0.9, -0.5],
+      [0.9, -0.5],
+    ],
+    [
+      [-0.9, 0.5],
+      [0.9, 0.5],
+    ],
+  ],
+  hexagon: [
+    [
+      [-0.5, -0.87],
+      [0.5, -0.87],
+      [1, 0],
+      [0.5, 0.87],
+      [-0.5, 0.87],
+      [-1, 0],
+      [-0.5, -0.87],
+    ],
+  ],
+  chevron: [
+    [
+      [-0.9, 0.5],
+      [0, -0.5],
+      [0.9, 0.5],
+    ],
+  ],
+  hourglass: [
+    [
+      [-0.8, -0.8],
+      [0.8, -0.8],
+      [-0.8, 0.8],
+      [0.8, 0.8],
+      [-0.8, -0.8],
+    ],
+  ],
+  line: [
+    [
+      [-0.9, 0],
+      [0.9, 0],
+    ],
+  ],
+  star: [
+    [
+      [0, -1],
+      [0, 1],
+    ],
+    [
+      [-0.87, -0.5],
+      [0.87, 0.5],
+    ],
+    [
+      [-0.87, 0.5],
+      [0.87, -0.5],
+    ],
+  ],
 };
-const SHAPE_OF = { edge: "circle", depth_tie: "triangle", not_modelled: "diamond",
-  not_decidable: "bars", unexplained: "cross", not_traced: "line" };
+const SHAPE_OF = {
+  edge: "circle",
+  depth_tie: "triangle",
+  not_modelled: "diamond",
+  not_decidable: "bars",
+  unexplained: "cross",
+  not_traced: "line",
+};
 
 /** By their values, the causes that a pixel may differ for, the worst first, each with its shape. */
 const CAUSES = new Map();
@@ -47,7 +152,10 @@ function trace(context, shape, x, y, size) {
 function drawGlyph(context, cause, x, y, size, width = 2) {
   trace(context, cause.shape, x, y, size);
   context.lineJoin = context.lineCap = "round";
-  for (const [color, line] of [["#000000", width + 2.5], [cause.color, width]]) {
+  for (const [color, line] of [
+    ["#000000", width + 2.5],
+    [cause.color, width],
+  ]) {
     context.strokeStyle = color;
     context.lineWidth = line;
     context.stroke();

@@ -20,15 +20,27 @@ const KEYS = [
   [["n"], "the next example of a pixel that differs", () => goToExample(1)],
   [["p"], "the previous one", () => goToExample(-1)],
   [["s"], "exchange the two pictures (hover swap: show the other one)", exchange],
-  [["m"], "slider, hover swap, side by side, all", () => change({ mode: MODES[(MODES.indexOf(state.mode) + 1) % MODES.length] })],
+  [
+    ["m"],
+    "slider, hover swap, side by side, all",
+    () => change({ mode: MODES[(MODES.indexOf(state.mode) + 1) % MODES.length] }),
+  ],
   [["["], "another picture on the left", () => cycle("left")],
   [["]"], "another picture on the right", () => cycle("right")],
-  [["c"], "the map of causes on the right, or Blender's picture", () => change({ right: state.right === "causes" ? "blender" : "causes" })],
+  [
+    ["c"],
+    "the map of causes on the right, or Blender's picture",
+    () => change({ right: state.right === "causes" ? "blender" : "causes" }),
+  ],
   [["d"], "marks in every picture, or in the map alone", () => change({ marks: !state.marks })],
   [["+", "="], "zoom in on the pixel", () => zoomAbout(1.5)],
   [["-", "−"], "zoom out", () => zoomAbout(1 / 1.5)],
   [["0"], "the whole picture", () => setView(0, 0, 0)],
-  [["f"], "the pictures on the full screen", () => (document.fullscreenElement ? document.exitFullscreen() : stage.requestFullscreen())],
+  [
+    ["f"],
+    "the pictures on the full screen",
+    () => (document.fullscreenElement ? document.exitFullscreen() : stage.requestFullscreen()),
+  ],
   [["t"], "light or dark", toggleTheme],
   [["l"], "larger type, for a projector", toggleLarge],
 ];
@@ -36,7 +48,8 @@ const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDo
 
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.metaKey || event.altKey || byId("help").open) return;
-  if (event.target.matches("input:not([type=radio]):not([type=checkbox]), select, textarea")) return;
+  if (event.target.matches("input:not([type=radio]):not([type=checkbox]), select, textarea"))
+    return;
   const step = STEPS[event.key];
   if (step && event.target === canvas) {
     const far = event.shiftKey ? 10 : 1;
@@ -45,7 +58,9 @@ document.addEventListener("keydown", (event) => {
     event.preventDefault();
     return;
   }
-  const found = KEYS.find(([names]) => names.includes(event.key.length === 1 ? event.key.toLowerCase() : event.key));
+  const found = KEYS.find(([names]) =>
+    names.includes(event.key.length === 1 ? event.key.toLowerCase() : event.key),
+  );
   if (!found) return;
   event.preventDefault();
   found[2]();
@@ -56,7 +71,8 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 /** Set light or dark in place of the system's choice. */
 function toggleTheme() {
   const root = document.documentElement;
-  root.dataset.theme = (root.dataset.theme ?? (dark.matches ? "dark" : "light")) === "dark" ? "light" : "dark";
+  root.dataset.theme =
+    (root.dataset.theme ?? (dark.matches ? "dark" : "light")) === "dark" ? "light" : "dark";
   redraw();
 }
 
@@ -68,10 +84,15 @@ function toggleLarge() {
 
 function drawHelp() {
   const entry = (names, text) => [
-    element("dt", {}, ...names.flatMap((name) => [element("kbd", {}, name.toUpperCase()), " "])), element("dd", {}, text)];
+    element("dt", {}, ...names.flatMap((name) => [element("kbd", {}, name.toUpperCase()), " "])),
+    element("dd", {}, text),
+  ];
   byId("keys").replaceChildren(
     ...KEYS.flatMap(([names, text]) => entry(names.slice(0, 1), text)),
-    ...entry(["← → ↑ ↓"], "in the picture: the next pixel; with Shift, ten further. On the slider: move it"),
+    ...entry(
+      ["← → ↑ ↓"],
+      "in the picture: the next pixel; with Shift, ten further. On the slider: move it",
+    ),
     ...entry(["Tab"], "to the picture, the slider, every button and table"),
   );
 }

@@ -4,7 +4,12 @@
 // By id: { id, label, note, canvas, values, key: what its colours mean }.
 const layers = new Map();
 
-const CERTAINTY_COLORS = { 0: [120, 120, 120], 1: [46, 77, 89], 2: [86, 180, 233], 3: [240, 228, 66] };
+const CERTAINTY_COLORS = {
+  0: [120, 120, 120],
+  1: [46, 77, 89],
+  2: [86, 180, 233],
+  3: [240, 228, 66],
+};
 const DIM = 0.42; // of what agrees, on the screen
 
 async function loadLayers() {

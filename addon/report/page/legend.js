@@ -24,7 +24,9 @@ function legendEntry(cause, label, number) {
       "data-cause": cause ? cause.name : "all",
       onclick: () => {
         change({ only: state.only === value ? null : value });
-        byId("legend").querySelector(`[data-cause="${cause ? cause.name : "all"}"]`).focus();
+        byId("legend")
+          .querySelector(`[data-cause="${cause ? cause.name : "all"}"]`)
+          .focus();
       },
     },
     cause ? glyphOf(cause) : null,

@@ -12,14 +12,19 @@ function linked() {
 function fillChoices() {
   for (const side of ["left", "right"]) {
     const choice = byId(side);
-    choice.replaceChildren(...[...layers.values()].map((layer) => element("option", { value: layer.id, title: layer.note }, layer.label)));
+    choice.replaceChildren(
+      ...[...layers.values()].map((layer) =>
+        element("option", { value: layer.id, title: layer.note }, layer.label),
+      ),
+    );
     choice.addEventListener("change", () => change({ [side]: choice.value }));
   }
 }
 
 function keepControls() {
   for (const side of ["left", "right"]) byId(side).value = state[side];
-  for (const radio of byId("mode").querySelectorAll("input")) radio.checked = radio.value === state.mode;
+  for (const radio of byId("mode").querySelectorAll("input"))
+    radio.checked = radio.value === state.mode;
   byId("marks").checked = state.marks;
 }
 
@@ -29,7 +34,9 @@ function keepShape() {
 }
 
 function connect() {
-  byId("mode").addEventListener("change", (event) => change({ mode: event.target.value, swapped: false }));
+  byId("mode").addEventListener("change", (event) =>
+    change({ mode: event.target.value, swapped: false }),
+  );
   byId("marks").addEventListener("change", (event) => change({ marks: event.target.checked }));
   byId("exchange").addEventListener("click", exchange);
   byId("zoom-in").addEventListener("click", () => zoomAbout(1.5));
@@ -48,7 +55,10 @@ function connect() {
       follow();
     });
   }
-  onChange(["x", "y", "left", "right", "mode", "swapped", "split", "only", "marks", "view"], redraw);
+  onChange(
+    ["x", "y", "left", "right", "mode", "swapped", "split", "only", "marks", "view"],
+    redraw,
+  );
   onChange(["left", "right", "mode", "marks"], keepControls);
   onChange(["mode"], () => setView(state.view.x, state.view.y, scaleNow()));
   new ResizeObserver(redraw).observe(stage);
@@ -62,7 +72,18 @@ function begin() {
   const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
   if (linked()) visit(x, y);
   else select(x, y);
-  for (const show of [drawSummary, drawTables, drawHelp, drawLegend, drawExamples, drawPixel, drawDerivation, keepControls, redraw]) show();
+  for (const show of [
+    drawSummary,
+    drawTables,
+    drawHelp,
+    drawLegend,
+    drawExamples,
+    drawPixel,
+    drawDerivation,
+    keepControls,
+    redraw,
+  ])
+    show();
 }
 
 async function main() {
@@ -76,8 +97,15 @@ async function main() {
 }
 
 main().catch((error) => {
-  document.querySelector("main").replaceChildren(
-    element("p", { class: "notice" }, `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`));
+  document
+    .querySelector("main")
+    .replaceChildren(
+      element(
+        "p",
+        { class: "notice" },
+        `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`,
+      ),
+    );
   throw error;
 });
 

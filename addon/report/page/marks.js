@@ -40,7 +40,10 @@ function markedPlaces(pane, near) {
 function drawCursor(context, pane) {
   const s = scaleNow();
   const [left, top] = toPane(pane, state.x, state.y + 1);
-  for (const [color, width] of [["#000000", 4], ["#ffffff", 2]]) {
+  for (const [color, width] of [
+    ["#000000", 4],
+    ["#ffffff", 2],
+  ]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.beginPath();
@@ -48,7 +51,12 @@ function drawCursor(context, pane) {
       context.rect(left - 1, top - 1, s + 2, s + 2);
     } else {
       const [x, y] = [left + s / 2, top + s / 2];
-      for (const [u, v] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      for (const [u, v] of [
+        [1, 0],
+        [-1, 0],
+        [0, 1],
+        [0, -1],
+      ]) {
         context.moveTo(x + 9 * u, y + 9 * v);
         context.lineTo(x + 20 * u, y + 20 * v);
       }

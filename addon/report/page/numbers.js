@@ -35,7 +35,8 @@ function arithmetic(precision) {
 /** The fewest digits that mean this number and no other of its precision. */
 function shortest(value, precision = "float64") {
   if (Object.is(value, -0)) return "−0";
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? "not a number" : signed(String(value), "∞");
+  if (!Number.isFinite(value))
+    return Number.isNaN(value) ? "not a number" : signed(String(value), "∞");
   if (precision === "float64") return signed(String(value));
   for (let digits = 1; digits < 10; digits++) {
     const text = value.toPrecision(digits);

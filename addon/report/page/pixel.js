@@ -22,11 +22,21 @@ function drawPixel() {
 function causeOf(pixel) {
   const cause = CAUSES.get(pixels.cause[pixel]);
   if (!cause) {
-    return element("p", { class: "cause", id: "cause" }, element("strong", {}, "Agrees"),
-      " with Blender, within the rounding of its half floats.");
+    return element(
+      "p",
+      { class: "cause", id: "cause" },
+      element("strong", {}, "Agrees"),
+      " with Blender, within the rounding of its half floats.",
+    );
   }
-  return element("p", { class: "cause", id: "cause" }, glyphOf(cause, 22),
-    element("strong", {}, cause.label), " ", reasonOf(cause, pixel));
+  return element(
+    "p",
+    { class: "cause", id: "cause" },
+    glyphOf(cause, 22),
+    element("strong", {}, cause.label),
+    " ",
+    reasonOf(cause, pixel),
+  );
 }
 
 /** A cause's sentence, its figure filled in; of an unmodelled feature, which one it is. */
@@ -39,7 +49,8 @@ function reasonOf(cause, pixel) {
     return `${object}: ${feature}${detail ? ` (${detail})` : ""}`;
   }
   const hidden = page.comparison.hidden?.[figure];
-  if (cause.name === "hidden" && hidden) return `only one side shows ${hidden.object}: ${hidden.reason}`;
+  if (cause.name === "hidden" && hidden)
+    return `only one side shows ${hidden.object}: ${hidden.reason}`;
   if (cause.sentence) return filled(cause.sentence, { figure, allowed });
   return Number.isNaN(figure) ? "" : `${general(figure, 3)} (allowed: ${general(allowed, 3)})`;
 }
@@ -48,13 +59,30 @@ function reasonOf(cause, pixel) {
 function loupe(id, x, y) {
   const side = 2 * AROUND + 1;
   const ratio = 2;
-  const shown = element("canvas", { width: side * NEAR * ratio, height: side * NEAR * ratio, "aria-hidden": "true" });
+  const shown = element("canvas", {
+    width: side * NEAR * ratio,
+    height: side * NEAR * ratio,
+    "aria-hidden": "true",
+  });
   const context = shown.getContext("2d");
   context.imageSmoothingEnabled = false;
   const n = NEAR * ratio;
   drawBoard(context, 0, 0, shown.width, shown.height);
-  context.drawImage(layers.get(id).canvas, x - AROUND, HEIGHT - 1 - y - AROUND, side, side, 0, 0, side * n, side * n);
-  for (const [color, width] of [["#000000", 6], ["#ffffff", 3]]) {
+  context.drawImage(
+    layers.get(id).canvas,
+    x - AROUND,
+    HEIGHT - 1 - y - AROUND,
+    side,
+    side,
+    0,
+    0,
+    side * n,
+    side * n,
+  );
+  for (const [color, width] of [
+    ["#000000", 6],
+    ["#ffffff", 3],
+  ]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.strokeRect(AROUND * n, AROUND * n, n, n);
@@ -65,26 +93,68 @@ function loupe(id, x, y) {
 /** The two sides: colours as numbers, object, triangle. */
 function sidesOf(x, y, pixel) {
   const ids = ["traced", "blender"];
-  const row = (name, cells, kind) => element("tr", {}, element("th", { scope: "row" }, name),
-    ...cells.map((cell) => element("td", { class: kind }, cell)));
+  const row = (name, cells, kind) =>
+    element(
+      "tr",
+      {},
+      element("th", { scope: "row" }, name),
+      ...cells.map((cell) => element("td", { class: kind }, cell)),
+    );
   const colors = ids.map((id) => shownColor(id, x, y));
   const linear = ids.map((id) => linearColor(id, x, y));
-  const head = element("tr", {}, element("td"),
-    ...ids.map((id) => element("th", { scope: "col" }, layers.get(id).label)));
-  return element("table", { class: "sides", id: "sides" }, element("thead", {}, head), element("tbody", {},
-    row("Screen", colors.map(swatch)),
-    row("of 255", colors.map((c) => [...c].join(" ")), "number"),
-    linear[0] ? row("Linear", linear.map((c) => (c ? lines(c.map((v) => shortest(v, "float32"))) : "")), "number") : null,
-    row("Object", ids.map((id) => objectOn(id, pixel))),
-    row("Triangle", ids.map((id) => triangleOn(id, pixel)), "number"),
-  ));
+  const head = element(
+    "tr",
+    {},
+    element("td"),
+    ...ids.map((id) => element("th", { scope: "col" }, layers.get(id).label)),
+  );
+  return element(
+    "table",
+    { class: "sides", id: "sides" },
+    element("thead", {}, head),
+    element(
+      "tbody",
+      {},
+      row("Screen", colors.map(swatch)),
+      row(
+        "of 255",
+        colors.map((c) => [...c].join(" ")),
+        "number",
+      ),
+      linear[0]
+        ? row(
+            "Linear",
+            linear.map((c) => (c ? lines(c.map((v) => shortest(v, "float32"))) : "")),
+            "number",
+          )
+        : null,
+      row(
+        "Object",
+        ids.map((id) => objectOn(id, pixel)),
+      ),
+      row(
+        "Triangle",
+        ids.map((id) => triangleOn(id, pixel)),
+        "number",
+      ),
+    ),
+  );
 }
 
-const lines = (values) => element("span", { class: "lines" }, ...values.map((v) => element("span", {}, String(v))));
+const lines = (values) =>
+  element("span", { class: "lines" }, ...values.map((v) => element("span", {}, String(v))));
 
 function swatch(rgba) {
-  const hex = `#${[...rgba].slice(0, 3).map((v) => v.toString(16).padStart(2, "0")).join("")}`;
-  const made = element("span", { class: "swatch" }, element("i"), element("code", {}, rgba[3] ? hex : "transparent"));
+  const hex = `#${[...rgba]
+    .slice(0, 3)
+    .map((v) => v.toString(16).padStart(2, "0"))
+    .join("")}`;
+  const made = element(
+    "span",
+    { class: "swatch" },
+    element("i"),
+    element("code", {}, rgba[3] ? hex : "transparent"),
+  );
   made.firstChild.style.background = `rgba(${rgba[0]}, ${rgba[1]}, ${rgba[2]}, ${rgba[3] / 255})`;
   return made;
 }
@@ -115,13 +185,17 @@ function factsOf(x, y, pixel) {
   const surface = surfaceOf(pixels.surface[pixel]);
   const facts = [["Certainty", [element("strong", {}, certainty.name), `: ${certainty.sentence}`]]];
   const t = tracedT(pixel);
-  if (surface && t !== null) facts.push(["t", [element("span", { id: "t" }, shortest(t)), " m along the view axis"]]);
+  if (surface && t !== null)
+    facts.push(["t", [element("span", { id: "t" }, shortest(t)), " m along the view axis"]]);
   if (surface && !surface.plane) {
     const { s } = derive(x, y, surface, "float64");
     facts.push(["s₁ s₂ s₃", [lines(s.map((v) => shortest(v)))]]);
   }
-  return element("dl", { class: "facts", id: "facts" },
-    ...facts.flatMap(([name, values]) => [element("dt", {}, name), element("dd", {}, ...values)]));
+  return element(
+    "dl",
+    { class: "facts", id: "facts" },
+    ...facts.flatMap(([name, values]) => [element("dt", {}, name), element("dd", {}, ...values)]),
+  );
 }
 
 onChange(["x", "y"], drawPixel);

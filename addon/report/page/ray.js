@@ -76,8 +76,24 @@ function meetTriangle(ray, corners, precision) {
   const inside = s.every((value) => value >= 0 && value <= 1);
   const tolerance = round(page.tolerance[precision]);
   const near = Math.abs(round(sum - 1)) <= tolerance;
-  return { p1, p2, p3, n, towards, from, t, x, area, weight, s, sum, inside, tolerance,
-    literal: inside && sum === 1, textbook: inside && near };
+  return {
+    p1,
+    p2,
+    p3,
+    n,
+    towards,
+    from,
+    t,
+    x,
+    area,
+    weight,
+    s,
+    sum,
+    inside,
+    tolerance,
+    literal: inside && sum === 1,
+    textbook: inside && near,
+  };
 }
 
 /** Whether t lies in the camera's clip range. */

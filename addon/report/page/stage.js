@@ -10,7 +10,8 @@ const GRID = 14; // from so many screen pixels a pixel on, there are lines betwe
 /** The panes side by side: where each is on the canvas, and the pictures in it. */
 function panes() {
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
-  if (state.mode === "slider") return [{ x: 0, y: 0, width, height, ids: [state.left, state.right] }];
+  if (state.mode === "slider")
+    return [{ x: 0, y: 0, width, height, ids: [state.left, state.right] }];
   if (state.mode === "swap") {
     return [{ x: 0, y: 0, width, height, ids: [state.swapped ? state.right : state.left] }];
   }
@@ -18,8 +19,13 @@ function panes() {
   const across = state.mode === "pair" ? 2 : Math.ceil(Math.sqrt(ids.length));
   const down = Math.ceil(ids.length / across);
   const [w, h] = [width / across, height / down];
-  return ids.map((id, k) => (
-    { x: (k % across) * w, y: Math.floor(k / across) * h, width: w, height: h, ids: [id] }));
+  return ids.map((id, k) => ({
+    x: (k % across) * w,
+    y: Math.floor(k / across) * h,
+    width: w,
+    height: h,
+    ids: [id],
+  }));
 }
 
 /** Screen pixels a pixel so that all of the picture is seen in a pane. */
@@ -41,7 +47,9 @@ function toPane(pane, x, y) {
 
 /** From canvas coordinates to the picture. */
 function fromCanvas(px, py) {
-  const pane = panes().find((p) => px >= p.x && px < p.x + p.width && py >= p.y && py < p.y + p.height);
+  const pane = panes().find(
+    (p) => px >= p.x && px < p.x + p.width && py >= p.y && py < p.y + p.height,
+  );
   if (!pane) return null;
   const s = scaleNow();
   return {
@@ -62,7 +70,9 @@ function setView(x, y, scale) {
   const s = Math.min(scale, MOST);
   const middle = (value, size, seen) =>
     seen >= size ? size / 2 : clamp(value, seen / 2 - 1, size - seen / 2 + 1);
-  change({ view: { x: middle(x, WIDTH, pane.width / s), y: middle(y, HEIGHT, pane.height / s), scale: s } });
+  change({
+    view: { x: middle(x, WIDTH, pane.width / s), y: middle(y, HEIGHT, pane.height / s), scale: s },
+  });
 }
 
 /** Zoom, so that a place in the picture stays where it is on the screen. */
@@ -179,8 +189,10 @@ function drawPicture(context, pane, layer) {
   context.imageSmoothingQuality = "high";
   context.drawImage(layer.canvas, x0, HEIGHT - y1, x1 - x0, y1 - y0, left, top, width, height);
   if (s < GRID) return;
-  for (let x = x0; x <= x1; x++) line(context, left + (x - x0) * s, top, left + (x - x0) * s, top + height, "#80808059");
-  for (let y = y0; y <= y1; y++) line(context, left, top + (y - y0) * s, left + width, top + (y - y0) * s, "#80808059");
+  for (let x = x0; x <= x1; x++)
+    line(context, left + (x - x0) * s, top, left + (x - x0) * s, top + height, "#80808059");
+  for (let y = y0; y <= y1; y++)
+    line(context, left, top + (y - y0) * s, left + width, top + (y - y0) * s, "#80808059");
 }
 
 /** What shows through where a picture is transparent. */
