@@ -35,7 +35,7 @@ def show(chromium, tmp_path):
     """Open a comparison's page; afterwards nothing may have been fetched or gone wrong."""
     contexts, wrong = [], []
 
-    def opened(comparison, hash_="", held=None, **options):
+    def opened(comparison, hash_="", held=None, script="", ready="html[data-ready]", **options):
         path = tmp_path / "page.html"
         held = held or content(comparison, **vars(result_of(page.extras(comparison))))
         path.write_text(document.html(held), encoding="utf-8")
@@ -52,9 +52,10 @@ def show(chromium, tmp_path):
                 wrong.append(route.request.url)
             route.continue_()
 
+        context.add_init_script(script)
         context.route(lambda url: not url.startswith(NOT_BAD), guard)
         tab.goto(path.as_uri() + hash_)
-        tab.wait_for_selector("html[data-ready]")
+        tab.wait_for_selector(ready)
         return tab
 
     yield opened

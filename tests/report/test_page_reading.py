@@ -138,3 +138,17 @@ def test_long_tables_are_cut_and_say_so(show, differing):
     tab = show(many, held=content(many))
     text = tab.locator("#tables").inner_text()
     assert "Leaf 199" in text and "Leaf 200" not in text and "4,800 more" in text
+
+
+def test_a_picture_that_is_not_blenders(show, differing):
+    about = {"version": None, "source": "picture", "picture": "student.png", "settings": {}}
+    tab = show(replace(differing, blender=about))
+    text = tab.locator("body").inner_text()
+    assert "student.png" in tab.locator("#subtitle").inner_text() and "null" not in text
+    assert tab.locator("#right option").nth(1).inner_text() == "Picture"
+
+
+def test_a_browser_that_is_too_old_is_told(show, differing):
+    script = "delete window.DecompressionStream"
+    tab = show(differing, script=script, ready="[role=alert]")
+    assert "needs a browser of 2023" in tab.locator("[role=alert]").inner_text()

@@ -148,10 +148,13 @@ def _hex(linear: Sequence[float]) -> str:
 
 
 def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, str]]:
-    s, source = comparison.frame.statistics, comparison.blender["source"]
+    s, about = comparison.frame.statistics, comparison.blender
+    given = about["version"] is None  # somebody's picture, not Blender's
     found = [
         ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color),
-        ("blender", "Blender", _words(source).lower(), comparison.picture),
+        ("blender", "Picture", about["picture"], comparison.picture)
+        if given
+        else ("blender", "Blender", _words(about["source"]).lower(), comparison.picture),
     ]
     if literal is not None:
         found.append(("literal", "Literal textbook", "s₁ + s₂ + s₃ = 1 as printed", literal.color))

@@ -29,7 +29,7 @@ const KEYS = [
   [["]"], "another picture on the right", () => cycle("right")],
   [
     ["c"],
-    "the map of causes on the right, or Blender's picture",
+    "the map of causes on the right, or the picture compared",
     () => change({ right: state.right === "causes" ? "blender" : "causes" }),
   ],
   [["d"], "marks in every picture, or in the map alone", () => change({ marks: !state.marks })],

@@ -97,16 +97,8 @@ async function main() {
 }
 
 main().catch((error) => {
-  document
-    .querySelector("main")
-    .replaceChildren(
-      element(
-        "p",
-        { class: "notice" },
-        `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`,
-      ),
-    );
-  throw error;
+  const why = `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`;
+  document.querySelector("main").prepend(element("p", { class: "notice", role: "alert" }, why));
 });
 
 // For a browser's console, as a lecture may want it: referenceTracer.derive(316, 111, "float32")

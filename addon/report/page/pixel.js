@@ -26,7 +26,7 @@ function causeOf(pixel) {
       "p",
       { class: "cause", id: "cause" },
       element("strong", {}, "Agrees"),
-      " with Blender, within the rounding of its half floats.",
+      ` with ${OTHER}, within its rounding.`,
     );
   }
   return element(

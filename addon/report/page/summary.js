@@ -1,6 +1,11 @@
 "use strict";
 // What one sees at a glance: the scene, the verdict, the score.
 
+// Whose picture is compared: Blender's, or one that somebody gave.
+const OTHER = page.comparison.blender.version
+  ? `Blender ${page.comparison.blender.version}`
+  : page.comparison.blender.picture;
+
 const VERDICTS = {
   agree: ["✓", "Agree"],
   warnings: ["!", "Warnings"],
@@ -16,7 +21,7 @@ function drawSummary() {
     scene.file,
     `camera ${scene.camera}`,
     `${WIDTH} × ${HEIGHT} pixels`,
-    `Blender ${blender.version}, ${words(blender.source)}`,
+    blender.version ? `${OTHER}, ${words(blender.source)}` : OTHER,
   ]
     .filter(Boolean)
     .join("  ·  ");

@@ -25,9 +25,11 @@ function table(caption, heads, rows, right = [], kind = "") {
       element(
         "tbody",
         {},
-        ...rows.slice(0, ROWS).map((row) =>
-          element("tr", {}, ...row.map((cell, k) => element("td", { class: side(k) }, cell))),
-        ),
+        ...rows
+          .slice(0, ROWS)
+          .map((row) =>
+            element("tr", {}, ...row.map((cell, k) => element("td", { class: side(k) }, cell))),
+          ),
       ),
     ),
     rows.length > ROWS
@@ -65,7 +67,8 @@ function drawTables() {
     ].filter(Boolean),
   );
   byId("colophon").textContent =
-    `Traced in plain Python and numpy, and compared with Blender ${page.comparison.blender.version}, by Reference Tracer. This page fetches nothing.`;
+    `Traced in plain Python and numpy, and compared with ${OTHER}, by Reference Tracer. ` +
+    "This page fetches nothing.";
 }
 
 function methodsCard() {
@@ -119,9 +122,9 @@ function metricsCard() {
 function blenderCard() {
   const { version, source, settings = {}, sample_radius: radius } = page.comparison.blender;
   return card(
-    "How Blender drew it",
+    page.comparison.blender.version ? "How Blender drew it" : "The picture",
     facts([
-      ["Version", version],
+      ...(version ? [["Version", version]] : []),
       ["Picture", words(source)],
       ...(radius ? [["Samples within", `${general(radius)} px of the centre`]] : []),
       ...Object.entries(settings).map(([name, value]) => [words(name), said(value)]),
