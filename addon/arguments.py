@@ -70,13 +70,31 @@ def add_judge(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("Blender's picture (by default as the scene says)")
     group.add_argument(
         "--judge",
-        choices=["auto", "workbench", "cycles"],
-        help="which of Blender's pictures to compare with",
+        choices=["auto", "workbench", "cycles", "all"],
+        help="which of Blender's pictures to compare with; all: a table of every one (and the "
+        "viewport's, in a window)",
     )
     group.add_argument(
         "--as-is",
         action="store_true",
         help="leave Blender's shading as the scene has it, not like for like",
+    )
+    group.add_argument(
+        "--identity",
+        action=argparse.BooleanOptionalAction,
+        help="draw once more, a colour an object, to know whose surface each pixel shows",
+    )
+    add_self_check(group)
+
+
+def add_self_check(parser: argparse._ActionsContainer) -> None:
+    """Add whether the comparison is to be tested with known faults."""
+    parser.add_argument(
+        "--self-check",
+        action="store_true",
+        default=None,
+        help="then make known faults (a pixel off, mirrored, an object left out...) and see that "
+        "each is found",
     )
 
 

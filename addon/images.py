@@ -7,6 +7,7 @@ PNG needs Pillow and EXR needs OpenEXR, the extra `images`; inside Blender, Blen
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -26,12 +27,37 @@ def to_display(color: NDArray[np.floating]) -> NDArray[np.uint8]:
     cut off at 1, and what is not a number is black.
     """
     color = np.nan_to_num(np.asarray(color, dtype=np.float64), posinf=1.0, neginf=0.0)
+    return np.rint(255 * encoded(color)).astype(np.uint8)
+
+
+def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return linear premultiplied RGBA or RGB (..., 4 or 3) as sRGB's curve, straight, 0 to 1."""
+    color = np.asarray(color, dtype=np.float64)
     alpha = np.clip(color[..., 3:], 0, 1)
-    straight = np.clip(color[..., :3] / np.where(alpha > 0, alpha, 1), 0, 1)
-    encoded = np.where(
-        straight <= 0.0031308, 12.92 * straight, 1.055 * straight ** (1 / 2.4) - 0.055
-    )
-    return np.rint(255 * np.concatenate((encoded, alpha), axis=-1)).astype(np.uint8)
+    straight = color[..., :3]
+    if color.shape[-1] == 4:
+        straight = straight / np.where(alpha > 0, alpha, 1)
+    return np.concatenate((curve(np.clip(straight, 0, 1)), alpha), axis=-1)
+
+
+def decoded(stored: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return what :func:`encoded` was made of: linear RGBA or RGB, alpha premultiplied."""
+    stored = np.asarray(stored, dtype=np.float64)
+    linear, alpha = curve_undone(stored[..., :3]), stored[..., 3:]
+    if stored.shape[-1] == 4:
+        linear = linear * alpha
+    return np.concatenate((linear, alpha), axis=-1)
+
+
+def curve(linear: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return sRGB's transfer function (IEC 61966-2-1) of linear values, 0 to 1."""
+    with np.errstate(invalid="ignore"):
+        return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def curve_undone(stored: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return the linear values of which :func:`curve` makes the stored ones."""
+    return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
 
 
 def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
@@ -79,6 +105,72 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
         OpenEXR.File(header, channels).write(str(path))
     except RuntimeError as error:
         raise OSError(f"cannot write '{path}': {error}") from error
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A picture from a file.
+
+    `color` is (h, w, 4) float32, linear RGBA with premultiplied alpha, row 0 at the bottom;
+    `levels` above 0 of sRGB's curve in which it was stored, 0 for floats; `opaque` where the file
+    has no alpha.
+    """
+
+    color: NDArray[np.float32]
+    levels: int
+    opaque: bool
+
+
+def load(path: str | Path) -> Picture:
+    """Read a PNG, of 8 bits and sRGB's curve, or an EXR.
+
+    Raises
+    ------
+    MissingLibraryError
+        If Pillow or OpenEXR is not installed.
+    OSError
+        If there is no such file, or it is no such picture.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise OSError(f"there is no file '{path}'")
+    readers = {".png": _load_png, ".exr": _load_exr}
+    if path.suffix.lower() not in readers:
+        raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
+    return readers[path.suffix.lower()](path)
+
+
+def _load_png(path: Path) -> Picture:
+    try:
+        from PIL import Image
+    except ImportError:
+        raise _missing("PNG files", "Pillow") from None
+    try:
+        with Image.open(path) as image:
+            if image.mode.startswith("I"):
+                raise OSError(f"'{path}' has 16 bits a channel: save it with 8, or as an EXR")
+            opaque = not (image.has_transparency_data or "A" in image.mode)
+            stored = np.asarray(image.convert("RGBA"))[::-1]
+    except (ValueError, SyntaxError) as error:
+        raise OSError(f"'{path}' cannot be read: {error}") from error
+    return Picture(decoded(stored / 255).astype(np.float32), 255, opaque)
+
+
+def _load_exr(path: Path) -> Picture:
+    try:
+        import OpenEXR
+    except ImportError:
+        raise _missing("EXR files", "OpenEXR") from None
+    try:
+        with OpenEXR.File(str(path), separate_channels=True) as file:
+            channels = {k: np.array(c.pixels, np.float32) for k, c in file.channels().items()}
+    except (RuntimeError, OSError) as error:
+        raise OSError(f"'{path}' cannot be read: {error}") from error
+    if not {"R", "G", "B"} <= channels.keys():
+        raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(channels))}")
+    alpha = channels.get("A", np.ones_like(channels["R"]))
+    color = np.stack((*(channels[c] for c in "RGB"), alpha), axis=-1)[::-1]
+    return Picture(np.ascontiguousarray(color), 0, "A" not in channels)
 
 
 def _missing(what: str, library: str) -> MissingLibraryError:

@@ -29,6 +29,7 @@ class ObjectEntry:
     traced_triangles: int = 0  # over all instances
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
+    hidden: bool = False  # Blender does not draw it either, for the reason that is given
     diagnosis: dict[str, Any] | None = None  # see scene_files.diagnose and merged
 
 
@@ -38,7 +39,8 @@ class Unmodelled:
 
     `bounds` is the world-space box, (2, 3) float64 metres, inside which the feature can change
     Blender's picture; None where it changes nothing that is compared, or cannot be placed. What can
-    change it anywhere is `everywhere`.
+    change it anywhere is `everywhere`. What `recolours` changes shades alone: whose surface a pixel
+    shows stays as it is.
     """
 
     object: str
@@ -46,6 +48,7 @@ class Unmodelled:
     detail: str = ""
     bounds: NDArray[np.float64] | None = None
     everywhere: bool = False
+    recolours: bool = False
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():
@@ -54,7 +57,11 @@ class Unmodelled:
 
 @dataclass(frozen=True)
 class Manifest:
-    """The whole of one export."""
+    """The whole of one export.
+
+    `owners` has the name of the object whose colour Blender gives to each instance of the scene,
+    then to each plane: of a collection's instance that is the empty. It is not part of the JSON.
+    """
 
     file: str
     scene: str
@@ -65,10 +72,11 @@ class Manifest:
     objects: tuple[ObjectEntry, ...] = ()
     unmodelled: tuple[Unmodelled, ...] = ()
     notes: tuple[str, ...] = field(default=())
+    owners: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the manifest as JSON can hold it."""
-        out = {k: v for k, v in vars(self).items() if k not in ("objects", "unmodelled")}
+        out = {k: v for k, v in vars(self).items() if k not in ("objects", "unmodelled", "owners")}
         out["notes"] = list(self.notes)
         out["objects"] = [asdict(entry) for entry in self.objects]
         out["unmodelled"] = [
@@ -77,6 +85,7 @@ class Manifest:
                 "feature": u.feature,
                 "detail": u.detail,
                 "everywhere": u.everywhere,
+                "recolours": u.recolours,
                 "bounds": None if u.bounds is None else np.asarray(u.bounds).tolist(),
             }
             for u in self.unmodelled

@@ -93,6 +93,7 @@ def test_json_holds_everything(manifest):
         "feature": "depth of field",
         "detail": "",
         "everywhere": False,
+        "recolours": False,
         "bounds": None,
     }
     assert again["notes"] == ["the sequencer is not part of it"]

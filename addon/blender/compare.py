@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import Comparison, trace_and_compare
+from ..compare.known import Known
+from ..compare.shown import Shown, numbered
 from ..manifest import Manifest
 from ..report import files, folders, page
 from ..scene import Scene
@@ -25,13 +27,17 @@ from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import images
+from .alternatives import alternatives
+from .animation import values_kept
 from .camera import export_camera
-from .engine import export_for_render
-from .export import export
+from .engine import Certified, export_certified, export_for_render
+from .identity import draw_identity
 from .planes import stand_ins
 from .temporary import temporary_scene
 from .unmodelled import of_shading
+from .view_transforms import view_transforms
 from .viewport import (
+    FILTER_RADIUS,
     SAMPLE_RADIUS,
     anti_aliasing,
     choose_source,
@@ -43,20 +49,26 @@ from .viewport import (
 
 @dataclass(frozen=True, eq=False)
 class Gathered:
-    """The exported scene, how to trace it, and Blender's own picture of it."""
+    """The exported scene, how to trace it, and the picture of it that is judged by it."""
 
     scene: Scene
     manifest: Manifest
     settings: Settings
-    picture: NDArray[np.float32]
+    shown: Shown
     blender: dict[str, Any]
+    known: Known
+
+    @property
+    def picture(self) -> NDArray[np.float32]:
+        """The picture's colours, (h, w, 4) linear RGBA."""
+        return self.shown.color
 
     def steps(self, trace: Steps = steps) -> Work[Comparison]:
         """Do the work that is left; yields the share of it that is done."""
         manifest = yield from diagnosed(self.scene, self.manifest)
         return (
             yield from trace_and_compare(
-                self.scene, manifest, self.settings, self.picture, self.blender, trace
+                self.scene, manifest, self.settings, self.shown, self.blender, trace, self.known
             )
         )
 
@@ -66,19 +78,21 @@ def gather(
     settings: Settings | None = None,
     judge: str | None = None,
     as_is: bool | None = None,
+    identity: bool | None = None,
+    self_check: bool | None = None,
 ) -> Gathered:
     """Export the context's scene and view layer, and have Blender draw them.
 
     Parameters
     ----------
     context : bpy.types.Context
-    settings, judge, as_is : optional
+    settings, judge, as_is, identity, self_check : optional
         In place of what the scene stores.
 
     Raises
     ------
     SceneError
-        If the scene cannot be traced.
+        If the scene cannot be traced, or Blender's camera is another.
     RuntimeError
         If Blender makes no picture of it.
     """
@@ -90,6 +104,8 @@ def gather(
         settings = replace(settings, samples=1)
     source = choose_source(judge or stored.judge)
     view_shading = None if like_for_like or source != "viewport" else _solid_shading(context)
+    checked = stored.self_check if self_check is None else self_check
+    found, later = None, None
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
     with temporary_scene(scene, layer, source) as tmp:
         if view_shading:
@@ -97,25 +113,57 @@ def gather(
         used = prepare(tmp, like_for_like)
         used["shading_of"] = "3D view" if view_shading else "scene"
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, source, like_for_like)
-        if source == "viewport":
-            with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
-                exported, manifest = export(bpy.context.evaluated_depsgraph_get())
-        else:
-            exported, manifest = export_for_render(tmp)
+        exported, manifest, certificate = _exported(tmp, layer, source)
+        certificate.check()
         if not like_for_like:
             own = [
                 replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, source, smooth)
             ]
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
-        with stand_ins(tmp, layer, exported) as exported:
+        if checked:
+            later = _a_frame_later(tmp, layer, source)
+        of_planes = manifest.owners[len(exported.instances) :]
+        with stand_ins(tmp, layer, exported, of_planes) as exported:
             drawn = picture(tmp, layer, source, exported.camera, like_for_like)
+            if stored.identity if identity is None else identity:
+                found = draw_identity(tmp, layer, source, exported.camera)
+    names, owner = found or ((), None)
     blender = {
         "version": bpy.app.version_string,
         "source": source,
         "sample_radius": SAMPLE_RADIUS[source],
+        "filter_radius": 0.0 if smooth == "OFF" else FILTER_RADIUS,
         "settings": used,
     }
-    return Gathered(exported, manifest, settings, drawn, blender)
+    known = Known(
+        names=names,
+        certificate=certificate,
+        curves=None if like_for_like else (),
+        self_check=checked,
+        next_frame=later,
+    )
+    shown = Shown(drawn, sums=int(smooth) if smooth.isdigit() else 0)
+    if found:
+        shown = replace(shown, owner=owner, owners=numbered(names, manifest.owners))
+    return Gathered(exported, manifest, settings, shown, blender, known)
+
+
+def _exported(tmp: Any, layer: str, source: str) -> Certified:
+    """Return what a judge is to be compared with, and the certificate of its camera."""
+    if source != "viewport":
+        return export_for_render(tmp)
+    with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
+        return export_certified(bpy.context.evaluated_depsgraph_get())
+
+
+def _a_frame_later(tmp: Any, layer: str, source: str) -> Scene:
+    """Return the scene of the next frame, and go back to this one."""
+    now = tmp.frame_current
+    with values_kept():
+        tmp.frame_set(now + 1)
+        later, _, _ = _exported(tmp, layer, source)
+        tmp.frame_set(now)
+    return later
 
 
 def compare_to_folder(
@@ -173,6 +221,29 @@ def _failure_written(folder: Path) -> Iterator[None]:
         raise
 
 
+def gather_against(
+    context: Any,
+    picture: Shown,
+    about: dict[str, Any],
+    settings: Settings,
+    self_check: bool = False,
+) -> Gathered:
+    """Export the context's scene as a render has it, for a picture that Blender need not have made.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    scene, manifest, _ = export_open_file(context)
+    known = Known(
+        alternatives=alternatives(context, scene, manifest),
+        curves=view_transforms(context.scene, scene),
+        self_check=self_check,
+    )
+    return Gathered(scene, manifest, settings, picture, about, known)
+
+
 def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
 
@@ -183,7 +254,7 @@ def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
     """
     export_camera(context.scene)
     with temporary_scene(context.scene, context.view_layer.name) as tmp:
-        exported, manifest = export_for_render(tmp)
+        exported, manifest, _ = export_for_render(tmp)
     return exported, manifest, context.scene.reference_tracer.settings()
 
 

@@ -16,12 +16,14 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compare.certificate import CameraCertificate
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
 from ..tracer.certainty import AssumptionError
 from ..tracer.frame import Frame
 from ..tracer.render import steps
 from .animation import values_kept
+from .certificate import certify_camera
 from .export import export
 from .temporary import is_temporary
 
@@ -43,7 +45,8 @@ PASSES: tuple[Pass, ...] = (
     ("Certainty", 1, "X", "VALUE", lambda f: f.certainty),  # see tracer.certainty.Certainty
 )
 
-_captured: list[tuple[Scene, Manifest]] | None = None
+Certified = tuple[Scene, Manifest, CameraCertificate]
+_captured: list[Certified] | None = None
 
 
 class ReferenceTracerEngine(bpy.types.RenderEngine):
@@ -63,7 +66,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         """Render one view layer of one frame."""
         try:
             if _captured is not None and is_temporary(depsgraph.scene):
-                _captured.append(export(depsgraph))
+                _captured.append(export_certified(depsgraph))
                 return
             self._trace(depsgraph)
         except (SceneError, ValueError, AssumptionError) as error:
@@ -130,7 +133,13 @@ def _set_status(text: str | None) -> None:
         window.workspace.status_text_set(text)
 
 
-def export_for_render(scene: Any) -> tuple[Scene, Manifest]:
+def export_certified(depsgraph: Any) -> Certified:
+    """Return what :func:`export.export` does, and how well its camera is Blender's own."""
+    scene, manifest = export(depsgraph)
+    return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+
+
+def export_for_render(scene: Any) -> Certified:
     """Return the *render* evaluation of a Blender scene, which exists only inside an engine.
 
     Parameters

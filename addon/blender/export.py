@@ -7,6 +7,7 @@ counted, and left out. Nothing of bpy is held in what is returned.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -48,14 +49,16 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
     # Numbered in the order in which they come, in the view or not: it stays when the camera moves.
     objects: dict[str, int] = {}
-    instances: list[Instance] = []
-    planes: list[Plane] = []
+    instances: list[tuple[Instance, str]] = []  # with its owner
+    planes: list[tuple[Plane, str]] = []
     all_finite = np.isfinite(matrices).all(axis=(1, 2))
-    for (name, key, matrix, colors), out, finite in zip(shown, unseen, all_finite, strict=True):
+    for item, out, finite in zip(shown, unseen, all_finite, strict=True):
+        name, owner, key, matrix, colors = item
         entry = seen[name]
         if key is None:
             if finite and matrix[:3, :2].any(axis=0).all():
-                planes.append(_plane(objects.setdefault(name, len(objects)), matrix, colors[0]))
+                index = objects.setdefault(name, len(objects))
+                planes.append((_plane(index, matrix, colors[0]), owner))
                 entry.planes += 1
             else:
                 entry.left_out += 1
@@ -72,17 +75,20 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
         entry.instances += 1
         entry.triangles += len(mesh.triangles)
         number = numbers.setdefault(key, len(numbers))
-        instances.append(Instance(number, objects.setdefault(name, len(objects)), matrix, colors))
-    instances.sort(key=lambda i: i.object)
+        index = objects.setdefault(name, len(objects))
+        instances.append((Instance(number, index, matrix, colors), owner))
+    instances.sort(key=lambda i: i[0].object)
     out_scene = Scene(
         camera=camera,
         meshes=tuple(meshes[key][0] for key in numbers),
-        instances=tuple(instances),
-        planes=tuple(planes),
+        instances=tuple(i for i, _ in instances),
+        planes=tuple(p for p, _ in planes),
         background=background(scene),
         objects=tuple(objects),
     )
-    return out_scene, _manifest(depsgraph, camera.name, seen, meshes)
+    manifest = _manifest(depsgraph, camera.name, seen, meshes)
+    owners = tuple(owner for _, owner in (*instances, *planes))
+    return out_scene, replace(manifest, owners=owners)
 
 
 def _outside(
@@ -158,7 +164,13 @@ def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
     for obj in scene.objects:
         if obj.name_full not in seen:
             entries.append(
-                ObjectEntry(obj.name_full, obj.type, False, _hidden(obj, layer, depsgraph.mode))
+                ObjectEntry(
+                    obj.name_full,
+                    obj.type,
+                    False,
+                    _hidden(obj, layer, depsgraph.mode),
+                    hidden=True,
+                )
             )
     features = [u for e in seen.values() for u in e.features.values()]
     return Manifest(

@@ -43,6 +43,8 @@ class _Main:
         column = layout.column()
         column.prop(stored, "judge")
         column.prop(stored, "shading")
+        column.prop(stored, "identity")
+        column.prop(stored, "self_check")
 
 
 class _Result:

@@ -7,7 +7,7 @@ those that hold a marked object are replaced by copies, in the temporary scene a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
@@ -17,8 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Plane, Scene
+from .collections import replace_objects
 from .colors import random_color
 from .view_volume import corners as volume_corners
+
+STANDS_FOR = "reference_tracer_stands_for"  # a polygon's property: the name of the marked object
 
 
 def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
@@ -51,7 +54,7 @@ def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
 
 
 @contextmanager
-def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
+def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iterator[Scene]:
     """Show polygons in a temporary Blender scene in place of its infinite planes.
 
     Gives the exported scene as it is to be compared: random colours come from names, so there the
@@ -64,6 +67,8 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
         Name of the view layer that is drawn.
     scene : Scene
         What was exported from it.
+    owners : sequence of str
+        The object that each plane is.
     """
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     collections: list[Any] = []
@@ -71,11 +76,12 @@ def stand_ins(tmp: Any, layer: str, scene: Scene) -> Iterator[Scene]:
     planes: list[Plane] = []
     try:
         if marked:
-            _without(tmp.collection, tmp.view_layers[layer].layer_collection, marked, collections)
-        for plane in scene.planes:
+            replace_objects(tmp, layer, dict.fromkeys(marked), collections)
+        for plane, owner in zip(scene.planes, owners, strict=True):
             corners = polygon(scene.camera, plane)
             if len(corners):
                 objects.append(_stand_in(tmp, corners, scene.camera.origin, plane.color))
+                objects[-1][STANDS_FOR] = owner
                 if tmp.display.shading.color_type == "RANDOM":
                     plane = replace(plane, color=np.array(random_color(objects[-1]), np.float32))
             planes.append(plane)
@@ -103,27 +109,3 @@ def _stand_in(
     obj.location, obj.color = nearest, (*color[:3], 1.0)
     tmp.collection.objects.link(obj)
     return obj
-
-
-def _without(collection: Any, layer: Any, objects: set[Any], copies: list[Any]) -> None:
-    """Take objects out of a temporary scene's collection, copying those below that hold them."""
-    for child in list(collection.children):
-        if objects.isdisjoint(child.all_objects):
-            continue
-        copy = child.copy()
-        copies.append(copy)
-        old = layer.children[child.name]
-        collection.children.link(copy)  # before the old one goes: hidden objects stay hidden
-        new = layer.children[copy.name]
-        _copy_flags(old, new)
-        collection.children.unlink(child)
-        _without(copy, new, objects, copies)
-    for obj in objects.intersection(collection.objects):
-        collection.objects.unlink(obj)
-
-
-def _copy_flags(source: Any, target: Any) -> None:
-    for name in ("exclude", "hide_viewport", "holdout", "indirect_only"):
-        setattr(target, name, getattr(source, name))
-    for a, b in zip(source.children, target.children, strict=True):
-        _copy_flags(a, b)

@@ -102,6 +102,19 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     )
     shading: EnumProperty(name="Shading", items=SHADINGS, default="LIKE_FOR_LIKE")  # type: ignore[valid-type]
 
+    identity: BoolProperty(  # type: ignore[valid-type]
+        name="Object by Object",
+        default=True,
+        description="Have Blender draw the scene once more, a colour an object, to know whose "
+        "surface each pixel shows: a wrong colour and a wrong object are then told apart",
+    )
+    self_check: BoolProperty(  # type: ignore[valid-type]
+        name="Self-Check",
+        default=False,
+        description="Afterwards make known faults (a pixel off, mirrored, an object left out...) "
+        "and see that the comparison finds each: takes several times as long",
+    )
+
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
         precision = self.precision if self.has_precision else Precision.FLOAT64

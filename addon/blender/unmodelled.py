@@ -166,22 +166,31 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
 
 
 def of_shading(scene: Any, source: str, anti_aliasing: str) -> Iterator[Unmodelled]:
-    """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it."""
-    shading = scene.display.shading
+    """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it.
+
+    Anti-aliasing alone can be checked: it mixes colours that the tracer sees.
+    """
+    shading, name = scene.display.shading, f"scene '{scene.name}'"
     if source == "cycles":
-        yield Unmodelled(f"scene '{scene.name}'", "materials and light", "of Cycles", None, True)
+        yield Unmodelled(name, "materials and light", "of Cycles", None, True, True)
         return
-    for feature, shown in (
-        (f"{shading.light.lower()} light", shading.light != "FLAT"),
-        ("specular highlights", shading.light == "STUDIO" and shading.show_specular_highlight),
-        ("shadows", shading.show_shadows),
-        ("cavity", shading.show_cavity),
-        ("object outline", shading.show_object_outline),
-        ("x-ray", shading.show_xray),
-        ("backface culling", shading.show_backface_culling),
-        ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof),
-        ("anti-aliasing", anti_aliasing != "OFF"),
+    detail, found = "Blender's picture is made with it", False
+    for feature, shown, recolours in (
+        (f"{shading.light.lower()} light", shading.light != "FLAT", True),
+        (
+            "specular highlights",
+            shading.light == "STUDIO" and shading.show_specular_highlight,
+            True,
+        ),
+        ("shadows", shading.show_shadows, True),
+        ("cavity", shading.show_cavity, True),
+        ("object outline", shading.show_object_outline, True),
+        ("x-ray", shading.show_xray, False),
+        ("backface culling", shading.show_backface_culling, False),
+        ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof, False),
     ):
         if shown:
-            detail = "Blender's picture is made with it"
-            yield Unmodelled(f"scene '{scene.name}'", feature, detail, None, True)
+            found = True
+            yield Unmodelled(name, feature, detail, None, True, recolours)
+    if anti_aliasing != "OFF":
+        yield Unmodelled(name, "anti-aliasing", detail, None, found, found)

@@ -24,6 +24,10 @@ from .animation import values_kept
 # Where each samples a pixel: at most this far from its centre, in pixels.
 SAMPLE_RADIUS = {"viewport": 0.0, "workbench": 0.0, "cycles": cycles.FILTER_WIDTH / 2}
 
+# How far from a pixel's centre its anti-aliasing mixes what is seen, in pixels: Workbench's samples
+# lie within a pixel and a half, and what smooths their edges takes in the pixel beside.
+FILTER_RADIUS = 2.0
+
 
 def choose_source(judge: str) -> str:
     """Return which picture, a key of SAMPLE_RADIUS, the user's choice of judge means here."""

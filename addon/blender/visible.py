@@ -37,9 +37,13 @@ class Seen:
 
 
 class Shown(NamedTuple):
-    """One appearance of an object: of a mesh, by its address, or as an infinite plane."""
+    """One appearance of an object: of a mesh, by its address, or as an infinite plane.
+
+    The `owner` is the object whose colour Blender gives it: of an instance, what instances it.
+    """
 
     name: str
+    owner: str
     key: int | None
     matrix: NDArray[np.float64]
     colors: NDArray[np.float32]
@@ -101,7 +105,7 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
             if color_type == "MATERIAL" and not entry.is_plane:
                 entry.empty_slots = max(entry.empty_slots, materials.count(None))
         matrix = np.array(item.matrix_world, dtype=np.float64)
-        shown.append(Shown(name, key, matrix, all_colors[look]))
+        shown.append(Shown(name, owner.name_full, key, matrix, all_colors[look]))
     return seen, shown, met
 
 

@@ -1,4 +1,4 @@
-"""`reftrace compare`: a .blend and Blender's own picture of it."""
+"""`reftrace compare`: a scene and a picture of it, Blender's own or anybody's."""
 
 from __future__ import annotations
 
@@ -6,13 +6,32 @@ import argparse
 import os
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
-from ..arguments import add_judge, add_page, add_processes, add_settings
-from ..opening import open_blend
-from ..report import files, folders
+import numpy as np
+
+from .. import images
+from ..arguments import (
+    add_camera,
+    add_judge,
+    add_page,
+    add_processes,
+    add_settings,
+    refuse,
+    settings_from,
+)
+from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
+from ..compare.known import Known
+from ..compare.shown import Shown
+from ..manifest import Manifest, ObjectEntry
+from ..opening import load, open_blend
+from ..report import files, folders, page
 from ..report.progress_bar import progress_bar
-from ..scene import SceneError
+from ..scene import Camera, Scene, SceneError
+from ..scene_files import diagnosed
 from ..tracer.processes import tracing
+from ..tracer.progress import Work, result_of
+from ..tracer.render import Steps
 from .parts import Commands, command
 
 
@@ -22,15 +41,30 @@ def add(commands: Commands) -> None:
         commands,
         "compare",
         run,
-        "trace a .blend and compare it with Blender's own picture",
-        "reftrace compare scene.blend --out out/",
-        "scene.blend",
+        "trace a scene and compare it with Blender's own picture, or with any other",
+        "reftrace compare scene.blend --out out/\n"
+        "  reftrace compare scene.npz --against student.png --out out/",
+        "scene.blend; with --against also scene.npz or a mesh",
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)
     add_processes(parser)
     add_judge(parser)
     add_page(parser)
+    group = parser.add_argument_group("another picture, in place of Blender's")
+    group.add_argument(
+        "--against",
+        type=Path,
+        metavar="PICTURE",
+        help="a .png (8 bits, sRGB) or .exr (linear) of the same camera and size",
+    )
+    group.add_argument(
+        "--filter",
+        type=float,
+        metavar="PIXELS",
+        help="how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)",
+    )
+    add_camera(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -39,14 +73,113 @@ def run(options: argparse.Namespace) -> int:
         options.out = os.path.realpath(options.out)
     with folders.made(Path(options.out)):
         try:
-            if options.scene.suffix.lower() != ".blend":
-                raise SceneError(f"'{options.scene}' is not a .blend: Blender draws only those")
-            with open_blend(options.scene):
-                from ..blender.commands import compare_open_file
-
-                with tracing(options.processes) as trace, progress_bar() as progress:
-                    return compare_open_file(options, progress, trace)
+            if options.against is not None:
+                return _against(options)
+            return _with_blender(options)
         except Exception as error:
             with suppress(OSError):
                 files.write_failure(options.out, error)
             raise
+
+
+def _with_blender(options: argparse.Namespace) -> int:
+    refuse(options, ("filter",), "is for a picture of --against")
+    if options.scene.suffix.lower() != ".blend":
+        raise SceneError(
+            f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
+            "with --against"
+        )
+    with open_blend(options.scene):
+        from ..blender.commands import compare_open_file
+
+        with tracing(options.processes) as trace, progress_bar() as progress:
+            return compare_open_file(options, progress, trace)
+
+
+def _against(options: argparse.Namespace) -> int:
+    """Compare with a picture of unknown make."""
+    refuse(options, ("judge", "identity"), "is for Blender's picture, not for one of --against")
+    if options.as_is:
+        raise SceneError("--as-is is for Blender's picture, not for one of --against")
+    if options.filter is not None and not options.filter >= 0:
+        raise SceneError(f"--filter is {options.filter:g}; it must be at least 0")
+    picture = images.load(options.against)
+    about = {
+        "version": None,
+        "source": "picture",
+        "picture": options.against.name,
+        "sample_radius": 0.0,
+        "filter_radius": options.filter or 0.0,
+        "settings": {},
+    }
+    with tracing(options.processes) as trace, progress_bar() as progress:
+        if options.scene.suffix.lower() == ".blend":
+            comparison = result_of(_blend(options, picture, about, trace), progress)
+        else:
+            comparison = result_of(_file(options, picture, about, trace), progress)
+        finding = page.extras(comparison, options.trade, options.extremes, trace)
+        extras = result_of(finding, progress)
+    files.write(options.out, comparison, images.save_png, extras)
+    print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
+    print(f"open {Path(options.out) / page.NAME} in a browser")
+    return EXIT_CODES[comparison.verdict]
+
+
+def _blend(
+    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any], trace: Steps
+) -> Work[Comparison]:
+    with open_blend(options.scene) as blender:
+        from ..blender.camera import export_camera
+        from ..blender.compare import gather_against
+
+        context = blender.context
+        shown = _shown(picture, export_camera(context.scene))
+        settings = settings_from(options, context.scene.reference_tracer.settings())
+        gathered = gather_against(context, shown, about, settings, bool(options.self_check))
+        return (yield from gathered.steps(trace))
+
+
+def _file(
+    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any], trace: Steps
+) -> Work[Comparison]:
+    scene, stored = load(options)
+    manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
+    return (
+        yield from trace_and_compare(
+            scene,
+            manifest,
+            settings_from(options, stored),
+            _shown(picture, scene.camera),
+            about,
+            trace,
+            Known(curves=(), self_check=bool(options.self_check)),
+        )
+    )
+
+
+def _shown(picture: images.Picture, camera: Camera) -> Shown:
+    """Return what is compared of a picture: of one of the whole view, the camera's border."""
+    color, r = picture.color, camera.region
+    if color.shape[:2] == (camera.height, camera.width):
+        color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
+    return Shown(color, levels=picture.levels, opaque=picture.opaque)
+
+
+def _manifest(path: Path, scene: Scene) -> Manifest:
+    """Return the account of a scene that never saw Blender."""
+    entries = []
+    for number, name in enumerate(scene.objects):
+        own = [scene.meshes[i.mesh] for i in scene.instances if i.object == number]
+        planes = sum(p.object == number for p in scene.planes)
+        entries.append(
+            ObjectEntry(
+                name,
+                "INFINITE_PLANE" if planes else "MESH",
+                exported=True,
+                triangles=sum(len(m.triangles) for m in {id(m): m for m in own}.values()),
+                vertices=sum(len(m.vertices) for m in {id(m): m for m in own}.values()),
+                instances=len(own) + planes,
+                traced_triangles=sum(len(m.triangles) for m in own),
+            )
+        )
+    return Manifest(path.name, path.stem, "", 0, "FILE", scene.camera.name, tuple(entries))

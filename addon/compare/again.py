@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Region, Scene
-from ..tracer import shading
 from ..tracer.probe import Probe
 from ..tracer.progress import Work, scaled
 from ..tracer.render import tiles
 from ..tracer.settings import Method, Precision, Settings
 from ..tracer.visibility import NOTHING, Hits, plan
 from .bounds import depth_resolution, view_error
-from .cause import Cause, Settler, differing
+from .cause import Cause, Settler
 from .coverage import coverage
+from .shown import Shown
 
 # Where in the band the tracer is asked again, in widths of it: eight directions on three rings,
 # and eight between them on the rim.
@@ -38,7 +38,7 @@ FEW = 1 << 13  # pixels looked at together, so that a step is short where whole 
 
 
 def look_again(
-    scene: Scene, picture: NDArray[np.float32], band: NDArray[np.float64], settle: Settler
+    scene: Scene, shown: Shown, band: NDArray[np.float64], settle: Settler
 ) -> Work[None]:
     """Settle open pixels, a part of the picture at a time.
 
@@ -46,8 +46,8 @@ def look_again(
     ----------
     scene : Scene
         What was traced; it is asked by SOUND, however the picture was made.
-    picture : (h, w, 4) float32
-        Blender's.
+    shown : Shown
+        (h, w): Blender's picture.
     band : (h, w) float64
         How far from its pixel's centre Blender's sample may lie, in pixels.
     settle : Settler
@@ -56,22 +56,22 @@ def look_again(
     if not settle.open.any():
         return
     made = yield from plan(scene, SOUND, reach=float(band[settle.open].max()))
-    parts = list(_parts(scene, settle.open))
+    parts = list(parts_of(scene, settle.open))
     for number, tile in enumerate(parts):
         rows = slice(tile.y0 - scene.camera.region.y0, tile.y1 - scene.camera.region.y0)
         wanted, part = settle.open[rows].copy(), settle.rows(rows)
         done, size = number / len(parts), 1 / len(parts)
         probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.5 * size)
         centre = probe.trace()
-        for _ in _edges(scene, probe, wanted, picture[rows], band[rows], centre, part):
+        for _ in _edges(scene, probe, wanted, shown.at(rows), band[rows], centre, part):
             yield done + 0.6 * size
-        for _ in _depth_ties(scene, probe, wanted, picture[rows], centre, part):
+        for _ in _depth_ties(scene, probe, wanted, shown.at(rows), centre, part):
             yield done + 0.9 * size
         if part.open.any():
-            _coverings(scene, probe, wanted, picture[rows], band[rows], centre, part)
+            _coverings(scene, probe, wanted, shown.at(rows), band[rows], centre, part)
 
 
-def _parts(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
+def parts_of(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
     """Yield tiles that have open pixels, cut into lower ones where these are many."""
     region = scene.camera.region
     for tile in tiles(scene.camera):
@@ -84,66 +84,74 @@ def _parts(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
 
 
 def _edges(
-    scene, probe: Probe, wanted, picture, band, centre: Hits, settle: Settler
+    scene, probe: Probe, wanted, shown: Shown, band, centre: Hits, settle: Settler
 ) -> Iterator[None]:
     """See whether within the band around a pixel's centre there is what Blender shows.
 
     Where it is seen in the centre itself, the picture's method lost it: on an edge within the band,
     where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
     """
-    width, shown = band[wanted], picture[wanted]
-    lost = ~_differing(scene, centre, shown)
+    width, shown = band[wanted], shown.at(wanted)
+    lost = ~shown.differ(scene, centre)
     for x, y in OFFSETS:
         hits = probe.trace(x * width, y * width)
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
-        same = np.where(lost, other, ~_differing(scene, hits, shown))
-        settle(_set_out(same, wanted), Cause.EDGE, band * max(abs(x), abs(y)), band)
+        same = np.where(lost, other, ~shown.differ(scene, hits))
+        settle(set_out(same, wanted), Cause.EDGE, band * max(abs(x), abs(y)), band)
         yield
         if not settle.open.any():
             return
 
 
-def _coverings(scene, probe: Probe, wanted, picture, band, centre: Hits, settle: Settler) -> None:
+def _coverings(
+    scene, probe: Probe, wanted, shown: Shown, band, centre: Hits, settle: Settler
+) -> None:
     """Find what no sample does: a triangle that comes that near, before any surely covered one."""
-    width, shown = band[wanted], picture[wanted]
-    lost = ~_differing(scene, centre, shown)
+    width, shown = band[wanted], shown.at(wanted)
+    lost = ~shown.differ(scene, centre)
     may = coverage(probe, width)
-    behind = may.behind + _resolution(scene, probe, may.sure)[may.pixel]
+    behind = may.behind + resolution(scene, probe, may.sure)[may.pixel]
     visible = (may.hits.t <= behind) & ~lost[may.pixel]
-    same = visible & ~_differing(scene, may.hits, shown[may.pixel])
+    same = visible & ~shown.at(may.pixel).differ(scene, may.hits)
     nearest = np.full(len(width), np.inf)
     np.minimum.at(nearest, may.pixel[same], may.distance[same])
-    nothing = np.isinf(may.sure.t) & ~differing(
-        np.broadcast_to(scene.background, shown.shape), shown
-    )
+    nothing = np.isinf(may.sure.t) & ~shown.differ(scene, Hits.none(len(width)))
     nothing &= ~lost
     nearest[nothing] = np.minimum(nearest, width)[nothing]
-    settle(_set_out(nearest < np.inf, wanted), Cause.EDGE, _set_out(nearest, wanted), band)
+    settle(set_out(nearest < np.inf, wanted), Cause.EDGE, set_out(nearest, wanted), band)
 
 
 def _depth_ties(
-    scene, probe: Probe, wanted, picture, first: Hits, settle: Settler
+    scene, probe: Probe, wanted, shown: Shown, first: Hits, settle: Settler
 ) -> Iterator[None]:
-    """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart."""
-    allowed = np.where(first.instance != NOTHING, _resolution(scene, probe, first), -1.0)
-    hits, shown = first, picture[wanted]
+    """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart.
+
+    Colours and whose surfaces they are come from two drawings, in which a tie may go either way:
+    each must be found among the surfaces that tie.
+    """
+    allowed = np.where(first.instance != NOTHING, resolution(scene, probe, first), -1.0)
+    hits, shown = first, shown.at(wanted)
+    lost = ~shown.differ(scene, first)
+    color, owner = shown.same_color(scene, first) & ~lost, ~shown.other_object(first.instance)
     for _ in range(LAYERS):
         hits = probe.trace(after=hits)
         with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
             gap = hits.t - first.t
-            same = (gap <= allowed) & ~_differing(scene, hits, shown)
+            tied = gap <= allowed
+        color |= tied & shown.same_color(scene, hits)
+        owner |= tied & ~shown.other_object(hits.instance)
         settle(
-            _set_out(same, wanted),
+            set_out(tied & color & owner, wanted),
             Cause.DEPTH_TIE,
-            _set_out(gap, wanted),
-            _set_out(allowed, wanted),
+            set_out(gap, wanted),
+            set_out(allowed, wanted),
         )
         yield
         if not settle.open.any():
             return
 
 
-def _resolution(scene: Scene, probe: Probe, hits: Hits) -> NDArray[np.float64]:
+def resolution(scene: Scene, probe: Probe, hits: Hits) -> NDArray[np.float64]:
     """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
     seen, out = hits.instance != NOTHING, np.zeros(len(hits.t))
     found = hits.take(seen)
@@ -152,13 +160,8 @@ def _resolution(scene: Scene, probe: Probe, hits: Hits) -> NDArray[np.float64]:
     return out
 
 
-def _differing(scene: Scene, hits: Hits, shown: NDArray) -> NDArray[np.bool_]:
-    """Return which of n hits differ from what Blender shows, (n, 4)."""
-    colors = shading.colors(scene, hits)
-    return differing(colors, shown, shading.interpolated(scene, hits.instance))
-
-
-def _set_out(values: NDArray, where: NDArray[np.bool_]) -> NDArray:
+def set_out(values: NDArray, where: NDArray[np.bool_]) -> NDArray:
+    """Return values (n,) where a mask of n pixels is True, and 0 elsewhere."""
     out = np.zeros(where.shape, values.dtype)
     out[where] = values
     return out

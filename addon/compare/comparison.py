@@ -16,21 +16,31 @@ from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import metrics
-from .cause import Cause, Causes
+from .boundary import boundary
+from .cause import DESCRIPTIONS, Cause, Causes, Hidden
 from .causes import find_causes
+from .certificate import CameraCertificate
+from .counts import count_pixels
+from .faults import Case
+from .identity import Identity
+from .known import Known
 from .methods import MethodRow, list_methods
+from .self_check import FaultRow, self_check, table
+from .shown import Shown
 
 SCHEMA = "reference_tracer.comparison/1"
 
-# What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
-EXAMPLES = 10  # pixels named of each cause
-_SHOWN = (Cause.UNEXPLAINED, Cause.NOT_MODELLED, Cause.DEPTH_TIE, Cause.EDGE)
-
 _TRACING = 0.4  # of the work, roughly
 _METHODS = 0.35
+_COMPARING = 0.25
+_CHECKING = 0.8  # with a self-check
 _CAUSES = 0.8  # of what is left
 
+# What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
 EXIT_CODES = {"agree": 0, "warnings": 1, "differences": 2, "cancelled": 1}
+
+
+_WARNINGS = Cause.COLOR, Cause.HIDDEN, Cause.ANTI_ALIASING  # explained, and yet not alike
 
 
 class SizeError(ValueError):
@@ -51,6 +61,9 @@ class Comparison:
     pixels: dict[str, Any]  # see count_pixels
     metrics: dict[str, Any]  # see measure
     methods: tuple[MethodRow, ...] = ()
+    identity: Identity | None = None  # which object each side shows
+    certificate: CameraCertificate | None = None
+    self_check: tuple[FaultRow, ...] = ()  # known faults, and whether they were found
 
     @property
     def verdict(self) -> str:
@@ -58,12 +71,16 @@ class Comparison:
         if self.frame.cancelled:
             return "cancelled"
         pixels = self.pixels
-        if pixels["unexplained"]:
+        if pixels["unexplained"] or (self.certificate and not self.certificate.passed):
             return "differences"
-        left_out = any(o.left_out for o in self.manifest.objects)
-        if pixels["not_decidable"] or self.manifest.unmodelled or left_out:
-            return "warnings"
-        return "agree"
+        doubtful = (
+            pixels["not_decidable"],
+            *(pixels["by_cause"][c.name.lower()] for c in _WARNINGS),
+            self.manifest.unmodelled,
+            *(o.left_out for o in self.manifest.objects),
+            *(row.missed for row in self.self_check),
+        )
+        return "warnings" if any(doubtful) else "agree"
 
     @property
     def required(self) -> list[str]:
@@ -94,6 +111,12 @@ class Comparison:
             },
             "methods": [row.to_dict() for row in self.methods],
             "pixels": self.pixels,
+            "causes": _DESCRIBED,
+            "transform": self.causes.transform,
+            "hidden": [h._asdict() for h in self.causes.hidden],
+            "identity": self.identity and self.identity.to_dict(),
+            "certificate": self.certificate and self.certificate.to_dict(),
+            "self_check": [row.to_dict() for row in self.self_check],
             "metrics": self.metrics,
             "verdict": self.verdict,
         }
@@ -104,22 +127,62 @@ class Comparison:
         psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
         x, y = m["largest_difference"]["pixel"]
         out = [
-            f"{p['agree']:,} of {p['total']:,} pixels agree with Blender's "
-            f"{self.blender['source']} picture, {p['differ']:,} differ",
+            f"{p['agree']:,} of {p['total']:,} pixels agree with {self._other()}, "
+            f"{p['differ']:,} differ",
             *(
-                f"  {name.replace('_', ' ')}: {n:,}{_at(p['examples'].get(name, ()))}"
+                f"  {DESCRIPTIONS[Cause[name.upper()]].label}: {n:,}"
+                f"{_at(p['examples'].get(name, ()))}"
                 for name, n in p["by_cause"].items()
                 if n
             ),
+            *self._evidence(),
             f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
             f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
             f"traced {self.frame.statistics.triangles:,} triangles in "
             f"{self.frame.statistics.seconds:.2f} s",
             *(row.line() for row in self.methods),
             *self.required,
+            *table(self.self_check),
             f"verdict: {self.verdict}",
         ]
         return out
+
+    def _other(self) -> str:
+        """Name the picture that is compared."""
+        if "picture" in self.blender:
+            return f"the picture '{self.blender['picture']}'"
+        return f"Blender's {self.blender['source']} picture"
+
+    def _evidence(self) -> list[str]:
+        """Say what else was found out of the pixels that differ."""
+        p, causes = self.pixels, self.causes
+        inside, rim = p["interior"], p["boundary"]
+        out = [
+            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
+            f"{rim['total']:,} boundary pixels differ"
+        ]
+        if causes.transform:
+            out.append(f"colours: {causes.transform}")
+        out += [f"only one side shows '{h.object}': {h.reason}" for h in _once(causes.hidden)]
+        if self.identity and p["unexplained"]:
+            shows = p["unexplained_shows"]
+            out.append(
+                f"of the unexplained pixels {shows['same_object']:,} show the same object in "
+                f"another colour, {shows['other_object']:,} another object"
+            )
+        if self.certificate:
+            out.append(self.certificate.line())
+        return out
+
+
+_DESCRIBED = {
+    cause.name.lower(): {"number": int(cause)} | told._asdict()
+    for cause, told in DESCRIPTIONS.items()
+}
+
+
+def _once(hidden: list[Hidden]) -> list[Hidden]:
+    return list(dict.fromkeys(hidden))
 
 
 def compare(
@@ -127,8 +190,9 @@ def compare(
     manifest: Manifest,
     settings: Settings,
     frame: Frame,
-    picture: NDArray[np.float32],
+    picture: NDArray[np.float32] | Shown,
     blender: dict[str, Any],
+    known: Known | None = None,
 ) -> Work[Comparison]:
     """Compare a traced frame with Blender's picture; yields the share of the work done.
 
@@ -137,53 +201,58 @@ def compare(
     SizeError
         If the picture is not of the frame's size.
     """
-    if picture.shape != frame.color.shape:
-        raise SizeError(
-            f"Blender's picture has {picture.shape[1]} x {picture.shape[0]} pixels, the traced one "
-            f"{frame.color.shape[1]} x {frame.color.shape[0]}."
-        )
+    shown = picture if isinstance(picture, Shown) else Shown(picture)
+    known = known or Known()
+    check_sizes(shown.color, frame.color)
     finding = find_causes(
-        scene, frame, picture, manifest.unmodelled, blender.get("sample_radius", 0.0)
+        scene,
+        frame,
+        shown,
+        manifest.unmodelled,
+        blender.get("sample_radius", 0.0),
+        blender.get("filter_radius", 0.0),
+        _absent(manifest, known.names),
+        known.alternatives,
+        known.curves,
     )
     causes = yield from scaled(finding, 0.0, _CAUSES)
-    measured = yield from scaled(measure(frame.color, picture), _CAUSES, 1 - _CAUSES)
+    measured = yield from scaled(measure(frame.color, shown.color), _CAUSES, 1 - _CAUSES)
+    identity = None
+    if shown.owner is not None:
+        identity = Identity(known.names, shown.owners[frame.instance_index], shown.owner)
     return Comparison(
-        scene, manifest, settings, frame, picture, blender, causes, count_pixels(causes), measured
+        scene,
+        manifest,
+        settings,
+        frame,
+        shown.color,
+        blender,
+        causes,
+        count_pixels(causes, boundary(frame), identity),
+        measured,
+        identity=identity,
+        certificate=known.certificate,
     )
 
 
-def count_pixels(causes: Causes) -> dict[str, Any]:
-    """Count pixels by what is said of them.
+def check_sizes(picture: NDArray, traced: NDArray) -> None:
+    """Raise a SizeError if two pictures (h, w, 4) are not of one size."""
+    if picture.shape != traced.shape:
+        raise SizeError(
+            f"The picture has {picture.shape[1]} x {picture.shape[0]} pixels, the traced one "
+            f"{traced.shape[1]} x {traced.shape[0]}."
+        )
 
-    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
-    `examples` are some pixels of each cause, [x, y] of the region from its lower left.
-    """
-    count = {c: int((causes.cause == c).sum()) for c in Cause}
-    explained = count[Cause.EDGE] + count[Cause.DEPTH_TIE] + count[Cause.NOT_MODELLED]
-    return {
-        "total": causes.cause.size,
-        "agree": count[Cause.AGREE],
-        "differ": explained + count[Cause.UNEXPLAINED],
-        "explained": explained,
-        "unexplained": count[Cause.UNEXPLAINED],
-        "not_decidable": count[Cause.NOT_DECIDABLE],
-        "not_traced": count[Cause.NOT_TRACED],
-        "by_cause": {
-            c.name.lower(): count[c] for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
-        },
-        "examples": {c.name.lower(): _positions(causes.cause == c) for c in _SHOWN if count[c]},
-    }
+
+def _absent(manifest: Manifest, names: tuple[str, ...]) -> dict[int, Hidden]:
+    """Return of the objects that may be shown why they are not traced, by their numbers."""
+    why = {e.name: e.reason for e in manifest.objects if e.hidden}
+    return {n: Hidden(name, why[name]) for n, name in enumerate(names) if name in why}
 
 
 def _at(pixels: list[list[int]]) -> str:
     """Say where the first of some pixels are."""
     return f", as at {', '.join(f'({x}, {y})' for x, y in pixels[:3])}" if pixels else ""
-
-
-def _positions(where: NDArray[np.bool_]) -> list[list[int]]:
-    """Return the first pixels of some as [x, y], x from the left and y from the bottom."""
-    width = where.shape[1]
-    return [[int(i % width), int(i // width)] for i in np.flatnonzero(where)[:EXAMPLES]]
 
 
 def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:
@@ -214,18 +283,34 @@ def trace_and_compare(
     scene: Scene,
     manifest: Manifest,
     settings: Settings,
-    picture: NDArray[np.float32],
+    picture: NDArray[np.float32] | Shown,
     blender: dict[str, Any],
     trace: Steps = steps,
+    known: Known | None = None,
 ) -> Work[Comparison]:
     """Trace a scene and compare it with Blender's picture, in small steps.
 
     Yields the share of the work done; the caller stops by not asking for more.
     """
+    shown = picture if isinstance(picture, Shown) else Shown(picture)
+    checking = _CHECKING if known and known.self_check else 0.0
+    tracing, methods, rest = ((1 - checking) * s for s in (_TRACING, _METHODS, _COMPARING))
     frame = Frame.empty(scene)
     for share in trace(scene, settings, frame):
-        yield _TRACING * share
-    methods = yield from scaled(list_methods(scene, settings, frame, trace), _TRACING, _METHODS)
-    comparing = compare(scene, manifest, settings, frame, picture, blender)
-    comparison = yield from scaled(comparing, _TRACING + _METHODS, 1 - _TRACING - _METHODS)
-    return replace(comparison, methods=methods)
+        yield tracing * share
+    rows = yield from scaled(list_methods(scene, settings, frame, trace), tracing, methods)
+    comparing = compare(scene, manifest, settings, frame, shown, blender, known)
+    found = yield from scaled(comparing, tracing + methods, rest)
+    faults: tuple[FaultRow, ...] = ()
+    if checking:
+        case = Case(
+            scene,
+            frame,
+            shown,
+            manifest.unmodelled,
+            blender.get("sample_radius", 0.0),
+            blender.get("filter_radius", 0.0),
+            known.next_frame,
+        )
+        faults = yield from scaled(self_check(case, trace), 1 - checking, checking)
+    return replace(found, methods=rows, self_check=faults)

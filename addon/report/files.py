@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..compare import engines
 from ..compare.comparison import SCHEMA, Comparison
+from ..compare.engines import EngineRow
 from ..images import SavePng, to_display
 from . import page
 from .folders import replacing
 from .pictures import difference
 
 PICTURES = "traced", "blender", "difference"
-ARRAYS, JSON = "frame.npz", "comparison.json"
+ARRAYS, JSON, ENGINES = "frame.npz", "comparison.json", "engines.json"
 _NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
 
@@ -57,9 +61,16 @@ def write(
             cause=causes.cause,
             cause_figure=causes.figure,
             cause_allowed=causes.allowed,
+            **_identity(comparison),
         )
         page.write(new / page.NAME, comparison, **vars(extras or page.Extras()))
         (new / JSON).write_text(text, encoding="utf-8")
+
+
+def _identity(comparison: Comparison) -> dict[str, NDArray]:
+    """Return whose surface each side shows, as numbers of the JSON's names, where it is known."""
+    found = comparison.identity
+    return {} if found is None else {"owner_traced": found.traced, "owner_shown": found.shown}
 
 
 def write_failure(directory: str | Path, error: BaseException) -> None:
@@ -74,6 +85,12 @@ def write_failure(directory: str | Path, error: BaseException) -> None:
     }
     with replacing(Path(directory), _NAMES) as new:
         (new / JSON).write_text(_json(content), encoding="utf-8")
+
+
+def write_engines(directory: str | Path, rows: Sequence[EngineRow]) -> None:
+    """Write `engines.json`: every engine's picture against the tracer's."""
+    with replacing(Path(directory), (ENGINES,)) as new:
+        (new / ENGINES).write_text(_json(engines.to_dict(rows)), encoding="utf-8")
 
 
 def _json(content: dict[str, Any]) -> str:

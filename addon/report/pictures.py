@@ -12,6 +12,10 @@ from ..compare.comparison import Comparison
 CAUSE_COLORS = {
     Cause.EDGE: (1.0, 0.3, 0.0),
     Cause.DEPTH_TIE: (0.0, 0.7, 1.0),
+    Cause.CLIP_PLANE: (0.0, 0.35, 0.3),
+    Cause.ANTI_ALIASING: (0.9, 0.75, 0.1),
+    Cause.COLOR: (0.1, 0.6, 0.1),
+    Cause.HIDDEN: (0.9, 0.3, 0.7),
     Cause.NOT_MODELLED: (0.3, 0.08, 0.9),
     Cause.NOT_DECIDABLE: (0.25, 0.3, 0.6),
     Cause.UNEXPLAINED: (1.0, 0.0, 0.0),
@@ -28,7 +32,7 @@ def difference(comparison: Comparison) -> NDArray[np.float32]:
     out[..., :3] = grey[..., None]
     for cause, color in CAUSE_COLORS.items():
         where = comparison.causes.cause == cause
-        if cause == Cause.NOT_DECIDABLE:
+        if cause in (Cause.NOT_DECIDABLE, Cause.COLOR):  # of whole surfaces: they stay to be seen
             out[where, :3] = 0.5 * out[where, :3] + 0.5 * np.array(color)
         else:
             out[where, :3] = color

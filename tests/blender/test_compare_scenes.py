@@ -45,8 +45,13 @@ def test_sample_scene_has_no_unexplained_pixel(name, opened, tmp_path):
     assert pixels["unexplained"] == 0
     assert pixels["by_cause"]["unexplained"] == 0
     assert pixels["explained"] == sum(
-        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "not_modelled")
+        pixels["by_cause"][cause] for cause in ("edge", "depth_tie", "clip_plane")
     )
+    assert found["certificate"]["passed"]
+    identity = found["identity"]["pixels"]
+    assert identity["not_known"] == 0
+    assert identity["other_object"] <= MAY_DIFFER * pixels["total"]
+    assert identity["same_object"] + identity["other_object"] == pixels["total"]
     assert pixels["differ"] == pixels["explained"] + pixels["unexplained"]
     assert pixels["not_traced"] == 0
     assert pixels["total"] == pixels["agree"] + pixels["differ"] + pixels["not_decidable"]

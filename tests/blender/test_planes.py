@@ -230,7 +230,7 @@ def test_the_stand_in_is_linked_to_the_temporary_scene_alone(ground, export):
     scene, _ = export.viewport()
     objects = set(bpy.context.scene.objects)
     with temporary_scene(bpy.context.scene, bpy.context.view_layer.name) as copy:
-        with stand_ins(copy, bpy.context.view_layer.name, scene):
+        with stand_ins(copy, bpy.context.view_layer.name, scene, ["Ground"]):
             assert set(bpy.context.scene.objects) == objects
             added = set(copy.objects) - objects
             assert len(added) == 1

@@ -189,7 +189,9 @@ def test_a_second_comparison_adds_nothing(user_scene):
     assert {i.name for i in bpy.data.images} == OURS
 
 
-@pytest.mark.parametrize("where", ["picture", "export_for_render", "prepare", "stand_ins"])
+@pytest.mark.parametrize(
+    "where", ["picture", "export_for_render", "prepare", "stand_ins", "draw_identity"]
+)
 @pytest.mark.parametrize("kind", [RuntimeError, KeyError, MemoryError])
 def test_nothing_is_changed_by_an_error(kind, where, user_scene, monkeypatch):
     def fail(*args, **options):

@@ -10,8 +10,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.compare.band import sample_band
 from reference_tracer.compare.cause import Cause, differing
-from reference_tracer.compare.causes import covered, find_causes, sample_band
+from reference_tracer.compare.causes import covered, find_causes
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.boundary import boundary
+from reference_tracer.compare.cause import DESCRIPTIONS, Cause
 from reference_tracer.compare.comparison import (
     EXIT_CODES,
     SCHEMA,
@@ -57,12 +58,11 @@ def test_counts_add_up(scene):
     assert p["differ"] + p["not_decidable"] == sum(p["by_cause"].values())
     assert p["by_cause"]["not_modelled"] > 10 and p["unexplained"] > 10
     assert set(p["by_cause"]) == {
-        "edge",
-        "depth_tie",
-        "not_modelled",
-        "not_decidable",
-        "unexplained",
+        c.name.lower() for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
     }
+    for key in ("total", "agree", "differ", "explained", "unexplained", "not_decidable"):
+        assert p[key] == p["interior"][key] + p["boundary"][key]
+    assert p["boundary"]["total"] == boundary(found.frame).sum() > 0 < p["interior"]["total"]
     for name, n in p["by_cause"].items():
         assert n == (found.causes.cause == Cause[name.upper()]).sum()
 
@@ -141,7 +141,16 @@ def test_json_has_what_is_promised(scene):
         "metrics",
         "methods",
         "verdict",
+        "causes",
+        "transform",
+        "hidden",
+        "identity",
+        "certificate",
+        "self_check",
     }
+    assert held["causes"]["edge"] == {"number": 1, **DESCRIPTIONS[Cause.EDGE]._asdict()}
+    assert set(held["causes"]) == {c.name.lower() for c in Cause}
+    assert held["identity"] is held["certificate"] is None and held["self_check"] == []
     assert held["blender"] == BLENDER and held["pixels"] == found.pixels
     assert held["scene"]["unmodelled"][0]["object"] == "Hair"
     tracer = held["tracer"]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...compare.cause import Cause
+from ...compare.cause import DESCRIPTIONS, Cause
 from ...compare.comparison import Comparison
 from ...explain import html
 from ...explain.derivation import Derivation
@@ -119,23 +119,20 @@ def _plane(plane: Any, instance: int) -> dict[str, Any]:
 
 def _causes(comparison: Comparison) -> list[dict[str, Any]]:
     """Return what there is to say of each cause, in the order of their numbers."""
-    pixels, told = comparison.pixels, comparison.to_dict().get("causes", {})
+    pixels = comparison.pixels
     count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
-    out = []
-    for cause in Cause:
-        name = cause.name.lower()
-        own = {"label": name} | told.get(name, {})
-        out.append(
-            {
-                "value": int(cause),
-                "name": name,
-                "label": _words(own["label"]),
-                "pixels": count[name],
-                "color": _hex(CAUSE_COLORS[cause]) if cause in CAUSE_COLORS else None,
-            }
-            | {k: own[k] for k in ("sentence", "unit") if k in own}
-        )
-    return out
+    return [
+        {
+            "value": int(cause),
+            "name": cause.name.lower(),
+            "label": _words(told.label),
+            "sentence": told.sentence,
+            "unit": told.unit,
+            "pixels": count[cause.name.lower()],
+            "color": _hex(CAUSE_COLORS[cause]) if cause in CAUSE_COLORS else None,
+        }
+        for cause, told in DESCRIPTIONS.items()
+    ]
 
 
 def _words(name: str) -> str:
@@ -182,8 +179,7 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
         "t_offset": None,
         "colors": None,
     }
-    identity = getattr(comparison, "identity", None)
-    if identity is not None:
+    if (identity := comparison.identity) is not None:
         found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
     missing, taken = [], size(found)
     for name, what, made in _by_priority(scene, comparison, seen):

@@ -75,22 +75,3 @@ function selfCheckCard() {
     ),
   );
 }
-
-/** Several engines against certified, in whatever columns they come. */
-function enginesCard() {
-  const held = page.comparison.engines;
-  if (!held?.length) return null;
-  const heads = [...new Set(held.flatMap(Object.keys))];
-  const right = heads.map((head, k) => (typeof held[0][head] === "number" ? k : -1));
-  return wide(
-    card(
-      "Engines",
-      table(
-        "Each held against the certified picture",
-        heads.map(words),
-        held.map((row) => heads.map((head) => said(row[head] ?? ""))),
-        right,
-      ),
-    ),
-  );
-}

@@ -59,7 +59,6 @@ function drawTables() {
       blenderCard(),
       certificateCard(),
       selfCheckCard(),
-      enginesCard(),
       manifestCard(),
       tradeCard(),
       extremesCard(),

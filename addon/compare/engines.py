@@ -1,0 +1,117 @@
+"""Several engines against one certified picture: which shows the wrong object, where, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .cause import DESCRIPTIONS, Cause
+from .comparison import EXIT_CODES, Comparison
+from .counts import EXAMPLES
+from .identity import NOTHING, UNKNOWN
+
+SCHEMA = "reference_tracer.engines/1"
+
+
+@dataclass(frozen=True)
+class EngineRow:
+    """One engine's picture against the tracer's; `error` says why there is none."""
+
+    engine: str
+    verdict: str
+    pixels: dict[str, Any] | None = None
+    wrong: tuple[dict[str, Any], ...] = ()
+    wrong_objects: int | None = None  # pixels that show another object; None: not known
+    error: str = ""
+
+    @classmethod
+    def of(cls, comparison: Comparison) -> EngineRow:
+        """Return the row of a comparison."""
+        identity = comparison.identity
+        return cls(
+            comparison.blender["source"],
+            comparison.verdict,
+            {k: v for k, v in comparison.pixels.items() if k != "examples"},
+            tuple(_wrong(comparison)),
+            None if identity is None else identity.counts()["other_object"],
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the row as JSON can hold it."""
+        return vars(self) | {"wrong": list(self.wrong)}
+
+
+def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
+    """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
+    causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
+    cause = causes.cause
+    differ = (cause != Cause.AGREE) & (cause != Cause.NOT_TRACED) & (cause != Cause.NOT_DECIDABLE)
+    places = np.argwhere(differ)
+    order = np.argsort(cause[differ] != Cause.UNEXPLAINED, kind="stable")
+    out = []
+    for y, x in places[order][:EXAMPLES]:
+        told = DESCRIPTIONS[Cause(cause[y, x])]
+        row = {
+            "pixel": [int(x), int(y)],
+            "traced": _object(comparison, int(frame.object_index[y, x])),
+            "triangle": int(frame.triangle_index[y, x]),
+            "cause": told.label,
+            "why": told.told(causes.figure[y, x], causes.allowed[y, x]),
+        }
+        if identity is not None:
+            row["shown"] = _name(identity.names, int(identity.shown[y, x]))
+        out.append(row)
+    return out
+
+
+def _object(comparison: Comparison, index: int) -> str:
+    return "nothing" if index == NOTHING else comparison.scene.objects[index]
+
+
+def _name(names: Sequence[str], index: int) -> str:
+    return {NOTHING: "nothing", UNKNOWN: "not known"}.get(index) or names[index]
+
+
+def worst(rows: Sequence[EngineRow]) -> str:
+    """Return the gravest verdict; an engine that made no picture is a warning."""
+    verdicts = [row.verdict if row.verdict in EXIT_CODES else "warnings" for row in rows]
+    return max(verdicts, key=lambda v: (EXIT_CODES[v], v))
+
+
+def to_dict(rows: Sequence[EngineRow]) -> dict[str, Any]:
+    """Return all engines as JSON can hold them."""
+    return {
+        "schema": SCHEMA,
+        "engines": [row.to_dict() for row in rows],
+        "verdict": worst(rows),
+    }
+
+
+def lines(rows: Sequence[EngineRow]) -> list[str]:
+    """Return the table as a person reads it."""
+    out = [
+        f"{'engine':10} {'differ':>8} {'inside':>7} {'edges':>7} {'object':>7} "
+        f"{'unexpl.':>8}  verdict"
+    ]
+    for row in rows:
+        if row.pixels is None:
+            out.append(f"{row.engine:10} no picture: {row.error}")
+            continue
+        p = row.pixels
+        other = "?" if row.wrong_objects is None else f"{row.wrong_objects:,}"
+        out.append(
+            f"{row.engine:10} {p['differ']:>8,} {p['interior']['differ']:>7,} "
+            f"{p['boundary']['differ']:>7,} {other:>7} {p['unexplained']:>8,}  {row.verdict}"
+        )
+    for row in rows:
+        for w in row.wrong[:3]:
+            shown = f", {row.engine} '{w['shown']}'" if "shown" in w else ""
+            x, y = w["pixel"]
+            out.append(
+                f"  {row.engine} at ({x}, {y}): the tracer sees '{w['traced']}' (triangle "
+                f"{w['triangle']}){shown}: {w['cause']}: {w['why']}"
+            )
+    return out

@@ -1,0 +1,80 @@
+"""Whose surface each pixel shows, on both sides, and numbers as colours that survive a renderer.
+
+A picture in which every object has a colour of its own says which object Blender shows. A number
+becomes three digits of LEVELS, one a channel, whose sum is even: half floats and steps of 1/255 are
+far smaller than a digit's step, and a mix of two colours, or a colour that is nobody's, mostly
+falls between digits or has an odd sum. Then nothing is said.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+NOTHING, UNKNOWN = -1, -2
+
+LEVELS = 32  # of a channel: a step is 8 of 255
+MOST = LEVELS**3 // 2  # objects that are told apart
+_OFF = 0.1  # of a step: so far a channel may lie from its digit (1/255 is 0.12 of one, halved)
+
+
+@dataclass(eq=False)
+class Identity:
+    """Which object each side shows.
+
+    `traced` and `shown` are (h, w) int32: indices into `names`, NOTHING or UNKNOWN.
+    """
+
+    names: tuple[str, ...]
+    traced: NDArray[np.int32]
+    shown: NDArray[np.int32]
+
+    def counts(self, where: NDArray[np.bool_] | bool = True) -> dict[str, int]:
+        """Count the pixels (of some) that show the same object, another, or what is not known."""
+        unknown = self.shown == UNKNOWN
+        same = self.shown == self.traced
+        return {
+            "same_object": int((same & where).sum()),
+            "other_object": int((~same & ~unknown & where).sum()),
+            "not_known": int((unknown & where).sum()),
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the names and the counts; the pictures are arrays."""
+        return {"names": list(self.names), "pixels": self.counts()}
+
+
+def colors_of(count: int) -> NDArray[np.float32]:
+    """Return the colours that stand for the numbers 0 to count - 1, (count, 3) linear RGB.
+
+    Raises
+    ------
+    ValueError
+        If there are more than MOST.
+    """
+    if count > MOST:
+        raise ValueError(f"{count} objects are more than the {MOST} that colours tell apart")
+    number = np.arange(count)
+    red, green = number // (LEVELS // 2) // LEVELS, number // (LEVELS // 2) % LEVELS
+    blue = 2 * (number % (LEVELS // 2)) + (red + green) % 2
+    return (np.stack((red, green, blue), axis=-1) / (LEVELS - 1)).astype(np.float32)
+
+
+def decode(picture: NDArray[np.floating], count: int) -> NDArray[np.int32]:
+    """Return the numbers (h, w) that a picture's colours (h, w, 4) stand for.
+
+    Linear RGBA, premultiplied: NOTHING where it is transparent, UNKNOWN where it is none of the
+    first `count` colours.
+    """
+    with np.errstate(invalid="ignore"):
+        scaled = np.nan_to_num(picture[..., :3].astype(np.float64), nan=0.5) * (LEVELS - 1)
+        digits = np.rint(np.clip(scaled, 0, LEVELS - 1)).astype(np.int32)
+        sure = (np.abs(scaled - digits) <= _OFF).all(axis=-1)
+        red, green, blue = np.moveaxis(digits, -1, 0)
+        sure &= ((red + green + blue) % 2 == 0) & (np.abs(picture[..., 3] - 1) <= 1 / 255)
+        number = (red * LEVELS + green) * (LEVELS // 2) + blue // 2
+        found = np.where(sure & (number < count), number, UNKNOWN)
+        return np.where(picture[..., 3] == 0, NOTHING, found).astype(np.int32)

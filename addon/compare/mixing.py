@@ -1,0 +1,166 @@
+"""Anti-aliasing: whether a colour is a mix of what the tracer sees within the filter's radius.
+
+A filter with weights that are not negative gives a point of the convex hull of the colours that it
+mixes. Workbench mixes log2(1 + colour) in place of the colour, so the hull is looked for among
+those, too. The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
+(Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
+2015): weight goes from the colour that is farthest behind to the one that is farthest ahead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from ..tracer import shading
+from ..tracer.probe import Probe
+from ..tracer.progress import Work, result_of
+from ..tracer.visibility import plan
+from .again import SOUND, parts_of, set_out
+from .cause import Cause, Settler
+from .shown import Shown, transformed
+
+# Rings within the radius and directions on each, where the tracer is asked; the second time only of
+# what is left: a sliver passes between the samples.
+DENSITIES = ((4, 16), (12, 32))
+DISTINCT = 16  # colours of which each three are tried
+_PIXELS = [(x, y) for x in (-2, -1, 0, 1, 2) for y in (-2, -1, 0, 1, 2) if x or y]
+STEPS = 100  # of Frank and Wolfe: two colours need one, three a few
+# A mix is stored in half floats after some twenty roundings, and its samples lie between ours.
+NEAR = 2.0**-7
+
+
+def look_around(scene: Scene, shown: Shown, radius: float, settle: Settler) -> Work[None]:
+    """Settle open pixels whose colour is a mix of what is seen within `radius` pixels.
+
+    The figure is the radius of the smallest ring that is enough. Yields the share that is done.
+    """
+    if not settle.open.any() or radius <= 0 or shown.lit:
+        return
+    made = result_of(plan(scene, SOUND, reach=np.sqrt(2) * radius))
+    region = scene.camera.region
+    parts = list(parts_of(scene, settle.open))
+    for number, tile in enumerate(parts):
+        rows = slice(tile.y0 - region.y0, tile.y1 - region.y0)
+        part = settle.rows(rows)
+        for rings, spokes in DENSITIES:
+            wanted = part.open.copy()
+            if wanted.any():
+                probe = result_of(Probe.of(made, tile, wanted.ravel()))
+                here = shown.at(rows).at(wanted)
+                for reach, found in _mixes(scene, probe, here, radius, rings, spokes):
+                    part(set_out(found, wanted), Cause.ANTI_ALIASING, reach, radius)
+                    yield number / len(parts)
+
+
+def _mixes(
+    scene: Scene, probe: Probe, shown: Shown, radius: float, rings: int, spokes: int
+) -> Iterator[tuple[float, NDArray[np.bool_]]]:
+    """Yield ring by ring how far it reaches, and which of n pixels are a mix of what is seen."""
+    mixed = [_seen(scene, probe, shown, 0.0, 0.0)]
+    color, found = shown.color[:, : mixed[0].shape[-1]], np.zeros(len(probe.px), bool)
+    for ring in range(1, rings + 1):
+        reach = radius * ring / rings
+        angles = 2 * np.pi * (np.arange(spokes) + ring / rings) / spokes
+        offsets = [(reach * np.cos(a), reach * np.sin(a)) for a in angles]
+        if ring == rings:  # what smooths edges takes in whole pixels
+            offsets += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
+        mixed += [_seen(scene, probe, shown, *offset) for offset in offsets]
+        rest = np.flatnonzero(~found)
+        found[rest] = is_mix(color[rest], np.stack(mixed)[:, rest], shown.sums)
+        yield reach, found
+
+
+def _seen(scene: Scene, probe: Probe, shown: Shown, dx: float, dy: float) -> NDArray:
+    colors = shading.colors(scene, probe.trace(dx, dy))
+    if shown.transform:
+        colors = transformed(colors, shown.transform)
+    return colors[:, : 3 if shown.opaque else 4]
+
+
+def is_mix(color: NDArray, mixed: NDArray, sums: int = 0) -> NDArray[np.bool_]:
+    """Return which colours (n, c) lie in the convex hull of those of (k, n, c), or near it.
+
+    Each of `sums` additions in half floats may lose as much as half a unit of every channel.
+    """
+    color, mixed = np.nan_to_num(color).astype(np.float64), mixed.astype(np.float64)
+    allowed = (NEAR + sums * 2.0**-11) * np.maximum(1, np.abs(color).max(axis=-1, initial=0))
+    found = in_hull(color, mixed, allowed)
+    rest = np.flatnonzero(~found)
+    logs = [np.log2(1 + np.maximum(v, 0)) for v in (color[rest], mixed[:, rest])]
+    # A colour's own error is up to 1.44 times as large in the logarithm, itself a half float.
+    found[rest] = in_hull(*logs, 2 * allowed[rest])
+    # Where colours lie almost on a line those steps are short: then each two and three are tried.
+    for index in np.flatnonzero(~found[rest]):
+        found[rest[index]] = any(
+            distance_to_triangles(t[at], np.unique(p[:, at], axis=0)[:DISTINCT]) <= near
+            for t, p, at, near in (
+                (color, mixed, rest[index], allowed[rest[index]]),
+                (*logs, index, 2 * allowed[rest[index]]),
+            )
+        )
+    return found
+
+
+def distance_to_triangles(target: NDArray[np.float64], points: NDArray[np.float64]) -> float:
+    """Return how far a colour (c,) is from the nearest point, side or triangle of some (k, c)."""
+    least = np.linalg.norm(points - target, axis=1).min()
+    for corners in (2, 3):
+        if len(points) < corners:
+            break
+        index = np.array(list(combinations(range(len(points)), corners)))
+        first, sides = points[index[:, 0]], points[index[:, 1:]] - points[index[:, :1]]
+        share = np.einsum("tij,tj->ti", np.linalg.pinv(sides.swapaxes(1, 2)), target - first)
+        inside = (share >= 0).all(axis=1) & (share.sum(axis=1) <= 1)
+        foot = first + np.einsum("ti,tij->tj", share, sides)
+        away = np.linalg.norm(foot - target, axis=1)
+        least = min(least, away[inside].min(initial=np.inf))
+    return float(least)
+
+
+def in_hull(
+    target: NDArray[np.float64], points: NDArray[np.float64], allowed: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
+
+    One that is not reached in STEPS steps counts as outside.
+    """
+    found = np.zeros(len(target), bool)
+    left = np.arange(len(target))  # those that are looked at still
+    nearest = np.argmin(((points - target) ** 2).sum(axis=-1), axis=0)
+    at = points[nearest, left]
+    weight = np.zeros(points.shape[:2])
+    weight[nearest, left] = 1
+    for _ in range(STEPS):
+        way = target[left] - at
+        near = (way**2).sum(axis=-1) <= allowed[left] ** 2
+        if near.any():
+            found[left[near]] = True
+            left, at, way = left[~near], at[~near], way[~near]
+            points, weight = points[:, ~near], weight[:, ~near]
+        if not len(left):
+            break
+        ahead, behind, share = _pair(points, weight, way)
+        index = np.arange(len(left))
+        at = at + share[:, None] * (points[ahead, index] - points[behind, index])
+        weight[ahead, index] += share
+        weight[behind, index] -= share
+    return found
+
+
+def _pair(
+    points: NDArray[np.float64], weight: NDArray[np.float64], way: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
+    """Return the points farthest ahead and behind, (n,) each, and how much weight to move."""
+    score = np.einsum("knc,nc->kn", points, way)
+    ahead = np.argmax(score, axis=0)
+    behind = np.argmin(np.where(weight > 0, score, np.inf), axis=0)
+    index = np.arange(len(way))
+    step = points[ahead, index] - points[behind, index]
+    size = (step**2).sum(axis=-1)
+    share = (way * step).sum(axis=-1) / np.where(size > 0, size, 1)
+    return ahead, behind, np.clip(share, 0, weight[behind, index])
