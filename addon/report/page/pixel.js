@@ -33,8 +33,7 @@ function causeOf(pixel) {
     "p",
     { class: "cause", id: "cause" },
     glyphOf(cause, 22),
-    element("strong", {}, cause.label),
-    " ",
+    element("strong", {}, `${cause.label}: `),
     reasonOf(cause, pixel),
   );
 }
