@@ -5,23 +5,32 @@
 
 PYTHON_IN_VENV := .venv/bin/python
 
-.PHONY: help demo test test-gui torture bench lint extension clean
+.PHONY: help demo test test-browser test-gui torture bench lint extension clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
 
-demo: .venv/.stamp ## trace a sample scene, have Blender render it, compare: out/demo
-	.venv/bin/reftrace compare sample_scenes/suzanne.blend --out out/demo
+demo: .venv/.stamp ## trace a sample scene, have Blender render it, compare: out/demo/page.html
+	.venv/bin/reftrace compare sample_scenes/suzanne.blend --trade --out out/demo
 
-# The tests in a window come last, as a make of their own: they need root, and where there is none
-# the run says so and is still a success.
-test: lint ## run all tests, those in a window too where that is possible
+# The tests in a browser and in a window come last, each as a make of its own: they need what only
+# root can install, and where that is not possible the run says so and is still a success.
+test: lint ## run all tests, those in a browser and in a window too where that is possible
 	$(PYTHON_IN_VENV) -m pytest
+	@if reason=$$(tools/browser.sh check); then \
+		$(MAKE) --no-print-directory test-browser; \
+	else \
+		echo; echo "NOT RUN: the tests of the page in a browser ($$reason)"; \
+	fi
 	@if reason=$$(tools/whole_blender.sh check); then \
 		$(MAKE) --no-print-directory test-gui; \
 	else \
 		echo; echo "NOT RUN: the tests in a whole Blender with a window ($$reason)"; \
 	fi
+
+test-browser: .venv/.stamp ## run the tests of the page in a headless Chromium; root installs it
+	tools/browser.sh setup
+	$(PYTHON_IN_VENV) -m pytest -m browser
 
 test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
 	tools/whole_blender.sh setup

@@ -98,6 +98,17 @@ def add_self_check(parser: argparse._ActionsContainer) -> None:
     )
 
 
+def add_page(parser: argparse.ArgumentParser) -> None:
+    """Add what the page shows beside the comparison."""
+    group = parser.add_argument_group("the page (page.html in DIR)")
+    group.add_argument(
+        "--trade", action="store_true", help="measure the trade on this scene, too: half a minute"
+    )
+    group.add_argument(
+        "--extremes", action="store_true", help="find where every method breaks: two minutes"
+    )
+
+
 def check(options: argparse.Namespace) -> None:
     """Find what is wrong with the options themselves, before any work.
 

@@ -6,11 +6,14 @@ PNG needs Pillow and EXR needs OpenEXR, the extra `images`; inside Blender, Blen
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+
+SavePng = Callable[[Path, NDArray[np.uint8]], None]  # (h, w, 4) pictures, row 0 at the bottom
 
 
 class MissingLibraryError(RuntimeError):

@@ -6,6 +6,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -17,6 +18,7 @@ from ..arguments import (
     SIZES_DIFFER,
     Parser,
     add_judge,
+    add_page,
     add_settings,
     check,
     settings_from,
@@ -27,7 +29,7 @@ from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import Comparison, SizeError
 from ..compare.engines import EngineRow
-from ..report import files
+from ..report import files, page
 from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.certainty import AssumptionError
@@ -75,6 +77,7 @@ def _parser() -> Parser:
     )
     add_settings(sub)
     add_judge(sub)
+    add_page(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
     sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES)
     sub.set_defaults(run=_explain)
@@ -150,6 +153,7 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
     judge = options.judge.upper() if options.judge else None
     comparison = _compared(options, options.out, judge, progress, trace)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
+    print(f"open {Path(options.out) / page.NAME} in a browser")
     return VERDICT_CODES[comparison.verdict]
 
 
@@ -165,6 +169,8 @@ def _compared(
         as_is=options.as_is or None,
         identity=options.identity,
         self_check=options.self_check,
+        trade=options.trade,
+        extremes=options.extremes,
     )
     return result_of(work, progress)
 

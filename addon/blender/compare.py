@@ -20,10 +20,10 @@ from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.known import Known
 from ..compare.shown import Shown, numbered
 from ..manifest import Manifest
-from ..report import files, folders
+from ..report import files, folders, page
 from ..scene import Scene
 from ..scene_files import diagnosed
-from ..tracer.progress import Work
+from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import images
@@ -167,16 +167,22 @@ def _a_frame_later(tmp: Any, layer: str, source: str) -> Scene:
 
 
 def compare_to_folder(
-    context: Any, directory: str, trace: Steps = steps, **choices: Any
+    context: Any,
+    directory: str,
+    trace: Steps = steps,
+    trade: bool = False,
+    extremes: bool = False,
+    **choices: Any,
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing and writing the files.
 
-    On failure the folder's JSON says why. Raises what :func:`gather` and `compare.compare` raise,
-    and OSError.
+    With `trade` and `extremes`, these are measured for the page, too. On failure the folder's JSON
+    says why. Raises what :func:`gather` and `compare.compare` raise, and OSError.
     """
     folder = made(directory)  # now, not after all the work
     with _failure_written(folder):
-        return _written(folder, gather(context, **choices).steps(trace))
+        work = gather(context, **choices).steps(trace)
+        return _written(folder, work, trade, extremes, trace)
 
 
 def made(directory: str) -> Path:
@@ -192,10 +198,15 @@ def made(directory: str) -> Path:
     return folder
 
 
-def _written(folder: Path, work: Work[Comparison]) -> Work[Comparison]:
+def _written(
+    folder: Path, work: Work[Comparison], trade: bool, extremes: bool, trace: Steps
+) -> Work[Comparison]:
+    share = 0.2 if trade or extremes else 0.8  # of the comparison
     with _failure_written(folder):
-        comparison = yield from work
-        files.write(folder, comparison, images.save_png)
+        comparison = yield from scaled(work, 0.0, share)
+        finding = page.extras(comparison, trade, extremes, trace)
+        extras = yield from scaled(finding, share, 1 - share)
+        files.write(folder, comparison, images.save_png, extras)
     yield 1.0
     return comparison
 

@@ -10,6 +10,7 @@ from ..compare.comparison import Comparison
 from . import results
 from .engine import ENGINE
 from .operators import REFERENCE_TRACER_OT_compare
+from .page import REFERENCE_TRACER_OT_open_page
 from .panel_parts import NARROW, Properties, Sidebar, short_name, table, wrapped
 
 # Blender's own panels that this engine has no use for.
@@ -86,6 +87,7 @@ class _Result:
         table(self.layout.box(), rows, NARROW)
         for line in comparison.required:
             wrapped(self.layout, context, line)
+        self.layout.operator(REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
 
 
 class _Export:

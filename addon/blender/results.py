@@ -34,6 +34,7 @@ class Result:
     content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...]
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
+    rows: tuple[Row, ...] = ()  # of the extremes, as they were measured
 
 
 _latest: dict[type, Result] = {}
@@ -61,7 +62,7 @@ def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
         return ((images.plot_name(n), p) for n, p in extremes_report.pictures(rows))
 
     lines = [extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
-    return _keep(BreakingPoint, tuple(breaking_points(rows)), lines)
+    return _keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
 
 
 def keep_derivation(scene: Any, derivation: Derivation, sentence: str) -> Result:
@@ -88,8 +89,14 @@ def _show_plots(
         ]
 
 
-def _keep(kind: type, content: Any, lines: Iterable[str], scene: str | None = None) -> Result:
-    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene)
+def _keep(
+    kind: type,
+    content: Any,
+    lines: Iterable[str],
+    scene: str | None = None,
+    rows: Sequence[Row] = (),
+) -> Result:
+    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, tuple(rows))
     return _latest[kind]
 
 

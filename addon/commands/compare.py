@@ -14,6 +14,7 @@ from .. import images
 from ..arguments import (
     add_camera,
     add_judge,
+    add_page,
     add_processes,
     add_settings,
     refuse,
@@ -24,7 +25,7 @@ from ..compare.known import Known
 from ..compare.shown import Shown
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
-from ..report import files, folders
+from ..report import files, folders, page
 from ..report.progress_bar import progress_bar
 from ..scene import Camera, Scene, SceneError
 from ..scene_files import diagnosed
@@ -49,6 +50,7 @@ def add(commands: Commands) -> None:
     add_settings(parser)
     add_processes(parser)
     add_judge(parser)
+    add_page(parser)
     group = parser.add_argument_group("another picture, in place of Blender's")
     group.add_argument(
         "--against",
@@ -115,8 +117,11 @@ def _against(options: argparse.Namespace) -> int:
             comparison = result_of(_blend(options, picture, about, trace), progress)
         else:
             comparison = result_of(_file(options, picture, about, trace), progress)
-    files.write(options.out, comparison, images.save_png)
+        finding = page.extras(comparison, options.trade, options.extremes, trace)
+        extras = result_of(finding, progress)
+    files.write(options.out, comparison, images.save_png, extras)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
+    print(f"open {Path(options.out) / page.NAME} in a browser")
     return EXIT_CODES[comparison.verdict]
 
 

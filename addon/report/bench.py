@@ -8,12 +8,12 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
+from ..images import SavePng
 from ..scene import SceneError
 from ..study.bench.rows import Bench, Row
 from ..study.bench.scaling import scalings
 from .bench_plot import picture
 from .bench_table import table
-from .files import SavePng
 
 SCHEMA = "reference_tracer.bench/1"
 TABLE, JSON, PLOT = "bench.txt", "bench.json", "bench.png"

@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..images import SavePng
 from ..study.extremes import Row, breaking_points, breaking_table, table
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
-from .files import SavePng
 from .folders import replacing
 
 SCHEMA = "reference_tracer.extremes/1"

@@ -1,9 +1,9 @@
-"""What a comparison leaves in a folder: three pictures, every output, and the JSON."""
+"""What a comparison leaves in a folder: three pictures, every output, the page, and the JSON."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,19 +13,23 @@ from numpy.typing import NDArray
 from ..compare import engines
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.engines import EngineRow
-from ..images import to_display
+from ..images import SavePng, to_display
+from . import page
 from .folders import replacing
 from .pictures import difference
 
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON, ENGINES = "frame.npz", "comparison.json", "engines.json"
-_NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, JSON
-
-SavePng = Callable[[Path, NDArray[np.uint8]], None]
+_NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
 
-def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> None:
-    """Write `traced.png`, `blender.png`, `difference.png`, `frame.npz` and `comparison.json`.
+def write(
+    directory: str | Path,
+    comparison: Comparison,
+    save_png: SavePng,
+    extras: page.Extras | None = None,
+) -> None:
+    """Write the pictures, `frame.npz`, `page.html` and `comparison.json`.
 
     All or none: see :func:`folders.replacing`.
 
@@ -36,6 +40,8 @@ def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> N
     comparison : Comparison
     save_png : callable
         Writes an (h, w, 4) uint8 picture, row 0 at the bottom: `images.save_png`, or Blender's own.
+    extras : page.Extras, optional
+        What the page shows beside the comparison.
 
     Raises
     ------
@@ -57,6 +63,7 @@ def write(directory: str | Path, comparison: Comparison, save_png: SavePng) -> N
             cause_allowed=causes.allowed,
             **_identity(comparison),
         )
+        page.write(new / page.NAME, comparison, **vars(extras or page.Extras()))
         (new / JSON).write_text(text, encoding="utf-8")
 
 

@@ -8,14 +8,15 @@ from numpy.typing import NDArray
 from ..compare.cause import Cause
 from ..compare.comparison import Comparison
 
-# Linear RGB. Pixels that agree show the traced picture, dimmed and grey.
+# Linear RGB, told apart by the colour-blind, too. Pixels that agree show the traced picture, dimmed
+# and grey.
 CAUSE_COLORS = {
     Cause.EDGE: (1.0, 0.3, 0.0),
     Cause.DEPTH_TIE: (0.0, 0.7, 1.0),
-    Cause.CLIP_PLANE: (0.0, 0.35, 0.3),
-    Cause.ANTI_ALIASING: (0.9, 0.75, 0.1),
-    Cause.COLOR: (0.1, 0.6, 0.1),
-    Cause.HIDDEN: (0.9, 0.3, 0.7),
+    Cause.CLIP_PLANE: (1.0, 1.0, 0.4),
+    Cause.ANTI_ALIASING: (0.7, 0.4, 0.2),
+    Cause.COLOR: (0.4, 0.7, 0.7),
+    Cause.HIDDEN: (0.08, 0.2, 0.08),
     Cause.NOT_MODELLED: (0.3, 0.08, 0.9),
     Cause.NOT_DECIDABLE: (0.25, 0.3, 0.6),
     Cause.UNEXPLAINED: (1.0, 0.0, 0.0),

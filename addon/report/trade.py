@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from ..images import SavePng
 from ..study.trade import Row, Trade
-from .files import SavePng
 from .folders import replacing
 from .trade_plot import picture
 

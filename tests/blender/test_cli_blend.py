@@ -49,6 +49,7 @@ def test_compare(small, tmp_path):
         "comparison.json",
         "difference.png",
         "frame.npz",
+        "page.html",
         "traced.png",
     ]
 

@@ -44,6 +44,7 @@ def test_0_the_pictures_agree(saved, out, capsys):
         "comparison.json",
         "difference.png",
         "frame.npz",
+        "page.html",
         "traced.png",
     ]
     printed = capsys.readouterr().out

@@ -15,7 +15,14 @@ from .scenes import HALF_FLOAT
 NAMES = sorted(
     path.stem for path in (Path(__file__).resolve().parents[2] / "sample_scenes").glob("*.blend")
 )
-FILES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "traced.png"]
+FILES = [
+    "blender.png",
+    "comparison.json",
+    "difference.png",
+    "frame.npz",
+    "page.html",
+    "traced.png",
+]
 WIDTH = 240  # pixels: every scene is made smaller, to keep the tests quick
 # Share of pixels that may differ at all: edges of one or two pixels, by the scenes' own look.
 MAY_DIFFER = 0.01

@@ -156,6 +156,7 @@ def check_files(path):
         "blender.png",
         "difference.png",
         "frame.npz",
+        "page.html",
         "comparison.json",
     }
     found = json.loads((path / "comparison.json").read_text())

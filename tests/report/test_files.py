@@ -18,7 +18,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
-NAMES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "traced.png"]
+NAMES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "page.html", "traced.png"]
 
 
 @pytest.fixture

@@ -1,0 +1,90 @@
+"""The button that writes the latest comparison as a page, and opens it in the browser."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import bpy
+from bpy.props import BoolProperty
+
+from ..compare.comparison import Comparison
+from ..report import page
+from ..study.extremes import BreakingPoint
+from ..study.trade import Trade
+from ..tracer.progress import Work
+from . import results
+from .compare import made
+from .long_work import LongWork
+
+
+class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
+    """One HTML file that shows the comparison, also to those who have no Blender."""
+
+    bl_idname = "reference_tracer.open_page"
+    bl_label = "Open Page"
+    bl_description = (
+        "Write the comparison as one HTML file, with every pixel's cause, numbers and derivation, "
+        "and what was measured besides, and open it in the browser"
+    )
+    bl_options: set[str] = set()  # it leaves nothing in Blender
+
+    open_browser: BoolProperty(  # type: ignore[valid-type]
+        name="Open in the Browser",
+        default=True,
+        options={"SKIP_SAVE"},
+        description="Open the file once it is written",
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it where there is a comparison, and nothing else at work."""
+        if not super().poll(context):
+            return False
+        if not results.latest(Comparison, context.scene):
+            cls.poll_message_set("Trace and Compare comes first")
+            return False
+        return True
+
+    def begin(self, context: Any) -> Work[page.Extras]:
+        """Return the work of finding out what the page shows besides."""
+        self._folder = made(self.directory) if self.directory else Path(_session_folder())
+        self._comparison = results.latest(Comparison, context.scene).content
+        trade = results.latest(Trade, context.scene)
+        extremes = results.latest(BreakingPoint, context.scene)
+        return _extras(
+            self._comparison, trade and trade.content, (extremes and extremes.rows) or None
+        )
+
+    def finish(self, context: Any, result: page.Extras) -> tuple[str, str]:
+        """Write the page, and open it."""
+        path = self._folder / page.NAME
+        page.write(path, self._comparison, **vars(result))
+        if self.open_browser:
+            bpy.ops.wm.url_open(url=path.resolve().as_uri())
+        return "INFO", f"The page is {path}"
+
+
+def _extras(comparison: Comparison, trade: Any, extremes: Any) -> Work[page.Extras]:
+    """Find out what is not measured yet, and add what is."""
+    found = yield from page.extras(comparison)
+    return replace(found, trade=trade, extremes=extremes)
+
+
+@cache
+def _session_folder() -> str:
+    """Return a folder that outlives this Blender, so that the browser can load the page again."""
+    return tempfile.mkdtemp(prefix="reference-tracer-")
+
+
+def register() -> None:
+    """Register the operator."""
+    bpy.utils.register_class(REFERENCE_TRACER_OT_open_page)
+
+
+def unregister() -> None:
+    """Undo :func:`register`."""
+    bpy.utils.unregister_class(REFERENCE_TRACER_OT_open_page)

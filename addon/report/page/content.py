@@ -1,0 +1,240 @@
+"""A `Comparison`, and what else was measured -> what a page shows, as JSON can hold it.
+
+`page.schema.json` says what each entry is. Pictures are images of 8 bits; the numbers behind them
+are packed arrays, of which the last are left out where the page would grow beyond LIMIT.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...compare.cause import DESCRIPTIONS, Cause
+from ...compare.comparison import Comparison
+from ...explain import html
+from ...explain.derivation import Derivation
+from ...images import MissingLibraryError, to_display
+from ...scene import Camera, Scene
+from ...study.extremes import Row
+from ...study.trade import Trade
+from ...tracer.certainty import Certainty
+from ...tracer.frame import Frame
+from ...tracer.triangle import SUM_TOLERANCE
+from .. import extremes as extremes_report
+from .. import trade as trade_report
+from .. import trade_plot
+from ..pictures import CAUSE_COLORS
+from . import surfaces
+from .packing import data_uri, packed, size
+
+SCHEMA = "reference_tracer.page/1"
+LIMIT = 32 << 20  # letters of the packed arrays: what a browser still opens at once
+
+_CERTAINTY = {
+    Certainty.NOT_CERTIFIED: "floating point alone decided, without a proof",
+    Certainty.BOUND: "floating point decided, and its error bound leaves no doubt",
+    Certainty.EXACT: "whole numbers decided, where the error bound left a doubt",
+    Certainty.AMBIGUOUS: "the ray meets an edge, a corner or two surfaces at once: a rule decided",
+}
+
+
+def content(
+    comparison: Comparison,
+    trade: Trade | None = None,
+    extremes: Sequence[Row] | None = None,
+    literal: Frame | None = None,
+    derivations: Mapping[tuple[int, int], Derivation] | None = None,
+    left_out: Iterable[str] = (),
+    limit: int = LIMIT,
+) -> dict[str, Any]:
+    """Return all that a page shows.
+
+    Parameters
+    ----------
+    comparison : Comparison
+    trade, extremes : optional
+        Where they were measured.
+    literal : Frame, optional
+        The same scene by the textbook's test taken literally.
+    derivations : dict of Derivation, optional
+        By pixel, (x, y) from the lower left of the picture.
+    left_out : iterable of str
+        Sentences on what the page does not have, and why.
+    limit : int
+        Letters that the packed arrays may take.
+    """
+    scene, frame = comparison.scene, comparison.frame
+    pixels, missing = _pixels(comparison, limit)
+    missing = [*left_out, *missing]
+    return {
+        "schema": SCHEMA,
+        "comparison": comparison.to_dict(),
+        "size": [frame.t.shape[1], frame.t.shape[0]],
+        "camera": _camera(scene.camera),
+        "objects": list(scene.objects),
+        "object_of": scene.instance_objects[:-1].tolist(),
+        "planes": [_plane(p, k) for k, p in enumerate(scene.planes, len(scene.instances))],
+        "causes": _causes(comparison),
+        "certainties": {
+            str(int(c)): {"name": _words(c.name), "sentence": text}
+            for c, text in _CERTAINTY.items()
+        },
+        "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
+        "pictures": _pictures(comparison, literal),
+        "pixels": pixels,
+        "derivations": [
+            {"pixel": list(pixel), "html": html.fragment(derivation)}
+            for pixel, derivation in (derivations or {}).items()
+        ],
+        "trade": _study(trade, trade_report.to_dict, _trade_plots, missing),
+        "extremes": _study(extremes, _extremes_dict, extremes_report.pictures, missing),
+        "left_out": missing,
+    }
+
+
+def _camera(camera: Camera) -> dict[str, Any]:
+    r, w = camera.region, camera.window
+    return {
+        "name": camera.name,
+        "world_from_camera": camera.world_from_camera.tolist(),
+        "window": [w.left, w.right, w.bottom, w.top],
+        "width": camera.width,
+        "height": camera.height,
+        "region": [r.x0, r.y0, r.x1, r.y1],
+        "orthographic": camera.orthographic,
+        "clip": [camera.clip_start, camera.clip_end],
+    }
+
+
+def _plane(plane: Any, instance: int) -> dict[str, Any]:
+    return {
+        "instance": instance,
+        "point": plane.point.tolist(),
+        "normal": plane.normal.tolist(),
+    }
+
+
+def _causes(comparison: Comparison) -> list[dict[str, Any]]:
+    """Return what there is to say of each cause, in the order of their numbers."""
+    pixels = comparison.pixels
+    count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
+    return [
+        {
+            "value": int(cause),
+            "name": cause.name.lower(),
+            "label": _words(told.label),
+            "sentence": told.sentence,
+            "unit": told.unit,
+            "pixels": count[cause.name.lower()],
+            "color": _hex(CAUSE_COLORS[cause]) if cause in CAUSE_COLORS else None,
+        }
+        for cause, told in DESCRIPTIONS.items()
+    ]
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ").capitalize()
+
+
+def _hex(linear: Sequence[float]) -> str:
+    r, g, b, _ = to_display(np.array([[[*linear, 1.0]]]))[0, 0]
+    return f"#{r:02x}{g:02x}{b:02x}"
+
+
+def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, str]]:
+    s, about = comparison.frame.statistics, comparison.blender
+    given = about["version"] is None  # somebody's picture, not Blender's
+    found = [
+        ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color),
+        ("blender", "Picture", about["picture"], comparison.picture)
+        if given
+        else ("blender", "Blender", _words(about["source"]).lower(), comparison.picture),
+    ]
+    if literal is not None:
+        found.append(("literal", "Literal textbook", "s₁ + s₂ + s₃ = 1 as printed", literal.color))
+    return [
+        {"id": i, "label": label, "note": note, "png": data_uri(to_display(color))}
+        for i, label, note, color in found
+    ]
+
+
+def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[str]]:
+    """Return the numbers of every pixel, as many as fit, and what was left out."""
+    scene, frame, causes = comparison.scene, comparison.frame, comparison.causes
+    seen = surfaces.seen(frame)
+    index = np.flatnonzero(causes.cause != Cause.AGREE)
+    found: dict[str, Any] = {
+        "differing": {
+            "index": packed(index.astype(np.uint32)),
+            "cause": packed(causes.cause.ravel()[index]),
+            "figure": packed(causes.figure.ravel()[index]),
+            "allowed": packed(causes.allowed.ravel()[index]),
+        },
+        "certainty": packed(frame.certainty),
+        "surface": packed(seen.number),
+        "surfaces": None,
+        "t_offset": None,
+        "colors": None,
+    }
+    if (identity := comparison.identity) is not None:
+        found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
+    missing, taken = [], size(found)
+    for name, what, made in _by_priority(scene, comparison, seen):
+        part = made()
+        if taken + size(part) <= limit:
+            found[name], taken = part, taken + size(part)
+        else:
+            millions = size(part) / 1e6
+            missing.append(f"{what}: left out, as they would add {millions:.0f} MB to this page.")
+    if found["surfaces"] is None and found["t_offset"] is not None:
+        found["t_offset"] = None
+    return found, missing
+
+
+def _by_priority(
+    scene: Scene, comparison: Comparison, seen: surfaces.Surfaces
+) -> list[tuple[str, str, Callable[[], dict[str, Any]]]]:
+    """Return name, description and maker of what may be left out, the most useful first."""
+    frame = comparison.frame
+    return [
+        (
+            "surfaces",
+            "The triangles that are seen, and with them t and the derivation of every pixel",
+            lambda: surfaces.table(scene, seen),
+        ),
+        (
+            "t_offset",
+            "The last bits of t",
+            lambda: packed(surfaces.t_offsets(scene, frame, seen)),
+        ),
+        (
+            "colors",
+            "The linear colours of every pixel (those of the screen are there)",
+            lambda: {"traced": packed(frame.color), "blender": packed(comparison.picture)},
+        ),
+    ]
+
+
+def _trade_plots(trade: Trade) -> Iterable[tuple[str, NDArray[np.uint8]]]:
+    yield "tradeoff", trade_plot.picture(trade)
+
+
+def _extremes_dict(rows: Sequence[Row]) -> dict[str, Any]:
+    """Return what `extremes.json` holds but its thousands of rows: the pictures show those."""
+    return {k: v for k, v in extremes_report.to_dict(rows).items() if k != "rows"}
+
+
+def _study(found: Any, to_dict: Callable, plots: Callable, missing: list[str]) -> Any:
+    """Return a study as JSON can hold it, with its plots where there can be any."""
+    if found is None:
+        return None
+    shown = []
+    try:
+        for name, picture in plots(found):
+            shown.append({"name": name, "png": data_uri(picture)})
+    except MissingLibraryError as error:
+        missing.append(f"Plots: {error}.")
+    return to_dict(found) | {"plots": shown}

@@ -1,0 +1,164 @@
+"use strict";
+// The derivation: the textbook's steps with this pixel's numbers, in float64 and float32.
+
+const PRECISIONS = ["float64", "float32"];
+let chosen = 0; // the number of the surface that is derived, where it is not the pixel's own
+
+function drawDerivation() {
+  const { x, y } = state;
+  const own = page.derivations.find(({ pixel }) => pixel[0] === x && pixel[1] === y);
+  byId("fragment").replaceChildren();
+  if (own) byId("fragment").append(exactDerivation(own.html));
+  if (!pixels.surfaces) {
+    byId("derivation").replaceChildren(
+      element(
+        "p",
+        { class: "muted" },
+        "The triangles are not in this page: it would be too large.",
+      ),
+    );
+    return;
+  }
+  const candidates = candidatesOf(x, y);
+  const surface = candidates.find((c) => c.number === chosen) ?? candidates[0] ?? null;
+  const results = PRECISIONS.map((precision) => derive(x, y, surface, precision));
+  byId("derivation").replaceChildren(
+    ...[
+      candidatesTable(x, y, candidates, surface),
+      stepsTable(surface, results),
+      errata(surface),
+    ].filter(Boolean),
+  );
+}
+
+/** The derivation that was written with the page: the project's own markup, names escaped in it. */
+function exactDerivation(html) {
+  const inner = element("div");
+  inner.innerHTML = html;
+  for (const heading of inner.querySelectorAll("h1, h2, h3")) {
+    // they stand below this page's own
+    heading.setAttribute("aria-level", Number(heading.localName[1]) + 2);
+  }
+  return element(
+    "details",
+    { class: "exact" },
+    element("summary", {}, "Every candidate in float32, float64 and exactly"),
+    inner,
+  );
+}
+
+/** The surfaces seen here and in the eight pixels around, each accepted or rejected. */
+function candidatesTable(x, y, candidates, surface) {
+  if (!candidates.length) {
+    return element(
+      "p",
+      { class: "muted" },
+      "This ray meets nothing, and neither do those of the pixels around it.",
+    );
+  }
+  const own = pixels.surface[y * WIDTH + x];
+  const nearest = tracedT(y * WIDTH + x) ?? Infinity;
+  const rows = candidates.map((candidate) => {
+    const met = derive(x, y, candidate, "float64");
+    const name = `${page.objects[candidate.object]}${candidate.plane ? "" : ` · triangle ${count(candidate.triangle)}`}`;
+    const pick = element(
+      "button",
+      {
+        type: "button",
+        class: "pick",
+        "aria-pressed": String(candidate === surface),
+        onclick: () => {
+          chosen = candidate.number;
+          drawDerivation();
+        },
+      },
+      name,
+    );
+    return [
+      pick,
+      shortest(met.t),
+      ...(met.s ?? ["–", "–", "–"]).map((v) => (typeof v === "number" ? general(v, 4) : v)),
+      verdictOn(
+        met,
+        candidate.number === own
+          ? "it is what is seen"
+          : met.t > nearest
+            ? "but it lies behind"
+            : "",
+      ),
+    ];
+  });
+  return table(
+    "What this ray may meet: the surfaces seen in this pixel and the eight around it (float64)",
+    ["Surface", "t", "s₁", "s₂", "s₃", "Textbook"],
+    rows,
+    [1, 2, 3, 4],
+  );
+}
+
+/** What the textbook says of a ray and a surface, and why. */
+function verdictOn(met, more) {
+  const yes = more ? `accepted: ${more}` : "accepted";
+  if (!met.s)
+    return Number.isNaN(met.t) ? "rejected: parallel" : met.clipped ? "rejected: clipped" : yes;
+  const outside = met.s
+    .map((v, i) => (v < 0 ? `s${"₁₂₃"[i]} < 0` : v > 1 ? `s${"₁₂₃"[i]} > 1` : ""))
+    .filter(Boolean);
+  if (outside.length) return `rejected: ${outside.join(", ")}`;
+  if (!met.textbook) return "rejected: no sum of 1";
+  return met.clipped ? "rejected: clipped" : yes;
+}
+
+/** What is to be known of the printed formulas. */
+function errata(surface) {
+  if (!surface || surface.plane) return null;
+  return element(
+    "details",
+    { class: "errata", open: true },
+    element("summary", {}, "Two errata of the exercise"),
+    element(
+      "ol",
+      {},
+      element(
+        "li",
+        {},
+        "As printed, ",
+        formula("n_s2"),
+        " vanishes on the edge ",
+        formula("p_1 p_2"),
+        ", and ",
+        formula("n_s3"),
+        " on ",
+        formula("p_3 p_1"),
+        ": so the printed ",
+        formula("s_2"),
+        " weighs ",
+        formula("p_3"),
+        " and ",
+        formula("s_3"),
+        " weighs ",
+        formula("p_2"),
+        ". Here each is named for the corner that it weighs: ",
+        formula("x = s_1 p_1 + s_2 p_2 + s_3 p_3"),
+        ". Constant shading never shows the difference.",
+      ),
+      element(
+        "li",
+        {},
+        "In exact arithmetic the three always sum to 1; in floating point they miss it by a rounding error for about every second hit. Taken as printed, the test loses those; repaired, it allows a tolerance.",
+      ),
+    ),
+    element(
+      "p",
+      { class: "muted" },
+      "Digits of float32 ",
+      element("mark", { class: "off" }, "marked like this"),
+      " part from float64 by more than one rounding. Every number is computed in this page, with the same bits as the tracer's.",
+    ),
+  );
+}
+
+onChange(["x", "y"], () => {
+  chosen = 0;
+  drawDerivation();
+});

@@ -1,0 +1,97 @@
+"""What a page shows, and the page's own files -> one HTML file that needs nothing else.
+
+The page's files work as they lie here: `page.html` names its style and its scripts. In the written
+file each name is replaced by what it names, and a Content Security Policy lets exactly these
+scripts run and nothing be fetched, so that no name in a scene can do either.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ...compare.comparison import Comparison
+from ...explain import html as explained
+from ...explain.derivation import Derivation
+from ...study.extremes import Row
+from ...study.trade import Trade
+from ...tracer.frame import Frame
+from ..folders import replacing_file
+from .content import content
+
+NAME = "page.html"  # of the file that a comparison leaves
+
+_HERE = Path(__file__).parent
+_STYLE = re.compile(r'<link rel="stylesheet" href="([\w.]+)" />')
+_SCRIPT = re.compile(r'<script src="([\w.]+)"></script>')
+_POLICY = "<!-- policy -->"
+_DATA = '<script type="application/json" id="data"></script>'
+
+
+def write(
+    path: str | Path,
+    comparison: Comparison,
+    trade: Trade | None = None,
+    extremes: Sequence[Row] | None = None,
+    literal: Frame | None = None,
+    derivations: Mapping[tuple[int, int], Derivation] | None = None,
+    left_out: Sequence[str] = (),
+) -> None:
+    """Write a page; see :func:`content.content` for what it is given.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    held = content(comparison, trade, extremes, literal, derivations, left_out)
+    with replacing_file(Path(path)) as new:
+        new.write_text(html(held), encoding="utf-8")
+
+
+def html(held: Mapping[str, Any]) -> str:
+    """Return the page that shows this content."""
+    text = _text("page.html")
+    policy = _policy([_text(name) for name in _SCRIPT.findall(text)])
+    # As functions: what replaces a match may hold backslashes.
+    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", text)
+    text = text.replace("</head>", f"<style>{explained.STYLE}</style>\n</head>")
+    text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
+    data = _DATA.replace("></", f">{json_text(held)}</")
+    return text.replace(_POLICY, policy).replace(_DATA, data)
+
+
+def json_text(held: Mapping[str, Any]) -> str:
+    """Return JSON that ends no script element, whatever names it holds.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite.
+    """
+    text = json.dumps(held, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    for letter in "<>&":  # which JSON has inside strings only
+        text = text.replace(letter, f"\\u{ord(letter):04x}")
+    return text.encode("utf-8", "replace").decode("utf-8")  # a lone surrogate is no UTF-8
+
+
+def _text(name: str) -> str:
+    return (_HERE / name).read_text(encoding="utf-8")
+
+
+def _policy(scripts: Sequence[str]) -> str:
+    """Return the policy: these scripts, the page's own style and pictures, and no address."""
+    hashes = " ".join(
+        f"'sha256-{base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()}'"
+        for s in scripts
+    )
+    return (
+        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
+        f"img-src data: blob:; style-src 'unsafe-inline'; script-src {hashes}; "
+        "base-uri 'none'; form-action 'none'\" />"
+    )

@@ -1,0 +1,97 @@
+"""What a page shows beside the comparison, and what it takes to find it out.
+
+The literal textbook's picture, the derivations of the examples, and the studies where they are
+asked for. What would take too long is left out with a sentence that says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from ...compare.comparison import Comparison
+from ...explain.derivation import Derivation, derive
+from ...study import extremes, tradeoff
+from ...study.trade import Trade
+from ...tracer.frame import Frame
+from ...tracer.progress import Work, scaled
+from ...tracer.render import Steps, steps
+from ...tracer.settings import Method, Precision, Settings
+
+LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
+DERIVED = 3  # examples of each cause whose derivation is written out
+DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
+
+_LITERAL, _TRADE, _EXTREMES, _DERIVED = 1.0, 6.0, 12.0, 0.5  # shares of the work, roughly
+
+
+@dataclass(frozen=True, eq=False)
+class Extras:
+    """What `page.write` takes beside a comparison."""
+
+    trade: Trade | None = None
+    extremes: Sequence[extremes.Row] | None = None
+    literal: Frame | None = None
+    derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
+
+
+def extras(
+    comparison: Comparison,
+    measure_trade: bool = False,
+    measure_extremes: bool = False,
+    trace: Steps = steps,
+) -> Work[Extras]:
+    """Find out what a page shows beside a comparison; yields the share of the work done."""
+    left_out: list[str] = []
+    total = _LITERAL + _DERIVED + _TRADE * measure_trade + _EXTREMES * measure_extremes
+    done = 0.0
+
+    def part(work: Work, share: float) -> Work:
+        nonlocal done
+        found = yield from scaled(work, done / total, share / total)
+        done += share
+        return found
+
+    literal = yield from part(_literal(comparison, left_out, trace), _LITERAL)
+    derivations = yield from part(_derivations(comparison, left_out), _DERIVED)
+    trade = rows = None
+    if measure_trade:
+        work = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
+        trade = yield from part(work, _TRADE)
+    if measure_extremes:
+        rows = yield from part(extremes.measure(), _EXTREMES)
+    return Extras(trade, rows, literal, derivations, tuple(left_out))
+
+
+def _literal(comparison: Comparison, left_out: list[str], trace: Steps) -> Work[Frame | None]:
+    """Trace the scene by the textbook taken literally, unless that takes long."""
+    row = next((r for r in comparison.methods if r.method == Method.TEXTBOOK.value), None)
+    if row and row.seconds > LITERAL_SECONDS:
+        left_out.append(
+            f"The literal textbook's picture: the textbook takes {row.seconds:.0f} s here, and "
+            f"it would take as long again (more than {LITERAL_SECONDS:.0f} s)."
+        )
+        return None
+    frame = Frame.empty(comparison.scene)
+    settings = Settings(Method.TEXTBOOK_LITERAL, Precision.FLOAT64)
+    yield from trace(comparison.scene, settings, frame)
+    return frame
+
+
+def _derivations(
+    comparison: Comparison, left_out: list[str]
+) -> Work[dict[tuple[int, int], Derivation]]:
+    """Derive the first examples of each cause, exactly too."""
+    scene, found = comparison.scene, {}
+    if scene.triangle_count > DERIVED_TRIANGLES:
+        left_out.append(
+            f"The exact derivations of examples: the scene has {scene.triangle_count:,} triangles. "
+            "reftrace explain writes that of any pixel."
+        )
+        return found
+    wanted = [p for some in comparison.pixels["examples"].values() for p in some[:DERIVED]]
+    for number, (x, y) in enumerate(wanted):
+        found[x, y] = derive(scene, x, y, source=comparison.manifest.file)
+        yield number / len(wanted)
+    return found

@@ -1,0 +1,114 @@
+"use strict";
+// Everything together: fill the page, and keep what is shown true to the state.
+
+/** The pixel that the address names, #x=..&y=..; null where it names none. */
+function linked() {
+  const named = new URLSearchParams(location.hash.slice(1));
+  if (!named.has("x") || !named.has("y")) return null;
+  const [x, y] = [Number(named.get("x")), Number(named.get("y"))];
+  return Number.isFinite(x) && Number.isFinite(y) ? [x, y] : null;
+}
+
+function fillChoices() {
+  for (const side of ["left", "right"]) {
+    const choice = byId(side);
+    choice.replaceChildren(
+      ...[...layers.values()].map((layer) =>
+        element("option", { value: layer.id, title: layer.note }, layer.label),
+      ),
+    );
+    choice.addEventListener("change", () => change({ [side]: choice.value }));
+  }
+}
+
+function keepControls() {
+  for (const side of ["left", "right"]) byId(side).value = state[side];
+  for (const radio of byId("mode").querySelectorAll("input"))
+    radio.checked = radio.value === state.mode;
+  byId("marks").checked = state.marks;
+}
+
+/** Where the picture's shape allows, the stage has it; else it is as high as the window allows. */
+function keepShape() {
+  stage.style.setProperty("--shape", `${WIDTH} / ${HEIGHT}`);
+}
+
+function connect() {
+  byId("mode").addEventListener("change", (event) =>
+    change({ mode: event.target.value, swapped: false }),
+  );
+  byId("marks").addEventListener("change", (event) => change({ marks: event.target.checked }));
+  byId("exchange").addEventListener("click", exchange);
+  byId("zoom-in").addEventListener("click", () => zoomAbout(1.5));
+  byId("zoom-out").addEventListener("click", () => zoomAbout(1 / 1.5));
+  byId("fit").addEventListener("click", () => setView(0, 0, 0));
+  byId("next").addEventListener("click", () => goToExample(1));
+  byId("previous").addEventListener("click", () => goToExample(-1));
+  byId("theme").addEventListener("click", toggleTheme);
+  byId("large").addEventListener("click", toggleLarge);
+  byId("help-button").addEventListener("click", () => byId("help").showModal());
+  for (const name of ["x", "y"]) {
+    byId(name).max = (name === "x" ? WIDTH : HEIGHT) - 1;
+    byId(name).addEventListener("change", () => {
+      select(Number(byId("x").value), Number(byId("y").value));
+      drawPixel(); // also where the number was out of range and the pixel is the same
+      follow();
+    });
+  }
+  onChange(
+    ["x", "y", "left", "right", "mode", "swapped", "split", "only", "marks", "view"],
+    redraw,
+  );
+  onChange(["left", "right", "mode", "marks"], keepControls);
+  onChange(["mode"], () => setView(state.view.x, state.view.y, scaleNow()));
+  new ResizeObserver(redraw).observe(stage);
+  dark.addEventListener("change", redraw);
+  window.addEventListener("hashchange", () => linked() && visit(...linked()));
+}
+
+/** Look at what the address names, else the first example, else the middle of the picture. */
+function begin() {
+  const [first] = shownExamples();
+  const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
+  if (linked()) visit(x, y);
+  else select(x, y);
+  for (const show of [
+    drawSummary,
+    drawTables,
+    drawHelp,
+    drawLegend,
+    drawExamples,
+    drawPixel,
+    drawDerivation,
+    keepControls,
+    redraw,
+  ])
+    show();
+}
+
+async function main() {
+  await loadPixels();
+  await loadLayers();
+  fillChoices();
+  keepShape();
+  connect();
+  begin();
+  document.documentElement.dataset.ready = "yes"; // for whoever waits, such as a test
+}
+
+main().catch((error) => {
+  const why = `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`;
+  document.querySelector("main").prepend(element("p", { class: "notice", role: "alert" }, why));
+});
+
+// For a browser's console, as a lecture may want it: referenceTracer.derive(316, 111, "float32")
+window.referenceTracer = {
+  page,
+  pixels,
+  state,
+  cameraRay,
+  surfaceOf,
+  tracedT: (x, y) => tracedT(y * WIDTH + x),
+  derive: (x, y, precision = "float64", surface = surfaceOf(pixels.surface[y * WIDTH + x])) =>
+    derive(x, y, surface, precision),
+};

@@ -1,0 +1,88 @@
+"use strict";
+// What is drawn onto the pictures: marks of the pixels that differ, names, the frame of one pixel.
+
+const DENSE = 0.12; // of a pane: so many marks would hide a picture, and the map shows them
+
+/** Mark the pixels that differ: each by its shape when near, else one a cell and cause. */
+function drawMarks(context, pane, inMap) {
+  const near = scaleNow() >= 10;
+  const area = near ? scaleNow() ** 2 : CELL ** 2; // of a mark's place
+  const size = near ? Math.min(0.6 * scaleNow(), 22) : 11;
+  for (const [value, places] of markedPlaces(pane, near)) {
+    const many = places.length * area > DENSE * pane.width * pane.height;
+    if (many && !inMap) continue;
+    const own = many && !near ? 0.6 * size : size; // a texture on an area of its colour
+    for (const [x, y] of places) drawGlyph(context, CAUSES.get(value), x, y, own, many ? 1.2 : 1.9);
+  }
+}
+
+/** Where a pane has marks, by cause. */
+function markedPlaces(pane, near) {
+  const [x0, x1, y0, y1] = inView(pane);
+  const taken = new Set();
+  const found = new Map();
+  const { index, cause } = pixels.differing;
+  for (let k = 0; k < index.length; k++) {
+    const x = index[k] % WIDTH;
+    const y = Math.floor(index[k] / WIDTH);
+    if (x < x0 || x >= x1 || y < y0 || y >= y1 || !isShown(cause[k])) continue;
+    const place = toPane(pane, x + 0.5, y + 0.5);
+    const cell = (Math.floor(place[1] / CELL) * 8192 + Math.floor(place[0] / CELL)) * 32 + cause[k];
+    if (!near && taken.has(cell)) continue;
+    taken.add(cell);
+    if (!found.has(cause[k])) found.set(cause[k], []);
+    found.get(cause[k]).push(place);
+  }
+  return found;
+}
+
+/** Frame the pixel that is looked at; from afar, a ring around it. */
+function drawCursor(context, pane) {
+  const s = scaleNow();
+  const [left, top] = toPane(pane, state.x, state.y + 1);
+  for (const [color, width] of [
+    ["#000000", 4],
+    ["#ffffff", 2],
+  ]) {
+    context.strokeStyle = color;
+    context.lineWidth = width;
+    context.beginPath();
+    if (s >= 6) {
+      context.rect(left - 1, top - 1, s + 2, s + 2);
+    } else {
+      const [x, y] = [left + s / 2, top + s / 2];
+      for (const [u, v] of [
+        [1, 0],
+        [-1, 0],
+        [0, 1],
+        [0, -1],
+      ]) {
+        context.moveTo(x + 9 * u, y + 9 * v);
+        context.lineTo(x + 20 * u, y + 20 * v);
+      }
+    }
+    context.stroke();
+  }
+}
+
+/** Name a picture: the left one at the left, the right one at the right; and its colours. */
+function drawLabel(context, pane, layer, k) {
+  const size = parseFloat(getComputedStyle(document.documentElement).fontSize) * 0.85;
+  let y = pane.y + 8;
+  for (const [text, color] of [[layer.label, null], ...(layer.key ?? [])]) {
+    context.font = `${color ? 400 : 600} ${size}px system-ui, sans-serif`;
+    const sign = color ? 1.2 * size : 0;
+    const width = context.measureText(text).width + sign + size;
+    const x = k ? pane.x + pane.width - width - 8 : pane.x + 8;
+    context.fillStyle = "#000000b8";
+    context.beginPath();
+    context.roundRect(x, y, width, 1.7 * size, 5);
+    context.fill();
+    context.fillStyle = color ?? "#ffffff";
+    if (color) context.fillRect(x + size / 2, y + 0.4 * size, 0.9 * size, 0.9 * size);
+    context.fillStyle = "#ffffff";
+    context.textBaseline = "middle";
+    context.fillText(text, x + size / 2 + sign, y + 0.88 * size);
+    y += 1.9 * size;
+  }
+}

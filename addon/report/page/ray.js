@@ -1,0 +1,132 @@
+"use strict";
+// The textbook's maths of one ray (Exercise 1), an operation a step, in the order in which the
+// tracer computes it: what `tracer/camera.py`, `plane.py` and `triangle.py` do to arrays.
+
+const camera = page.camera;
+const column = (k, sign = 1) => camera.world_from_camera.slice(0, 3).map((row) => sign * row[k]);
+const AXES = { right: column(0), up: column(1), forward: column(2, -1), origin: column(3) };
+
+/** The ray x = o + t d through the centre of a pixel; t is the depth along the view axis. */
+function cameraRay(x, y, precision) {
+  const { round, add, mul, plus, times } = arithmetic(precision);
+  const [left, right, bottom, top] = camera.window;
+  const film = [x + camera.region[0] + 0.5, y + camera.region[1] + 0.5];
+  const size = [(right - left) / camera.width, (top - bottom) / camera.height].map(round);
+  const u = add(round(left), mul(round(film[0]), size[0]));
+  const v = add(round(bottom), mul(round(film[1]), size[1]));
+  const axes = Object.fromEntries(Object.entries(AXES).map(([name, a]) => [name, a.map(round)]));
+  const across = plus(times(u, axes.right), times(v, axes.up));
+  return camera.orthographic
+    ? { film, size, u, v, origin: plus(axes.origin, across), direction: axes.forward }
+    : { film, size, u, v, origin: axes.origin, direction: plus(across, axes.forward) };
+}
+
+/** A surface by its number (1 is the first): whose it is, and its corners in the world. */
+function surfaceOf(number) {
+  const s = pixels.surfaces;
+  if (!s || !number) return null;
+  const k = number - 1;
+  const instance = s.instances[s.instance[k]];
+  const triangle = s.triangle[k];
+  const plane = page.planes.find((p) => p.instance === instance) ?? null;
+  const object = page.object_of[instance];
+  return { number, instance, triangle, plane, object, corners: plane ? null : cornersOf(k) };
+}
+
+/** world_from_object . v in float64, as `tracer/vector.py` sums it. */
+function cornersOf(k) {
+  const { vertices, matrices, corners, instance } = pixels.surfaces;
+  const m = matrices.subarray(12 * instance[k], 12 * instance[k] + 12);
+  return [0, 1, 2].map((corner) => {
+    const first = 3 * corners[3 * k + corner];
+    const [x, y, z] = vertices.subarray(first, first + 3);
+    return [0, 4, 8].map((i) => m[i] * x + m[i + 1] * y + m[i + 2] * z + m[i + 3]);
+  });
+}
+
+/** Ray and infinite plane: t = -((o - p) . n) / (d . n). */
+function meetPlane(ray, plane, precision) {
+  const { round, minus, dot, div, plus, times } = arithmetic(precision);
+  const p = plane.point.map(round);
+  const n = plane.normal.map(round);
+  const towards = dot(ray.direction, n);
+  const from = dot(minus(ray.origin, p), n);
+  const t = towards === 0 ? NaN : div(-from, towards);
+  return { p, n, towards, from, t, x: plus(ray.origin, times(t, ray.direction)) };
+}
+
+/** Ray and triangle, with every intermediate result; `s` weighs p1, p2, p3. */
+function meetTriangle(ray, corners, precision) {
+  const { round, add, minus, plus, times, dot, cross, div } = arithmetic(precision);
+  const [p1, p2, p3] = corners.map((corner) => corner.map(round));
+  const n = cross(minus(p3, p1), minus(p2, p1));
+  const towards = dot(ray.direction, n);
+  const from = dot(minus(ray.origin, p1), n);
+  const t = div(-from, towards);
+  const x = plus(ray.origin, times(t, ray.direction));
+  const area = dot(n, n);
+  // As printed n_s2 weighs p3 and n_s3 weighs p2: here each is named for the corner it weighs.
+  const weight = [
+    cross(minus(p2, p3), minus(x, p3)),
+    cross(minus(p3, p1), minus(x, p1)),
+    cross(minus(p1, p2), minus(x, p2)),
+  ];
+  const s = weight.map((w) => div(dot(n, w), area));
+  const sum = add(add(s[0], s[1]), s[2]);
+  const inside = s.every((value) => value >= 0 && value <= 1);
+  const tolerance = round(page.tolerance[precision]);
+  const near = Math.abs(round(sum - 1)) <= tolerance;
+  return {
+    p1,
+    p2,
+    p3,
+    n,
+    towards,
+    from,
+    t,
+    x,
+    area,
+    weight,
+    s,
+    sum,
+    inside,
+    tolerance,
+    literal: inside && sum === 1,
+    textbook: inside && near,
+  };
+}
+
+/** Whether t lies in the camera's clip range. */
+const inClip = (t) => t >= camera.clip[0] && t <= camera.clip[1];
+
+/** The whole derivation of a pixel's ray with one surface. */
+function derive(x, y, surface, precision) {
+  const ray = cameraRay(x, y, precision);
+  if (!surface) return { ray };
+  const met = surface.plane
+    ? meetPlane(ray, surface.plane, precision)
+    : meetTriangle(ray, surface.corners, precision);
+  return { ray, ...met, clipped: !inClip(met.t) };
+}
+
+/** The t that was traced, to the last bit; null where it is not in the page. */
+function tracedT(pixel) {
+  const surface = surfaceOf(pixels.surface[pixel]);
+  if (!surface) return pixels.surface[pixel] ? null : Infinity;
+  if (!pixels.t_offset) return null;
+  const { t } = derive(pixel % WIDTH, Math.floor(pixel / WIDTH), surface, "float64");
+  const numbered = pixels.t_offset[pixel]; // 0, -1, 1, -2, 2... as 0, 1, 2, 3, 4...
+  return ulpsAbove(Number.isFinite(t) ? t : 0, (numbered >> 1n) ^ -(numbered & 1n));
+}
+
+/** The surfaces that a pixel and its eight neighbours see, its own first. */
+function candidatesOf(x, y) {
+  const numbers = new Set([pixels.surface[y * WIDTH + x]]);
+  for (let j = Math.max(0, y - 1); j <= Math.min(HEIGHT - 1, y + 1); j++) {
+    for (let i = Math.max(0, x - 1); i <= Math.min(WIDTH - 1, x + 1); i++) {
+      numbers.add(pixels.surface[j * WIDTH + i]);
+    }
+  }
+  numbers.delete(0);
+  return [...numbers].map(surfaceOf);
+}

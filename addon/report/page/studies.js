@@ -1,0 +1,150 @@
+"use strict";
+// What was exported, the trade and the extremes, and what is not in the page: a card each.
+
+function manifestCard() {
+  const { objects, unmodelled, notes, evaluation } = page.comparison.scene;
+  const rows = objects.map((o) => [
+    o.name,
+    words(o.type.toLowerCase()),
+    o.exported ? "exported" : o.outside ? "outside the view" : `skipped: ${o.reason}`,
+    o.exported ? count(o.instances) : "",
+    o.exported ? count(o.traced_triangles) : "",
+    [
+      o.left_out ? `${count(o.left_out)} triangles left out` : "",
+      o.empty_slots ? `${o.empty_slots} empty slots` : "",
+      ...diagnosed(o.diagnosis),
+    ]
+      .filter(Boolean)
+      .join(", "),
+  ]);
+  return wide(
+    card(
+      "What was exported",
+      ...unmodelled.map((u) =>
+        element(
+          "p",
+          { class: "notice" },
+          element("strong", {}, "Not modelled: "),
+          `${u.object}: ${u.feature}${u.detail ? ` (${u.detail})` : ""}`,
+        ),
+      ),
+      ...notes.map((note) => element("p", { class: "muted" }, note)),
+      table(
+        `Objects, as in ${evaluation.toLowerCase()} evaluation`,
+        ["Object", "Type", "", "Instances", "Triangles", "Notes"],
+        rows,
+        [3, 4],
+      ),
+    ),
+  );
+}
+
+function diagnosed(diagnosis) {
+  if (!diagnosis) return [];
+  const said_ = [];
+  if (diagnosis.closed === false) said_.push("open");
+  if (diagnosis.consistent_winding === false) said_.push("winding not consistent");
+  for (const name of ["degenerate_faces", "duplicate_faces"]) {
+    if (diagnosis[name]) said_.push(`${count(diagnosis[name])} ${name.replace("_", " ")}`);
+  }
+  return said_;
+}
+
+function plots(study, describe) {
+  return study.plots.map(({ name, png }) =>
+    element("figure", { class: "plot" }, element("img", { src: png, alt: describe(name) })),
+  );
+}
+
+function tradeCard() {
+  const { trade } = page;
+  if (!trade) return null;
+  const rows = trade.rows.map((r) => [
+    words(r.method),
+    r.precision,
+    `${r.width} × ${r.height}`,
+    `${r.samples} × ${r.samples}`,
+    `${general(1000 * r.seconds, 3)} ms`,
+    `${count(r.wrong_pixels)}${r.best_pixels ? " ★" : ""}`,
+    r.largest_t_error === null ? "–" : general(r.largest_t_error, 2),
+    general(r.peak_bytes / 2 ** 20, 3),
+    `${r.coverage_error === null ? "–" : r.coverage_error.toFixed(4)}${r.best_coverage ? " ★" : ""}`,
+  ]);
+  return wide(
+    card(
+      "The trade: speed against accuracy",
+      element("p", { class: "advice" }, trade.advice),
+      ...plots(
+        trade,
+        () => "Time against wrong pixels, and time against coverage error, of every method",
+      ),
+      element(
+        "details",
+        {},
+        element("summary", {}, `All ${rows.length} rows`),
+        table(
+          "★: no other row beats it",
+          [
+            "Method",
+            "Precision",
+            "Pixels",
+            "Rays",
+            "Time",
+            "Wrong pixels",
+            "t error, m",
+            "MiB",
+            "Coverage error",
+          ],
+          rows,
+          [4, 5, 6, 7, 8],
+        ),
+      ),
+    ),
+  );
+}
+
+function extremesCard() {
+  const { extremes } = page;
+  if (!extremes) return null;
+  const title = Object.fromEntries(
+    extremes.scenarios.map((s) => [
+      s.name,
+      `${s.title} (${s.scale}${s.unit ? `, ${s.unit}` : ""})`,
+    ]),
+  );
+  const columns = [...new Set(extremes.breaking_points.map((p) => `${p.method} ${p.precision}`))];
+  const at = new Map(
+    extremes.breaking_points.map((p) => [`${p.scenario} ${p.method} ${p.precision}`, p]),
+  );
+  const rows = [...new Set(extremes.breaking_points.map((p) => p.scenario))].map((name) => [
+    title[name] ?? name,
+    ...columns.map((column) => breaking(at.get(`${name} ${column}`))),
+  ]);
+  return wide(
+    card(
+      "The extremes: where methods break",
+      ...plots(extremes, (name) => words(name)),
+      element(
+        "details",
+        {},
+        element("summary", {}, "All breaking points"),
+        table(
+          "The first scale at which a ray is lost; +: a ray crosses too many triangles",
+          ["Sweep", ...columns.map(words)],
+          rows,
+          columns.map((_, k) => k + 1),
+        ),
+      ),
+    ),
+  );
+}
+
+function breaking(point) {
+  if (!point) return "";
+  return `${point.lost === null ? "never" : general(point.lost, 3)}${point.doubled === null ? "" : " +"}`;
+}
+
+const leftOutCard = () =>
+  page.left_out.length
+    ? wide(card("Not in this page", ...page.left_out.map((line) => element("p", {}, line))))
+    : null;

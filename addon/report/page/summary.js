@@ -1,0 +1,92 @@
+"use strict";
+// What one sees at a glance: the scene, the verdict, the score.
+
+// Whose picture is compared: Blender's, or one that somebody gave.
+const OTHER = page.comparison.blender.version
+  ? `Blender ${page.comparison.blender.version}`
+  : page.comparison.blender.picture;
+
+const VERDICTS = {
+  agree: ["✓", "Agree"],
+  warnings: ["!", "Warnings"],
+  differences: ["✗", "Differences"],
+  cancelled: ["…", "Cancelled"],
+};
+
+function drawSummary() {
+  const { scene, blender, verdict, pixels: score } = page.comparison;
+  document.title = `${scene.scene} – Reference Tracer`;
+  byId("title").textContent = scene.scene;
+  byId("subtitle").textContent = [
+    scene.file,
+    `camera ${scene.camera}`,
+    `${WIDTH} × ${HEIGHT} pixels`,
+    blender.version ? `${OTHER}, ${words(blender.source)}` : OTHER,
+  ]
+    .filter(Boolean)
+    .join("  ·  ");
+  const [sign, word] = VERDICTS[verdict];
+  byId("verdict").className = `verdict ${verdict}`;
+  byId("verdict").replaceChildren(element("span", { "aria-hidden": "true" }, sign), word);
+  byId("headline").textContent = headline(score);
+  byId("score").replaceChildren(...tiles(score).map(tile));
+}
+
+function headline(score) {
+  const parts = [
+    score.agree === score.total
+      ? `All ${count(score.total)} pixels agree.`
+      : `${count(score.agree)} of ${count(score.total)} pixels agree.`,
+  ];
+  if (score.unexplained)
+    parts.push(
+      `Nothing explains ${count(score.unexplained)}: one of the two pictures is wrong there.`,
+    );
+  else if (score.differ)
+    parts.push(
+      score.differ === 1
+        ? "The one that differs is explained."
+        : `All ${count(score.differ)} that differ are explained.`,
+    );
+  if (score.not_decidable) parts.push(`Of ${count(score.not_decidable)} nothing can be said.`);
+  if (score.not_traced) parts.push(`${count(score.not_traced)} were not traced.`);
+  return parts.join(" ");
+}
+
+/** What is counted, each as [name, number, beside it, kind]. */
+function tiles(score) {
+  const { certainty } = page.comparison.tracer;
+  const proven = certainty.bound + certainty.exact;
+  const found = [
+    ["Agree", score.agree, percent(score.agree, score.total)],
+    ["Explained", score.explained, "of those that differ"],
+    [
+      "Unexplained",
+      score.unexplained,
+      score.unexplained ? "one picture is wrong" : "as it should be",
+      score.unexplained ? "bad" : "good",
+    ],
+  ];
+  if (score.not_decidable)
+    found.push(["Not decidable", score.not_decidable, percent(score.not_decidable, score.total)]);
+  if (score.not_traced)
+    found.push(["Not traced", score.not_traced, percent(score.not_traced, score.total)]);
+  found.push([
+    "Proven",
+    proven,
+    !proven
+      ? `${words(page.comparison.tracer.method)} proves nothing`
+      : certainty.ambiguous
+        ? `and ${count(certainty.ambiguous)} ambiguous`
+        : percent(proven, score.total),
+  ]);
+  return found;
+}
+
+const tile = ([name, number, beside, kind]) =>
+  element(
+    "div",
+    { class: `tile ${kind ?? ""}` },
+    element("dt", {}, name, element("span", { class: "muted" }, beside)),
+    element("dd", {}, count(number)),
+  );

@@ -1,0 +1,124 @@
+"""What a traced picture sees -> a table of its surfaces, small enough for a page.
+
+A pixel names its surface by its number in the table, 0 for none. The page computes world-space
+corners as the tracer does, from the mesh's own vertices and the instance's matrix; so what is
+packed is what the scene holds, and every number that follows from it has the same bits.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scene import Scene
+from ...tracer import plane
+from ...tracer.camera import Rays, camera_rays, film_positions_of
+from ...tracer.frame import Frame
+from ...tracer.hits import NOTHING
+from ...tracer.settings import Method
+from ...tracer.triangle import METHODS
+from ...tracer.world import world_corners
+from .packing import packed
+
+_TOGETHER = 1 << 16  # pixels: some MiB of temporaries
+
+
+@dataclass(frozen=True, eq=False)
+class Surfaces:
+    """The k surfaces that are seen, and which of them each pixel sees.
+
+    `number` is (h, w) int32, 0 for none, else one more than the index into `instance` and
+    `triangle`, (k,) int32 as in a `Frame`.
+    """
+
+    number: NDArray[np.int32]
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+
+
+def seen(frame: Frame) -> Surfaces:
+    """Return the surfaces that a frame sees, each once."""
+    instance, triangle = (a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index))
+    names = np.where(instance == NOTHING, -1, (instance << 32) | (triangle + 1))
+    unique, number = np.unique(np.append(names.ravel(), -1), return_inverse=True)
+    number = number.ravel()[:-1].reshape(names.shape)
+    return Surfaces(
+        number.astype(np.int32),
+        (unique[1:] >> 32).astype(np.int32),
+        ((unique[1:] & 0xFFFFFFFF) - 1).astype(np.int32),
+    )
+
+
+def table(scene: Scene, surfaces: Surfaces) -> dict[str, Any]:
+    """Return the surfaces as the page has them: whose they are, and their corners.
+
+    Vertices are in object space, those that a seen triangle has; `matrices` are the rows of
+    `world_from_object` of the instances that `instance` numbers, which come in this order.
+    """
+    instances, instance = np.unique(surfaces.instance, return_inverse=True)
+    on_mesh = surfaces.instance < len(scene.instances)
+    corners = np.zeros((len(instance), 3), np.uint32)
+    vertices, count = [], 0
+    mesh_of = np.where(on_mesh, scene.instance_meshes.take(surfaces.instance, mode="clip"), -1)
+    for index in np.unique(mesh_of[on_mesh]):
+        rows = np.flatnonzero(mesh_of == index)
+        mesh = scene.meshes[index]
+        used, corner = np.unique(mesh.triangles[surfaces.triangle[rows]], return_inverse=True)
+        corners[rows] = corner.reshape(-1, 3) + count
+        vertices.append(mesh.vertices[used])
+        count += len(used)
+    matrices = [  # an infinite plane has none
+        scene.instances[k].world_from_object if k < len(scene.instances) else np.eye(4)
+        for k in instances.tolist()
+    ]
+    return {
+        "instance": packed(instance.astype(np.int32)),
+        "triangle": packed(surfaces.triangle),
+        "corners": packed(corners),
+        "vertices": packed(np.concatenate(vertices or [np.zeros((0, 3))])),
+        "matrices": packed(np.array(matrices).reshape(-1, 4, 4)[:, :3]),
+        "instances": instances.tolist(),
+    }
+
+
+def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.uint64]:
+    """Return by how many ulp the traced t is above what the textbook's formula gives, (h, w).
+
+    The page computes the formula's t itself; with these small numbers it has the traced one, too,
+    to the last bit, in a fraction of the space. They are differences of bit patterns (modulo 2^64).
+    Where nothing is seen, or the formula gives no number, they count from 0. As 0, -1, 1, -2, 2...
+    are numbered 0, 1, 2, 3, 4..., all but the lowest bytes are zero, and compress.
+    """
+    t = frame.t.ravel()
+    formula = np.zeros(len(t))
+    with np.errstate(all="ignore"):
+        for first in range(0, len(t), _TOGETHER):
+            rows = slice(first, min(first + _TOGETHER, len(t)))
+            pixel = np.arange(rows.start, rows.stop)
+            rays = camera_rays(scene.camera, *film_positions_of(scene.camera.region, pixel))
+            formula[rows] = _textbook_t(scene, rays, surfaces, surfaces.number.ravel()[rows])
+    formula[~np.isfinite(formula)] = 0.0
+    with np.errstate(over="ignore"):
+        offsets = t.view(np.int64) - formula.view(np.int64)
+    offsets = np.where(np.isfinite(t), offsets, 0).reshape(frame.t.shape)
+    return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
+
+
+def _textbook_t(scene: Scene, rays: Rays, surfaces: Surfaces, number: NDArray) -> NDArray:
+    """Return the textbook's t of each ray (n,) with the surface of its number; 0 for none."""
+    out = np.zeros(len(number))
+    count = len(scene.instances)
+    seen_ = np.flatnonzero(number)
+    instance, triangle = (a[number[seen_] - 1] for a in (surfaces.instance, surfaces.triangle))
+    on_mesh = np.flatnonzero(instance < count)
+    corners = world_corners(scene, instance[on_mesh], triangle[on_mesh])
+    some = rays.take(seen_[on_mesh])
+    out[seen_[on_mesh]] = METHODS[Method.TEXTBOOK](some, *corners)[1]
+    for index, infinite in enumerate(scene.planes, start=count):
+        which = seen_[instance == index]
+        point, normal = infinite.point[:, None], infinite.normal[:, None]
+        out[which] = plane.intersect(rays.take(which), point, normal)
+    return out

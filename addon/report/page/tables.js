@@ -1,0 +1,143 @@
+"use strict";
+// What was compared, and how: a card each; the cards of `evidence.js` and `studies.js` among them.
+
+const ROWS = 200; // of a table: thousands would make the page slow
+
+/** A table with a caption; `right` are the columns of numbers. */
+function table(caption, heads, rows, right = [], kind = "") {
+  const side = (k) => (right.includes(k) ? "number" : null);
+  return element(
+    "div",
+    { class: `scroll ${kind}`, tabindex: "0", role: "group", "aria-label": caption },
+    element(
+      "table",
+      {},
+      element("caption", {}, caption),
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          ...heads.map((head, k) => element("th", { scope: "col", class: side(k) }, head)),
+        ),
+      ),
+      element(
+        "tbody",
+        {},
+        ...rows
+          .slice(0, ROWS)
+          .map((row) =>
+            element("tr", {}, ...row.map((cell, k) => element("td", { class: side(k) }, cell))),
+          ),
+      ),
+    ),
+    rows.length > ROWS
+      ? element("p", {}, `${count(rows.length - ROWS)} more: comparison.json has them all.`)
+      : null,
+  );
+}
+
+const card = (title, ...children) =>
+  element("section", { class: "card" }, element("h2", {}, title), ...children);
+const px = (value) => `${general(value, 3)} px`;
+const wide = (made) => (made.classList.add("wide"), made);
+const facts = (pairs) =>
+  element(
+    "dl",
+    { class: "facts" },
+    ...pairs.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]),
+  );
+const seconds = (value) => `${general(value, 3)} s`;
+
+function drawTables() {
+  byId("tables").replaceChildren(
+    ...[
+      methodsCard(),
+      metricsCard(),
+      splitCard(),
+      blenderCard(),
+      certificateCard(),
+      selfCheckCard(),
+      manifestCard(),
+      tradeCard(),
+      extremesCard(),
+      leftOutCard(),
+    ].filter(Boolean),
+  );
+  byId("colophon").textContent =
+    `Traced in plain Python and numpy, and compared with ${OTHER}, by Reference Tracer. ` +
+    "This page fetches nothing.";
+}
+
+function methodsCard() {
+  const rows = page.comparison.methods.map((m) => [
+    `${words(m.method)}, ${m.precision}`,
+    seconds(m.seconds),
+    m.wrong_pixels === null ? "?" : count(m.wrong_pixels),
+    count(m.ambiguous),
+  ]);
+  const required = [...new Set(page.comparison.methods.flatMap((m) => m.required))];
+  return card(
+    "Traced by",
+    table(
+      "Methods, side by side",
+      ["Method", "Time", "Wrong pixels", "Ambiguous"],
+      rows,
+      [1, 2, 3],
+    ),
+    ...required.map((line) => element("p", { class: "muted" }, `${line}.`)),
+  );
+}
+
+function metricsCard() {
+  const { rmse, psnr, ssim, largest_difference: most } = page.comparison.metrics;
+  const [x, y] = most.pixel;
+  return card(
+    "How far apart",
+    facts([
+      ["RMSE", general(rmse, 4)],
+      ["PSNR", psnr === null ? "infinite" : `${psnr.toFixed(1)} dB`],
+      ["SSIM", ssim.toFixed(6)],
+      [
+        "Largest difference",
+        element(
+          "span",
+          {},
+          `${general(most.value, 4)} at `,
+          element(
+            "button",
+            { type: "button", class: "link", onclick: () => visit(x, y) },
+            `(${x}, ${y})`,
+          ),
+        ),
+      ],
+    ]),
+    element("p", { class: "muted" }, "Of linear RGBA, over all pixels."),
+    page.comparison.transform ? element("p", {}, `Colours: ${page.comparison.transform}.`) : null,
+  );
+}
+
+function blenderCard() {
+  const { version, source, settings = {}, sample_radius: radius } = page.comparison.blender;
+  return card(
+    page.comparison.blender.version ? "How Blender drew it" : "The picture",
+    facts([
+      ...(version ? [["Version", version]] : []),
+      ["Picture", words(source)],
+      ...(radius ? [["Samples within", `${general(radius)} px of the centre`]] : []),
+      ...Object.entries(settings).map(([name, value]) => [words(name), said(value)]),
+    ]),
+  );
+}
+
+const said = (value) =>
+  value === true
+    ? "yes"
+    : value === false
+      ? "no"
+      : typeof value === "number"
+        ? general(value)
+        : typeof value === "object" && value !== null
+          ? JSON.stringify(value)
+          : String(value);

@@ -1,0 +1,84 @@
+"""The button that writes the latest comparison as a page; and that every comparison leaves one."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import bpy
+import pytest
+from reference_tracer.blender import results
+from reference_tracer.blender.long_work import LongWork
+from reference_tracer.study import extremes, tradeoff
+from reference_tracer.study.scenarios.sweeps import SCENARIOS
+from reference_tracer.tracer.progress import result_of
+
+
+def held(folder):
+    """Return the JSON in a folder's page."""
+    text = (folder / "page.html").read_text(encoding="utf-8")
+    [data] = re.findall(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)
+    return json.loads(data)
+
+
+@pytest.fixture
+def solids(build):
+    build.scene()
+    build.solids()
+    build.corner_camera()
+
+
+def open_page(folder):
+    return bpy.ops.reference_tracer.open_page(directory=str(folder), open_browser=False)
+
+
+def test_there_is_no_page_without_a_comparison(solids, tmp_path):
+    assert not bpy.ops.reference_tracer.open_page.poll()
+    with pytest.raises(RuntimeError):
+        open_page(tmp_path)
+
+
+def test_the_page_is_of_the_latest_comparison(solids, compare, tmp_path):
+    comparison = compare()
+    results.keep_comparison(bpy.context, comparison)
+    before = {name: len(getattr(bpy.data, name)) for name in ("images", "scenes", "objects")}
+    assert open_page(tmp_path / "new") == {"FINISHED"}
+    assert [p.name for p in (tmp_path / "new").iterdir()] == ["page.html"]
+    found = held(tmp_path / "new")
+    assert found["comparison"] == json.loads(json.dumps(comparison.to_dict()))
+    assert [p["id"] for p in found["pictures"]] == ["traced", "blender", "literal"]
+    assert found["trade"] is found["extremes"] is None
+    assert before == {name: len(getattr(bpy.data, name)) for name in before}
+
+
+def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
+    comparison = compare()
+    results.keep_comparison(bpy.context, comparison)
+    name = bpy.context.scene.name
+    trade = result_of(tradeoff.measure(comparison.scene, 24, 2, name))
+    results.keep_trade(bpy.context, trade)
+    results.keep_extremes(bpy.context, result_of(extremes.measure(SCENARIOS[:1], 40)))
+    assert open_page(tmp_path) == {"FINISHED"}
+    found = held(tmp_path)
+    assert found["trade"]["advice"] == trade.advice and len(found["trade"]["plots"]) == 1
+    assert found["extremes"]["breaking_points"] and found["extremes"]["plots"]
+
+
+def test_a_folder_that_cannot_be_written(solids, compare, tmp_path):
+    results.keep_comparison(bpy.context, compare())
+    (tmp_path / "file").touch()
+    with pytest.raises(RuntimeError, match="it is a file"):
+        open_page(tmp_path / "file")
+
+
+def test_it_waits_for_other_work(solids, compare, monkeypatch):
+    results.keep_comparison(bpy.context, compare())
+    assert bpy.ops.reference_tracer.open_page.poll()
+    monkeypatch.setattr(LongWork, "running", "Trace and Compare")
+    assert not bpy.ops.reference_tracer.open_page.poll()
+
+
+def test_a_comparison_with_a_folder_leaves_a_page(solids, tmp_path):
+    assert bpy.ops.reference_tracer.compare(directory=str(tmp_path)) == {"FINISHED"}
+    found = held(tmp_path)
+    assert found["comparison"] == json.loads((tmp_path / "comparison.json").read_text())

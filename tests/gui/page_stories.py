@@ -1,0 +1,56 @@
+"""The button that opens the page, pressed inside Blender's window."""
+
+import os
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
+
+import bpy
+from story import (
+    OUT,
+    compared,
+    data_blocks,
+    invoke,
+    noted,
+    open_tab,
+    play,
+    press_compare,
+    screenshot,
+    settings,
+    show_panel,
+    until,
+)
+
+OPENED = OUT / "opened"  # where the browser of this story writes what it is asked to open
+
+
+def page():
+    """Compare, then the button: a file that the browser is told to open, and nothing else."""
+    browser = OUT / "browser"
+    browser.write_text(f'#!/bin/sh\necho "$1" > {OPENED}\n')
+    browser.chmod(0o755)
+    os.environ["BROWSER"] = str(browser)
+    OPENED.unlink(missing_ok=True)
+    show_panel()
+    yield 1
+    yield from open_tab()
+    noted["before"] = bpy.ops.reference_tracer.open_page.poll()
+    press_compare()
+    yield from until(compared)
+    yield 1
+    screenshot("page_button")
+    before = settings(), data_blocks()
+    noted["pressed"] = list(invoke("open_page"))
+
+    def opened():
+        return OPENED.exists() and OPENED.read_text().strip()
+
+    yield from until(opened)
+    noted["address"] = opened()
+    path = Path(noted["address"].removeprefix("file://"))
+    (OUT / "page.html").write_bytes(path.read_bytes())
+    noted["unchanged"] = before == (settings(), data_blocks())
+
+
+play((page,))

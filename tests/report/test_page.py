@@ -1,0 +1,283 @@
+"""The page as a file: whole in itself, escaped, packed without loss, and true to its schema."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import io
+import json
+import re
+import zlib
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+from PIL import Image
+from reference_tracer.images import to_display
+from reference_tracer.report import page
+from reference_tracer.report.files import write as write_folder
+from reference_tracer.report.page import document, packing, surfaces
+from reference_tracer.report.page.content import content
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+FOLDER = document._HERE
+PROJECT = Path(__file__).resolve().parents[2]
+DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
+SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
+
+
+def unpacked(held):
+    """Undo packing.packed, as the page's script does."""
+    planes = zlib.decompress(base64.b64decode(held["data"]))
+    kind = np.dtype(held["type"]).newbyteorder("<")
+    sorted_ = np.frombuffer(planes, np.uint8).reshape(kind.itemsize, -1).T
+    return np.ascontiguousarray(sorted_).reshape(-1).view(kind).reshape(held["shape"])
+
+
+def schema(name):
+    return json.loads((FOLDER / name).read_text(encoding="utf-8"))
+
+
+def validator():
+    """Return a validator of the page's JSON, which knows the comparison's, too."""
+    from referencing import Registry, Resource
+
+    registry = Registry().with_resources(
+        (name, Resource.from_contents(schema(name))) for name in ("comparison.schema.json",)
+    )
+    own = schema("page.schema.json")
+    return jsonschema.Draft202012Validator(own, registry=registry)
+
+
+def whole(comparison, **choices):
+    """Return all that a page can show."""
+    extras = result_of(page.extras(comparison))
+    return content(comparison, **vars(extras) | choices)
+
+
+@pytest.mark.parametrize("kind", ["uint8", "int32", "uint32", "uint64", "float32", "float64"])
+@pytest.mark.parametrize("shape", [(0,), (1,), (7, 3), (2, 3, 4)])
+def test_packing_loses_nothing(rng, kind, shape):
+    values = rng.integers(0, 255, (*shape, np.dtype(kind).itemsize), np.uint8).view(kind)[..., 0]
+    held = json.loads(json.dumps(packing.packed(values)))
+    assert held["type"] == kind
+    assert np.array_equal(
+        unpacked(held).view(np.uint8), np.ascontiguousarray(values).view(np.uint8)
+    )
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (3, 5), (40, 30)])
+def test_png_is_the_picture(rng, shape):
+    picture = rng.integers(0, 256, (*shape, 4), np.uint8)
+    read = np.asarray(Image.open(io.BytesIO(packing.png(picture))))
+    assert np.array_equal(read[::-1], picture)
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("float32", [False, True])
+def test_surfaces_and_t_are_those_of_the_frame(room, orthographic, float32):
+    scene = room(orthographic=orthographic, float32=float32)
+    frame = render(scene)
+    seen = surfaces.seen(frame)
+    hit = seen.number > 0
+    assert np.array_equal(hit, frame.instance_index >= 0) and hit.any() and len(seen.instance) > 20
+    assert np.array_equal(seen.instance[seen.number[hit] - 1], frame.instance_index[hit])
+    assert np.array_equal(seen.triangle[seen.number[hit] - 1], frame.triangle_index[hit])
+    held = {k: unpacked(v) for k, v in surfaces.table(scene, seen).items() if k != "instances"}
+    assert held["vertices"].dtype == (np.float32 if float32 else np.float64)
+    offsets = surfaces.t_offsets(scene, frame, seen)
+    assert (offsets < 1 << 13).all()  # twice the ulp: so near is the formula to the proven t
+    assert (offsets != 0).any()
+
+
+def test_a_page_is_one_file(differing, tmp_path):
+    page.write(tmp_path / "page.html", differing)
+    text = (tmp_path / "page.html").read_text(encoding="utf-8")
+    outside = DATA.sub("", text)
+    assert not re.search(r"https?://|<link|<script src|@import|url\(", outside)
+    assert "fetch(" not in outside and "XMLHttpRequest" not in outside
+    assert "default-src 'none'" in outside
+
+
+def test_only_the_pages_own_scripts_may_run(differing):
+    text = document.html(content(differing))
+    allowed = set(re.findall(r"'sha256-([^']+)'", text))
+    found = {
+        base64.b64encode(hashlib.sha256(s.encode()).digest()).decode() for s in SCRIPT.findall(text)
+    }
+    assert found == allowed and len(found) > 10
+
+
+def test_no_name_ends_the_script(differing, hostile):
+    held = content(differing)
+    text = document.html(held)
+    [data] = DATA.findall(text)
+    assert not set("<>&") & set(data)
+    assert json.loads(data) == json.loads(json.dumps(held))
+    assert set(hostile) <= set(json.loads(data)["objects"])
+
+
+def test_a_name_that_is_no_unicode(differing):
+    held = content(differing) | {"objects": ["\ud800 lone"]}
+    assert document.json_text(held).encode("utf-8")
+
+
+def test_what_json_cannot_hold_is_an_error(differing):
+    with pytest.raises(ValueError, match="JSON"):
+        document.json_text(content(differing) | {"size": [float("nan"), 1]})
+
+
+def test_the_schemas_are_schemas():
+    for name in ("page.schema.json", "comparison.schema.json"):
+        jsonschema.Draft202012Validator.check_schema(schema(name))
+
+
+def test_content_is_as_the_schema_says(differing, compared, room):
+    for comparison in (differing, compared(room(orthographic=True, planes=False))):
+        held = json.loads(document.json_text(whole(comparison)))
+        validator().validate(held)
+
+
+def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
+    from reference_tracer.images import save_png
+
+    write_folder(tmp_path, differing, save_png)
+    held = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
+    own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
+    own.validate(held)
+    for broken in (held | {"verdict": "fine"}, {k: v for k, v in held.items() if k != "pixels"}):
+        with pytest.raises(jsonschema.ValidationError):
+            own.validate(broken)
+
+
+def test_the_schema_finds_what_is_wrong(differing):
+    held = json.loads(document.json_text(content(differing)))
+    for broken in (
+        held | {"size": [48]},
+        held | {"schema": "another"},
+        {k: v for k, v in held.items() if k != "pixels"},
+        held | {"pixels": held["pixels"] | {"certainty": {"type": "uint8", "shape": [1]}}},
+        held | {"news": 1},
+    ):
+        with pytest.raises(jsonschema.ValidationError):
+            validator().validate(broken)
+
+
+def test_pictures_and_colours_are_those_compared(differing):
+    held = content(differing)
+    for picture, color in zip(
+        held["pictures"], (differing.frame.color, differing.picture), strict=True
+    ):
+        file = base64.b64decode(picture["png"].split(",")[1])
+        assert np.array_equal(np.asarray(Image.open(io.BytesIO(file)))[::-1], to_display(color))
+    colors = held["pixels"]["colors"]
+    assert np.array_equal(unpacked(colors["traced"]), differing.frame.color)
+    assert np.array_equal(unpacked(colors["blender"]), differing.picture)
+
+
+def test_causes_are_those_found(differing):
+    held = content(differing)["pixels"]["differing"]
+    index, cause = unpacked(held["index"]), unpacked(held["cause"])
+    assert sorted(set(index // 48)) == [4, 30]
+    assert np.array_equal(cause, differing.causes.cause.ravel()[index])
+    assert (differing.causes.cause != 0).sum() == len(index) == 8
+
+
+def test_what_does_not_fit_is_left_out_and_said(differing):
+    whole_ = packing.size(content(differing)["pixels"])
+    held = content(differing, limit=whole_ - 1)
+    assert held["pixels"]["colors"] is None and held["pixels"]["surfaces"]
+    assert "linear colours" in " ".join(held["left_out"])
+    held = content(differing, limit=0)
+    assert held["pixels"]["surfaces"] is held["pixels"]["t_offset"] is None
+    assert len(held["left_out"]) == 3
+    validator().validate(json.loads(document.json_text(held)))
+
+
+def test_extras_are_the_literal_picture_and_derivations(differing):
+    found = result_of(page.extras(differing))
+    literal = render(differing.scene, Settings("textbook_literal"))
+    assert np.array_equal(found.literal.color, literal.color)
+    examples = differing.pixels["examples"]
+    assert set(found.derivations) == {tuple(p) for some in examples.values() for p in some[:3]}
+    assert found.trade is found.extremes is None and not found.left_out
+
+
+def test_a_slow_textbook_is_not_traced_again(differing):
+    from dataclasses import replace
+
+    from reference_tracer.compare.methods import MethodRow
+
+    slow = replace(differing, methods=(MethodRow("textbook", "float64", 1, 99.0, 0, 0),))
+    found = result_of(page.extras(slow))
+    assert found.literal is None and "99 s" in " ".join(found.left_out)
+
+
+def test_a_cancelled_picture_has_a_page(room, compared):
+    comparison = compared(room())
+    comparison.frame.cancelled = True
+    empty = Frame.empty(comparison.scene)
+    comparison.frame.rows_done[:] = empty.rows_done
+    held = content(comparison)
+    assert held["comparison"]["verdict"] == "cancelled"
+    validator().validate(json.loads(document.json_text(held)))
+
+
+def test_pages_need_no_library_but_numpy(differing, tmp_path, monkeypatch):
+    """As inside Blender: no Pillow, no Matplotlib."""
+    import sys
+
+    for name in ("PIL", "matplotlib"):
+        monkeypatch.setitem(sys.modules, name, None)
+    page.write(tmp_path / "page.html", differing)
+    assert (tmp_path / "page.html").stat().st_size > 50_000
+
+
+def test_the_pages_files_are_short():
+    files = [p for p in FOLDER.iterdir() if p.suffix in (".py", ".js", ".css", ".html")]
+    assert len(files) > 15
+    for file in files:
+        lines = file.read_text(encoding="utf-8").splitlines()
+        assert len(lines) <= 250, file.name
+        assert not any("</script" in line for line in lines if file.suffix == ".js"), file.name
+
+
+def test_the_python_in_the_docs_reads_a_page(differing, tmp_path):
+    docs = (PROJECT / "docs" / "page.md").read_text(encoding="utf-8")
+    [code] = re.findall(r"```python\n(.*?)```", docs, re.DOTALL)
+    page.write(tmp_path / "page.html", differing)
+    names: dict = {}
+    exec(code.replace("out/demo/page.html", str(tmp_path / "page.html")), names)
+    where = differing.causes.cause != 0
+    assert np.array_equal(names["cause"], differing.causes.cause[where])
+
+
+# Machado, Oliveira and Fernandes, "A physiologically-based model for simulation of color vision
+# deficiency", 2009: severity 1, of linear sRGB.
+DEFICIENT = {
+    "none": np.eye(3),
+    "protan": [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
+               [-0.003882, -0.048116, 1.051998]],
+    "deutan": [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
+               [-0.011820, 0.042940, 0.968881]],
+    "tritan": [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
+               [0.004733, 0.691367, 0.303900]],
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", DEFICIENT)
+def test_causes_are_told_apart_whatever_colours_one_sees(kind):
+    """By CIE 1976's distance in L*a*b*; 10 is what one sees at a glance."""
+    from itertools import combinations
+
+    from reference_tracer.report.pictures import CAUSE_COLORS
+    from skimage.color import rgb2lab
+
+    linear = np.clip(np.array(list(CAUSE_COLORS.values())) @ np.array(DEFICIENT[kind]).T, 0, 1)
+    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    for first, second in combinations(rgb2lab(srgb), 2):
+        assert np.linalg.norm(first - second) > 10
