@@ -15,6 +15,7 @@ from .known import Floats
 
 FLOAT32 = 2.0**-24  # its rounding unit
 LOSSY = 300  # of those: as far as ordinary pairs may be off that were computed in float32
+LEAST = FLOAT32 / 64  # and as far as half of them are off at least
 NAMES = "s1", "s2", "s3"
 
 
@@ -57,7 +58,8 @@ def _off(a: Answers) -> Floats:
 
 def is_single(a: Answers) -> bool:
     """Return whether t has the digits of float32."""
-    return _fits(a, a.wrong_t, _off(a) < LOSSY * FLOAT32)
+    off = _off(a)
+    return _fits(a, a.wrong_t, off < LOSSY * FLOAT32) and np.median(off[a.wrong_t]) > LEAST
 
 
 def single_t(a: Answers) -> Found:
@@ -116,7 +118,7 @@ def single_s(a: Answers) -> Found:
     """See whether barycentrics have the digits of float32."""
     off: Floats = np.abs(a.s - a.checks.known.s).max(axis=1)
     single = off < LOSSY * FLOAT32
-    if _fits(a, a.wrong_s, single):
+    if _fits(a, a.wrong_s, single) and np.median(off[a.wrong_s]) > LEAST:
         yield "float32", _SINGLE.format("s", np.median(off[a.wrong_s & single])), single
 
 
