@@ -32,6 +32,8 @@ def tour():
     scene = window().scene
     yield 1
     screenshot("empty")
+    subprocess.run(["xdotool", "mousemove", "700", "870", "click", "1"], check=True)  # the splash
+    yield 1
     bpy.ops.mesh.primitive_monkey_add(size=2, location=(0.5, -2, 0.3), rotation=(-0.4, 0, 0.9))
     bpy.ops.mesh.primitive_plane_add(size=9, location=(0, 0, -1))
     bpy.ops.object.select_all(action="DESELECT")
@@ -57,14 +59,13 @@ def tour():
     )
     shown = area("VIEW_3D")
     shown.type = "IMAGE_EDITOR"
-    for name in ("traced", "difference"):
-        shown.spaces.active.image = images[name]
-        yield 1
-        inside = next(r for r in shown.regions if r.type == "WINDOW")
-        with bpy.context.temp_override(window=window(), area=shown, region=inside):
-            bpy.ops.image.view_all(fit_view=True)
-        yield 1
-        screenshot(name)
+    shown.spaces.active.image = images["traced"]
+    yield 1
+    inside = next(r for r in shown.regions if r.type == "WINDOW")
+    with bpy.context.temp_override(window=window(), area=shown, region=inside):
+        bpy.ops.image.view_all(fit_view=True)
+    yield 1
+    screenshot("traced")
 
 
 def play(steps):
