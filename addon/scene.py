@@ -320,15 +320,21 @@ class Scene:
 
     @cached_property
     def color_table(self) -> NDArray[np.float32]:
-        """The colours of all instances below one another, (r, 4) linear RGBA."""
-        return np.concatenate([np.zeros((0, 4), np.float32), *(i.colors for i in self.instances)])
+        """The colours of all instances below one another, of the planes, and the background.
+
+        (r, 4) linear RGBA; those of surfaces are opaque.
+        """
+        surfaces = [i.colors for i in self.instances] + [p.color[None] for p in self.planes]
+        table = np.concatenate([*surfaces, self.background[None]])
+        table[:-1, 3] = 1
+        return table
 
     @cached_property
-    def color_rows(self) -> NDArray[np.intp]:
-        """First and last row of each instance in `color_table`, (2, k)."""
-        counts = np.array([len(i.colors) for i in self.instances], np.intp)
+    def color_rows(self) -> NDArray[np.int32]:
+        """First and last row in `color_table`, (2, k + 1): of instances, planes, and nothing."""
+        counts = np.array([*(len(i.colors) for i in self.instances), *(1,) * len(self.planes), 1])
         ends = np.cumsum(counts)
-        return np.stack((ends - counts, ends - 1))
+        return np.stack((ends - counts, ends - 1)).astype(np.int32)
 
     @property
     def triangle_count(self) -> int:

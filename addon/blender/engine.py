@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import bpy
@@ -30,7 +30,8 @@ SHOWN = 10.0  # seconds that the status bar shows a message
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 # Name, channels, their names, kind, and what of the frame it holds (one-based indices: 0 is none).
-PASSES: tuple[tuple[str, int, str, str, Callable[[Frame], NDArray]], ...] = (
+Pass = tuple[str, int, str, str, Callable[[Frame], NDArray]]
+PASSES: tuple[Pass, ...] = (
     ("Combined", 4, "RGBA", "COLOR", lambda f: f.color),
     ("Depth", 1, "Z", "VALUE", lambda f: np.minimum(f.depth, NO_HIT_DEPTH)),
     ("T", 1, "X", "VALUE", lambda f: np.minimum(f.t, NO_HIT_DEPTH)),
@@ -78,7 +79,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         for line in manifest.lines():
             print(f"Reference Tracer: {line}")
         settings = depsgraph.scene.reference_tracer.settings()
-        frame = Frame.empty(scene.camera)
+        frame = Frame.empty(scene)
         layer = depsgraph.view_layer.name
         for share in steps(scene, settings, frame):
             if share < 1 and self.test_break():
@@ -90,8 +91,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
                 shown = now
                 left = f", {(now - began) * (1 - share) / share:.0f} s left" if share else ""
                 self.update_stats("", f"Tracing {int(100 * share)} %{left}")
-                self._show(frame, layer)
-        self._show(frame, layer)
+                self._show(frame, layer, PASSES[:1])
+        self._show(frame, layer, PASSES)
         if frame.cancelled:
             done, rows = int(frame.rows_done.sum()), len(frame.rows_done)
             _say(f"Cancelled: {done} of {rows} rows are traced, the others are empty")
@@ -102,12 +103,12 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
             self.report({"WARNING"}, note[0].upper() + note[1:])
         self.update_stats("", required[0] if required else "")
 
-    def _show(self, frame: Frame, layer: str) -> None:
+    def _show(self, frame: Frame, layer: str, passes: Sequence[Pass]) -> None:
         """Give Blender the rows that are done."""
         height, width = frame.t.shape
         result = self.begin_result(0, 0, width, height, layer=layer)
         have = result.layers[0].passes
-        for name, channels, letters, _, of in PASSES:
+        for name, channels, letters, _, of in passes:
             if name not in have:
                 self.add_pass(name, channels, letters, layer=layer)
             values = np.ascontiguousarray(of(frame), dtype=np.float32)

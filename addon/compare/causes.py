@@ -19,7 +19,7 @@ from ..tracer.camera import pixel_size, project
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import tiles
-from ..tracer.visibility import NOTHING, Hits
+from ..tracer.visibility import NOTHING
 from .again import look_again
 from .bounds import SNAPPING, pixel_error, view_error
 from .cause import Cause, Causes, Settler, differing
@@ -93,15 +93,11 @@ def _sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDAr
     """Do the work of :func:`sample_band`, some rows at a time."""
     own = np.zeros(frame.t.shape)  # of the surface that the pixel itself shows
     for number, rows in enumerate(all_rows):
-        seen = frame.instance_index[rows] != NOTHING
-        hits = Hits(
-            frame.t[rows][seen],
-            frame.instance_index[rows][seen],
-            frame.triangle_index[rows][seen],
-            frame.barycentrics[rows][seen].T,
-        )
-        view = view_error(scene, hits, frame.position[rows][seen])
-        own[rows][seen] = pixel_error(scene.camera, hits.t, view)
+        hits = frame.hits(rows)
+        seen = np.flatnonzero(hits.instance != NOTHING)
+        hits = hits.take(seen)
+        view = view_error(scene, hits, frame.positions(rows)[seen])
+        own[rows].reshape(-1)[seen] = pixel_error(scene.camera, hits.t, view)
         yield number / len(all_rows)
     band = np.full(own.shape, SNAPPING)
     reach, most = 1, max(own.shape)

@@ -222,7 +222,7 @@ def trace_and_compare(
 
     Yields the share of the work done; the caller stops by not asking for more.
     """
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     for share in trace(scene, settings, frame):
         yield _TRACING * share
     methods = yield from scaled(list_methods(scene, settings, frame, trace), _TRACING, _METHODS)

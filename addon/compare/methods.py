@@ -62,7 +62,7 @@ def list_methods(
     wanted = [w for w in (certified, (Method.TEXTBOOK, Precision.FLOAT64)) if w]
     missing = [w for w in wanted if w not in frames]
     for number, (method, precision) in enumerate(missing):
-        traced = frames[method, precision] = Frame.empty(scene.camera)
+        traced = frames[method, precision] = Frame.empty(scene)
         tracing = trace(scene, Settings(method, precision), traced)
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
     truth = frames[certified] if certified else None

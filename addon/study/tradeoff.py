@@ -156,8 +156,9 @@ def converged(scene: Scene, samples: int) -> Work[NDArray[np.float64]]:
     for y in range(0, height, rows):
         end = min(y + rows, height)
         band = replace(large, region=Region(0, samples * y, large.width, samples * end))
-        frame = Frame.empty(band)
-        for share in steps(replace(scene, camera=band), Settings(Method.WATERTIGHT), frame):
+        part = replace(scene, camera=band)
+        frame = Frame.empty(part)
+        for share in steps(part, Settings(Method.WATERTIGHT), frame):
             yield (y + share * (end - y)) / height
         blocks = frame.color.reshape(end - y, samples, width, samples, 4)
         out[y:end] = blocks.mean(axis=(1, 3), dtype=np.float64)
@@ -212,7 +213,7 @@ def _look(choice: _Choice) -> Work[Frame]:
     try:
         tracemalloc.reset_peak()
         before = tracemalloc.get_traced_memory()[0]
-        frame = Frame.empty(choice.scene.camera)
+        frame = Frame.empty(choice.scene)
         # A scene keeps tables once they are made: each row makes its own.
         for share in steps(replace(choice.scene), choice.settings, frame):
             held, peak = tracemalloc.get_traced_memory()
@@ -242,7 +243,7 @@ def _time_all(choices: list[_Choice]) -> Work[None]:
 
 def _repeat(choice: _Choice) -> Work[None]:
     """Render once; only the steps count, not what happens between them."""
-    work = steps(choice.scene, choice.settings, Frame.empty(choice.scene.camera))
+    work = steps(choice.scene, choice.settings, Frame.empty(choice.scene))
     seconds, share = 0.0, 0.0
     while share < 1:
         began = time.perf_counter()

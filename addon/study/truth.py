@@ -49,7 +49,7 @@ class Truth:
 
 def truth_of(scene: Scene) -> Work[Truth]:
     """Find the truth of a scene."""
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     for share in steps(scene, CERTIFIED, frame):
         yield 0.5 * share
     clip = scene.camera.clip_start, scene.camera.clip_end

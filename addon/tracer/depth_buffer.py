@@ -33,6 +33,7 @@ class DepthBuffer:
         grid[region.height :] = grid[:, region.width :] = np.inf  # no pixels, so never in the way
         self._fine = np.full((rows * COARSE // FINE, self.stride // FINE), -np.inf)
         self._coarse = np.full((rows, columns), -np.inf)
+        self._stale = np.ones(rows, bool)  # whose cells are older than their pixels
 
     def pixels(self, numbers: Index) -> Index:
         """Return the region's own numbers, in rows of its width, of pixels (n,)."""
@@ -58,17 +59,20 @@ class DepthBuffer:
             nearer = np.flatnonzero(nearness > gather(self.nearness, pixel))[::-1]
             pixel, nearness = gather(pixel, nearer), gather(nearness, nearer)
             self.nearness[pixel] = nearness
+            if len(pixel):
+                low, high = (int(v) // (COARSE * self.stride) for v in (pixel.min(), pixel.max()))
+                self._stale[low : high + 1] = True
 
     def refresh(self, y0: int, y1: int) -> None:
         """Bring the cells of rows y0 <= y < y1 up to date."""
-        first, last = y0 // COARSE, -(-y1 // COARSE)
-        rows = self.nearness.reshape(-1, COARSE // FINE, FINE, self.stride)
-        rows = rows[first:last].min(axis=2)
-        fine = rows.reshape(-1, self.stride // FINE, FINE).min(axis=2)
         per = COARSE // FINE
-        self._fine[first * per : last * per] = fine
-        cells = fine.reshape(last - first, per, -1, per)
-        self._coarse[first:last] = cells.min(axis=3).min(axis=1)
+        rows = self.nearness.reshape(-1, per, FINE, self.stride)
+        for row in range(y0 // COARSE, -(-y1 // COARSE)):
+            if self._stale[row]:
+                fine = rows[row].min(axis=1).reshape(per, -1, FINE).min(axis=2)
+                self._fine[row * per : (row + 1) * per] = fine
+                self._coarse[row] = fine.reshape(per, -1, per).min(axis=2).min(axis=0)
+                self._stale[row] = False
 
     def farthest(self, x: Index, y: Index, size: int) -> NDArray[np.float64]:
         """Return the least nearness in the cells of FINE or COARSE pixels with these numbers."""
@@ -80,10 +84,14 @@ class DepthBuffer:
 
         Lowest and highest x and y, both included.
         """
+        columns = self._fine.shape[1]
         x0, x1, y0, y1 = (v // FINE for v in (x0, x1, y0, y1))
-        out = self.farthest(x0, y0, FINE)
-        for x, y in ((x1, y0), (x0, y1), (x1, y1)):
-            np.minimum(out, self.farthest(x, y, FINE), out=out)
+        cell = y0.astype(np.intp) * columns + x0
+        right, up = x1 - x0, (y1 - y0).astype(np.intp) * columns
+        cells = self._fine.ravel()
+        out = gather(cells, cell)
+        for other in (cell + right, cell + up, cell + right + up):
+            np.minimum(out, gather(cells, other), out=out)
         return out
 
     def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:

@@ -1,18 +1,25 @@
-"""What the tracer gives back: one array for each output, row 0 at the bottom."""
+"""What the tracer gives back: one array for each output, row 0 at the bottom.
+
+Stored is what tracing finds. What follows from it is computed when it is asked for.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Camera
+from ..scene import Region, Scene
+from . import shading
+from .camera import camera_rays, film_positions
 from .certainty import Certainty
-from .hits import NOTHING, Name, Statistics
+from .hits import NOTHING, Hits, Name, Statistics
 from .memory import check_memory
 
-BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 3 * 8 + 3 * 4 + 1  # of a frame's arrays
+BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 8 + 2 * 4 + 1  # of a frame's arrays
+_PIXELS = 1 << 15  # of which something is computed together
 
 
 @dataclass(eq=False)
@@ -23,12 +30,10 @@ class Frame:
     the pixel's centre.
     """
 
+    scene: Scene  # that is traced
     color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
     t: NDArray[np.float64]  # (h, w) ray parameter = depth along the view axis, metres; inf: no hit
-    position: NDArray[np.float64]  # (h, w, 3) world space, metres
-    normal: NDArray[np.float64]  # (h, w, 3) world space, unit length
     barycentrics: NDArray[np.float64]  # (h, w, 3) weights of the triangle's corners
-    object_index: NDArray[np.int32]  # (h, w) index into Scene.objects; NOTHING: no hit
     instance_index: NDArray[np.int32]  # (h, w) instances, then planes; NOTHING: no hit
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
     certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
@@ -39,7 +44,7 @@ class Frame:
     statistics: Statistics = field(default_factory=Statistics)
 
     @classmethod
-    def empty(cls, camera: Camera) -> Frame:
+    def empty(cls, scene: Scene) -> Frame:
         """Return a frame of the camera's region with no row done, its colour transparent.
 
         Raises
@@ -47,17 +52,56 @@ class Frame:
         PictureTooLargeError
             If there is not enough memory for it.
         """
-        h, w = camera.region.height, camera.region.width
+        h, w = scene.camera.region.height, scene.camera.region.width
         check_memory(w, h, BYTES_PER_PIXEL)
-        indices = [np.full((h, w), NOTHING, np.int32) for _ in range(3)]
         return cls(
+            scene,
             np.zeros((h, w, 4), np.float32),
             np.full((h, w), np.inf),
-            *(np.zeros((h, w, 3)) for _ in range(3)),
-            *indices,
+            _vectors(h, w),
+            *(np.full((h, w), NOTHING, np.int32) for _ in range(2)),
             np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
             np.zeros(h, bool),
         )
+
+    @property
+    def position(self) -> NDArray[np.float64]:
+        """Where each ray ends in world space, (h, w, 3) metres; zero where nothing is hit."""
+        return self._by_rows(self.positions)
+
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """Geometric unit normals in world space, (h, w, 3), as `shading.normals` has them."""
+        return self._by_rows(lambda rows: shading.normals(self.scene, self.hits(rows)))
+
+    @property
+    def object_index(self) -> NDArray[np.int32]:
+        """Index into `Scene.objects`, (h, w); NOTHING: no hit."""
+        return self.scene.instance_objects[self.instance_index]
+
+    def hits(self, rows: slice = slice(None)) -> Hits:
+        """Return what the centre rays of some rows met, row by row; its arrays are views."""
+        t, instance, triangle, certainty = (
+            v[rows].reshape(-1)
+            for v in (self.t, self.instance_index, self.triangle_index, self.certainty)
+        )
+        return Hits(t, instance, triangle, self.barycentrics[rows].reshape(-1, 3).T, certainty)
+
+    def positions(self, rows: slice) -> NDArray[np.float64]:
+        """Return where the rays of some rows end, (n, 3), as `position` has it."""
+        r, (y0, y1, _) = self.scene.camera.region, rows.indices(len(self.t))
+        film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
+        return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
+
+    def _by_rows(self, of: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
+        height, width = self.t.shape
+        out = _vectors(height, width)
+        together = max(1, _PIXELS // width)
+        for y in range(0, height, together):
+            rows = slice(y, min(y + together, height))
+            out[rows] = of(rows).reshape(-1, width, 3)
+        return out
 
     @property
     def depth(self) -> NDArray[np.float64]:
@@ -93,12 +137,11 @@ class Frame:
         return wrong
 
     def arrays(self) -> dict[str, NDArray]:
-        """Return the arrays of a value a pixel, by name."""
-        passes = self.passes()
-        return {name: passes[name] for name in passes if name not in ("depth", "rows_done")}
+        """Return the stored arrays by name."""
+        return {name: value for name, value in vars(self).items() if isinstance(value, np.ndarray)}
 
     def passes(self) -> dict[str, NDArray]:
-        """Return every output by name, in the order in which they are declared."""
+        """Return every output by name, also those that are computed."""
         names = (
             "color",
             "depth",
@@ -113,3 +156,8 @@ class Frame:
             "rows_done",
         )
         return {name: getattr(self, name) for name in names}
+
+
+def _vectors(height: int, width: int) -> NDArray[np.float64]:
+    """Return zeros, (h, w, 3), each component by itself in memory, as the tracer has vectors."""
+    return np.moveaxis(np.zeros((3, height, width)), 0, -1)

@@ -80,7 +80,8 @@ def render_with(
         return render(scene, settings, progress)
     with Workers(processes) as workers:
         r = scene.camera.region  # of which one pixel will do, as the arrays are replaced
-        frame = Frame.empty(replace(scene.camera, region=Region(r.x0, r.y0, r.x0 + 1, r.y0 + 1)))
+        pixel = replace(scene.camera, region=Region(r.x0, r.y0, r.x0 + 1, r.y0 + 1))
+        frame = Frame.empty(replace(scene, camera=pixel))
         for share in workers.steps(scene, settings or Settings(), frame):
             if progress:
                 progress(share)
@@ -213,8 +214,9 @@ class Workers:
             frame.ties.update(done[number].ties)
 
     def _job(self, scene: Scene, settings: Settings, frame: Frame) -> Job:
-        ticket, shared = share_frame(scene.camera, self._blocks)
-        for name, values in {**shared.arrays(), "rows_done": shared.rows_done}.items():
+        ticket, shared = share_frame(scene, self._blocks)
+        frame.scene = scene
+        for name, values in shared.arrays().items():
             setattr(frame, name, values)
         return Job(share_scene(scene, self._blocks), ticket, settings)
 

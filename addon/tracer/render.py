@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import shading
 from .any_rays import trace_rays
-from .camera import Rays, camera_rays, film_positions_of
+from .camera import Rays
 from .certainty import AssumptionError, check_assumptions
 from .frame import Frame
-from .hits import NOTHING, Hits, Statistics
+from .hits import Hits, Statistics
 from .pieces import refused
 from .progress import Work, result_of, scaled
 from .settings import Method, Precision, Settings
@@ -64,7 +64,7 @@ def render(
     AssumptionError
         If the method is `certified`, and this process's arithmetic allows no proof.
     """
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     for share in steps(scene, settings or Settings(), frame):
         if progress:
             progress(share)
@@ -182,7 +182,7 @@ def _band(
         for part in _parts(len(hits.t)):
             color[part] += shading.colors(scene, other.take(part)) / len(offsets)
             yield (number + 1) * share
-    yield from _write(scene, settings, frame, band, hits, color)
+    yield from _write(scene, frame, band, hits, color)
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:
@@ -217,34 +217,25 @@ def _parts(count: int) -> list[slice]:
 
 
 def _write(
-    scene: Scene, settings: Settings, frame: Frame, band: Region, hits: Hits, color: NDArray | None
+    scene: Scene, frame: Frame, band: Region, hits: Hits, color: NDArray | None
 ) -> Work[None]:
     """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
     rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
-    # The rows of an array of the whole region: views of it, one pixel a row.
-    targets = {n: v[rows].reshape(len(hits.t), *v.shape[2:]) for n, v in frame.arrays().items()}
+    colors = frame.color[rows].reshape(-1, 4)
     for part in _parts(len(hits.t)):
         with frame.statistics.stage("shade"):
-            targets["color"][part] = scene.background if color is None else color[part]
-            targets["certainty"][part] = hits.certainty[part]
-            seen = part.start + np.flatnonzero(hits.instance[part] != NOTHING)
-            if len(seen):
-                some = hits.take(seen)
-                film = film_positions_of(band, seen)
-                rays = camera_rays(scene.camera, *film, settings.precision.dtype)
-                if color is None:
-                    targets["color"][seen] = shading.colors(scene, some)
-                for name, value in (
-                    ("t", some.t),
-                    ("position", shading.positions(rays, some)),
-                    ("normal", shading.normals(scene, some)),
-                    ("barycentrics", some.s.T),
-                    ("object_index", shading.objects(scene, some)),
-                    ("instance_index", some.instance),
-                    ("triangle_index", some.triangle),
-                ):
-                    targets[name][seen] = value
+            colors[part] = shading.colors(scene, hits.take(part)) if color is None else color[part]
         yield 1.0
+    with frame.statistics.stage("shade"):
+        shape = band.height, band.width
+        frame.barycentrics[rows] = np.moveaxis(hits.s.reshape(3, *shape), 0, -1)
+        for array, values in (
+            (frame.t, hits.t),
+            (frame.instance_index, hits.instance),
+            (frame.triangle_index, hits.triangle),
+            (frame.certainty, hits.certainty),
+        ):
+            array[rows] = values.reshape(shape)
     first = rows.start * band.width
     frame.ties.update((first + pixel, names) for pixel, names in hits.ties.items())
     frame.rows_done[rows] = True

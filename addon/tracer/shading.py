@@ -1,6 +1,6 @@
 """Constant shading, and the other outputs of a hit: colour, position, normal, object.
 
-In come `Hits` and the rays that made them; out go arrays, a row a ray. All of it is float64
+In come `Hits`, for the position with their rays; out go arrays, a row a ray. All of it is float64
 whatever the precision of the intersection: it says where the hit was found to be.
 """
 
@@ -23,24 +23,20 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     The colour of a triangle is that of its material slot; where the mesh has corner colours, the
     barycentrics weigh them.
     """
-    smooth = any(mesh.corner_colors is not None for mesh in scene.meshes)
-    if not smooth:  # neighbours mostly see the same triangle
-        first, run = _runs(hits)
-        hits = hits.take(first)
-    out = np.empty((len(hits.t), 4), np.float32)
-    out[:] = scene.background
-    for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
-        out[hits.instance == index] = infinite.color
-    for mesh, rows in _by_mesh(scene, hits):
-        triangle, instance = hits.triangle[rows], hits.instance[rows]
-        if mesh.corner_colors is not None:
-            out[rows] = (mesh.corner_colors[triangle] * hits.s[:, rows].T[..., None]).sum(axis=1)
-        else:
-            low, high = scene.color_rows.take(instance, axis=1)
-            row = np.minimum(low + mesh.slots.take(triangle), high)
-            out[rows] = scene.color_table.take(row, axis=0)
-    out[hits.instance != NOTHING, 3] = 1
-    return out if smooth else out.take(run, axis=0)
+    first, last = scene.color_rows
+    row = first[hits.instance]
+    if (first != last).any():
+        for mesh, pixels in _by_mesh(scene, hits):
+            slots = mesh.slots.take(hits.triangle[pixels])
+            row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
+    out = scene.color_table.take(row, axis=0)
+    if any(mesh.corner_colors is not None for mesh in scene.meshes):
+        for mesh, pixels in _by_mesh(scene, hits):
+            if mesh.corner_colors is not None:
+                corners = mesh.corner_colors[hits.triangle[pixels]]
+                out[pixels] = (corners * hits.s[:, pixels].T[..., None]).sum(axis=1)
+                out[pixels, 3] = 1
+    return out
 
 
 def interpolated(scene: Scene, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
@@ -89,9 +85,12 @@ def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def _near_1(v: Vectors) -> Vectors:
-    """Return vectors scaled so that their products neither overflow nor underflow."""
+    """Return vectors as they are or scaled, so that products neither overflow nor underflow."""
     x, y, z = np.abs(v)
-    return np.ldexp(v, -np.frexp(np.maximum(np.maximum(x, y), z))[1])
+    size = np.maximum(np.maximum(x, y), z)
+    if (((size > 2.0**-100) & (size < 2.0**100)) | (size == 0)).all():
+        return v
+    return np.ldexp(v, -np.frexp(size)[1])
 
 
 def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Camera, Scene, ViewWindow
+from ..scene import Camera, Region, Scene, ViewWindow
 from .frame import BYTES_PER_PIXEL, Frame
 from .memory import check_memory
 
@@ -50,14 +50,13 @@ class SceneTicket:
 
 @dataclass(frozen=True)
 class FrameTicket:
-    """Where the arrays of a frame of the camera's region are."""
+    """Where the arrays of a frame are."""
 
-    camera: Camera
     block: str
 
-    def open(self) -> Frame:
-        """Return the frame; its rows are to be cleared (:func:`clear`) before they are traced."""
-        return _frame(self.camera, SharedMemory(self.block))
+    def open(self, scene: Scene) -> Frame:
+        """Return the frame of a scene; rows are to be cleared (:func:`clear`) before tracing."""
+        return _frame(scene, SharedMemory(self.block))
 
 
 class Blocks:
@@ -116,7 +115,7 @@ def share_scene(scene: Scene, blocks: Blocks) -> SceneTicket:
     return SceneTicket(file.getvalue(), memory.name, tuple(spans))
 
 
-def share_frame(camera: Camera, blocks: Blocks) -> tuple[FrameTicket, Frame]:
+def share_frame(scene: Scene, blocks: Blocks) -> tuple[FrameTicket, Frame]:
     """Make a frame in a new block; its rows are not cleared yet.
 
     Raises
@@ -124,10 +123,10 @@ def share_frame(camera: Camera, blocks: Blocks) -> tuple[FrameTicket, Frame]:
     PictureTooLargeError, OSError
         If there is not enough memory, or not enough shared memory.
     """
-    region = camera.region
+    region = scene.camera.region
     check_memory(region.width, region.height, BYTES_PER_PIXEL)
-    memory = blocks.reserve(max(first + count for _, first, *_, count in _layout(camera)))
-    return FrameTicket(camera, memory.name), _frame(camera, memory)
+    memory = blocks.reserve(max(first + count for _, first, *_, count in _layout(region)))
+    return FrameTicket(memory.name), _frame(scene, memory)
 
 
 def clear(frame: Frame, rows: slice | NDArray[np.bool_]) -> None:
@@ -172,14 +171,14 @@ def _fill(memory: SharedMemory, parts: list[memoryview], spans: list[Span]) -> N
             file.write(part)
 
 
-def _frame(camera: Camera, memory: SharedMemory) -> Frame:
-    layout = _layout(camera)
-    return Frame(**{name: _view(memory, *where) for name, *where, _ in layout})
+def _frame(scene: Scene, memory: SharedMemory) -> Frame:
+    layout = _layout(scene.camera.region)
+    return Frame(scene, **{name: _view(memory, *where) for name, *where, _ in layout})
 
 
-def _layout(camera: Camera) -> list[tuple[str, int, tuple[int, ...], np.dtype, int]]:
+def _layout(region: Region) -> list[tuple[str, int, tuple[int, ...], np.dtype, int]]:
     """Return name, first byte, shape, dtype and number of bytes of the arrays of a frame."""
-    out, first, size = [], 0, (camera.region.height, camera.region.width)
+    out, first, size = [], 0, (region.height, region.width)
     for name, value in _empty_pixel().items():
         shape = (*size[: value.ndim], *value.shape[2:])
         count = math.prod(shape) * value.itemsize
@@ -191,5 +190,4 @@ def _layout(camera: Camera) -> list[tuple[str, int, tuple[int, ...], np.dtype, i
 @cache
 def _empty_pixel() -> dict[str, NDArray]:
     """Return the arrays of an empty frame of one pixel, by name."""
-    frame = Frame.empty(Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 1, 1))
-    return {**frame.arrays(), "rows_done": frame.rows_done}
+    return Frame.empty(Scene(Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 1, 1))).arrays()

@@ -17,7 +17,7 @@ from ..scene import Plane, Region, Scene
 from .bounds import U, plane_depths
 from .camera import camera_rays, film_positions_of
 from .cover import LARGE, Boxes, Covered, covered, split
-from .depth_buffer import DepthBuffer
+from .depth_buffer import FINE, DepthBuffer
 from .film import Film
 from .footprints import Footprints, footprints
 from .hits import NOTHING, Hits, Statistics
@@ -164,20 +164,21 @@ class Sweep:
             for first in range(0, len(slab), _TRIANGLES):
                 some = slab[first : first + _TRIANGLES]
                 boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
-                shape, front = boxes.shape, gather(nearest, some)
-                # Sorted by shape, so that what is evaluated together lies together.
-                open_ = self._not_hidden(boxes, shape, front)
-                open_ = open_.take(np.argsort(shape.take(open_), kind="stable"))
-                some, shape = some.take(open_), shape.take(open_)
-                if not len(some):
+                open_ = self._not_hidden(boxes, gather(nearest, some))
+                if not len(open_):
                     continue
+                # Sorted by shape, so that what is evaluated together lies together.
+                shape = boxes.take(open_).shape
+                order = np.argsort(shape, kind="stable")
+                open_, shape = open_.take(order), shape.take(order)
+                some = some.take(open_)
                 origin = gather(low, some)
                 width, height = gather(high, some) - origin
                 found = footprints(
                     self._film,
                     expanded.vertices,
                     gather(expanded.corners, some),
-                    front.take(open_),
+                    gather(nearest, some),
                     origin,
                     np.maximum(width, height) + 1.0,
                 )
@@ -192,10 +193,10 @@ class Sweep:
     def _boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
         return boxes_of(self._scene, self._film, expanded)
 
-    def _not_hidden(self, boxes: Boxes, shape: NDArray, nearest: NDArray) -> Index:
+    def _not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
         farthest = np.full(len(nearest), -np.inf)
-        small = np.flatnonzero(shape != LARGE)
+        small = np.flatnonzero((boxes.high - boxes.low).max(axis=0) < FINE)
         (x0, y0), (x1, y1) = gather(boxes.low, small), gather(boxes.high, small)
         farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
         return np.flatnonzero(~(nearest < farthest))

@@ -21,7 +21,7 @@ from .depth_buffer import DepthBuffer
 from .film import Film
 from .hits import NOTHING, Hits, Statistics
 from .kept import Kept
-from .pieces import Numbering
+from .pieces import Names, Numbering
 from .progress import Steps, named
 from .resolve import TOGETHER, Prepared
 from .rivals import Surfaces
@@ -29,6 +29,7 @@ from .vector import gather
 from .world import WorldTriangles, world_corners
 
 _PAIRS = 1 << 15  # that a contest tests at a time
+_PIXELS = 1 << 17  # whose surfaces are prepared together: what that takes is some MiB
 
 Index = NDArray[np.integer]
 
@@ -88,19 +89,28 @@ class Verdict:
         """Enter pixels, in their order, that surely see the surface which is all that they have."""
         for piece, own, first in self._numbers.by_piece(surface):
             at, row = pixel[own], surface[own] - first
-            surfaces = Surfaces(self._planes, len(self._scene.instances), WorldTriangles.none())
-            if piece.first != NOTHING:
-                used, row = _used(row, piece.count)
-                names = piece.of(used)
-                triangles = WorldTriangles(world_corners(self._scene, *names), *names)
-                surfaces = Surfaces((), 0, triangles)
+            room = np.empty(piece.count, np.int32)
+            for start in range(0, len(at), _PIXELS):
+                part = slice(start, start + _PIXELS)
+                yield from self._enter_some(hits, at[part], row[part], piece, room)
+
+    def _enter_some(
+        self, hits: Hits, at: Index, row: Index, piece: Names, room: NDArray[np.int32]
+    ) -> Steps[None]:
+        """Enter pixels that surely see these surfaces of a piece."""
+        surfaces = Surfaces(self._planes, len(self._scene.instances), WorldTriangles.none())
+        if piece.first != NOTHING:
+            used, row = _used(row, room)
+            names = piece.of(used)
+            triangles = WorldTriangles(world_corners(self._scene, *names), *names)
+            surfaces = Surfaces((), 0, triangles)
+        prepared = Prepared(self._around, surfaces)
+        yield "rounding"
+        for first in range(0, len(at), TOGETHER):
+            part = slice(first, first + TOGETHER)
+            prepared.enter(hits, at[part], self._rays(at[part]), row[part])
             yield "rounding"
-            prepared = Prepared(self._around, surfaces)
-            for first in range(0, len(at), TOGETHER):
-                part = slice(first, first + TOGETHER)
-                prepared.enter(hits, at[part], self._rays(at[part]), row[part])
-                yield "rounding"
-            prepared.finish(hits, self._rays)
+        prepared.finish(hits, self._rays)
 
     def _rays(self, pixel: Index) -> Rays:
         """Return the rays of pixels of the region, numbered row by row."""
@@ -134,16 +144,14 @@ class Verdict:
         hits.ties.update((int(which[k]), names) for k, names in found.ties.items())
 
 
-def _used(number: Index, count: int) -> tuple[Index, Index]:
-    """Return which of `count` numbers occur, and where each of `number` is among them.
+def _used(number: Index, room: NDArray[np.int32]) -> tuple[Index, Index]:
+    """Return which numbers occur, and where each of `number` is among them.
 
     In the order in which they occur first: neighbours in the picture are neighbours in memory.
+    `room` has a place for each number there may be.
     """
-    if count > 8 * len(number):
-        return np.unique(number, return_inverse=True)
     every = np.arange(len(number), dtype=np.int32)
-    first = np.empty(count, np.int32)
-    first[number[::-1]] = every[::-1]
-    used = number.take(np.flatnonzero(gather(first, number) == every))
-    first[used] = every[: len(used)]
-    return used, gather(first, number)
+    room[number[::-1]] = every[::-1]
+    used = number.take(np.flatnonzero(gather(room, number) == every))
+    room[used] = every[: len(used)]
+    return used, gather(room, number)

@@ -104,7 +104,8 @@ def serve(connection: Connection) -> None:
 
 
 def _trace(connection: Connection, job: Job) -> None:
-    scene, frame = job.scene.open(), job.frame.open()
+    scene = job.scene.open()
+    frame = job.frame.open(scene)
     band_tracer = result_of(prepare(scene, job.settings, frame))
     connection.send(Prepared(frame.statistics.refused))
     first = scene.camera.region.y0

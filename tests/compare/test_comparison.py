@@ -99,7 +99,7 @@ def test_not_decidable_is_a_warning(make):
 
 
 def test_cancelled(scene):
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     frame.cancelled = True
     found = compared(scene, render(scene).color, frame=frame)
     assert found.verdict == "cancelled" and EXIT_CODES["cancelled"] != 0

@@ -143,11 +143,13 @@ def test_coverage_error_by_hand():
 
 
 def test_largest_t_error_looks_where_both_see_the_same(ball):
-    certified = Frame.empty(replace(ball.camera, width=4, height=1, region=None))
+    certified = Frame.empty(
+        replace(ball, camera=replace(ball.camera, width=4, height=1, region=None))
+    )
     certified.instance_index[:] = [[0, 0, 0, NOTHING]]
     certified.triangle_index[:] = [[3, 4, 5, NOTHING]]
     certified.t[:] = [[1.0, 2.0, 3.0, np.inf]]
-    frame = Frame.empty(replace(ball.camera, width=4, height=1, region=None))
+    frame = Frame.empty(replace(ball, camera=replace(ball.camera, width=4, height=1, region=None)))
     assert largest_t_error(frame, certified) is None
     frame.instance_index[:], frame.triangle_index[:] = certified.instance_index, [[3, 4, 9, -1]]
     frame.t[:] = [[1.25, 1.5, 99.0, np.inf]]

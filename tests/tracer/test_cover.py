@@ -162,9 +162,12 @@ def test_cells_that_no_edge_lets_in_or_that_are_hidden_are_dropped():
 
     open_cells = {(x, y) for x in range(16, 128, FINE) for y in range(0, 128, FINE)}
     assert lows() == open_cells
-    depths.nearness.reshape(-1, depths.stride)[:64, 64:128] = 1.0  # nearer than the triangle
-    depths.refresh(0, 128)
-    assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64}
-    depths.nearness.reshape(-1, depths.stride)[33, 70] = -1.0
+    hidden = np.arange(64)[:, None] * depths.stride + np.arange(64, 128)
+    hidden = hidden[hidden != (hole := 33 * depths.stride + 70)]
+    depths.enter(hidden, np.full(len(hidden), 1.0))  # nearer than the triangle
+    depths.enter(np.array([hole]), np.array([-1.0]))
     depths.refresh(0, 128)
     assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64} | {(64, 32)}
+    depths.enter(np.array([hole]), np.array([1.0]))
+    depths.refresh(0, 128)
+    assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64}

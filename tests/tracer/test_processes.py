@@ -59,7 +59,7 @@ def check_nothing_left(blocks: list[str], before: list) -> None:
 
 
 def traced(workers: Workers, scene: Scene, settings: Settings) -> Frame:
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     assert list(workers.steps(scene, settings, frame))[-1] == 1
     return frame
 
@@ -152,7 +152,7 @@ def test_workers_last(workers, make):
 def test_progress_rises_to_1_at_the_end(workers, make):
     scene = make.scene(make.camera(200, 150), make.mesh(trimesh.creation.icosphere(4)))
     scene = replace(scene, camera=replace(scene.camera, world_from_camera=_backed(6)))
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     began = time.perf_counter()
     shares = list(workers.steps(scene, Settings(samples=6), frame))
     seconds = time.perf_counter() - began
@@ -196,8 +196,10 @@ def test_an_error_in_a_worker_is_raised_here(make, blocks):
     before = multiprocessing.active_children()
     mesh = make.quad(-1, 1, -1, 1, -3)
     object.__setattr__(mesh, "slots", np.zeros(0, np.int32))
+    scene = make.scene(make.camera(), mesh)
+    two = replace(scene.instances[0], colors=np.ones((2, 4)))
     with pytest.raises(IndexError) as caught:
-        render_with(make.scene(make.camera(), mesh), Settings(), 2)
+        render_with(replace(scene, instances=[two]), Settings(), 2)
     told = str(caught.value.__cause__)
     assert "Traceback" in told and "shading.py" in told and "IndexError" in told
     check_nothing_left(blocks, before)
@@ -255,13 +257,13 @@ def test_who_stops_asking_ends_the_workers(make, blocks):
     before = multiprocessing.active_children()
     scene = make.scene(make.camera(200, 150), make.quad(-1, 1, -1, 1, -3))
     with Workers(1) as crew:
-        work = crew.steps(scene, Settings(samples=12), Frame.empty(scene.camera))
+        work = crew.steps(scene, Settings(samples=12), Frame.empty(scene))
         while next(work) == 0:
             pass
         work.close()
         check_nothing_left(blocks, before)
         with pytest.raises(WorkerError, match="have ended"):
-            next(crew.steps(scene, Settings(), Frame.empty(scene.camera)))
+            next(crew.steps(scene, Settings(), Frame.empty(scene)))
 
 
 def test_too_little_shared_memory_is_said_before_any_work(make, monkeypatch):
@@ -269,9 +271,9 @@ def test_too_little_shared_memory_is_said_before_any_work(make, monkeypatch):
     before = multiprocessing.active_children()
     Room = namedtuple("Room", "f_bavail f_frsize")
     monkeypatch.setattr(shared, "_SHARED", Path())
-    monkeypatch.setattr(os, "statvfs", lambda path: Room(64, 1 << 20), raising=False)
+    monkeypatch.setattr(os, "statvfs", lambda path: Room(32, 1 << 20), raising=False)
     scene = make.scene(make.camera(1000, 1000), make.quad(-1, 1, -1, 1, -3))
-    with pytest.raises(OSError, match=r"need 103 MiB of shared memory, of which 64 MiB are free"):
+    with pytest.raises(OSError, match=r"need 54 MiB of shared memory, of which 32 MiB are free"):
         render_with(scene, Settings(), 2)
     assert set(multiprocessing.active_children()) <= set(before)
 

@@ -175,7 +175,7 @@ def test_progress_rises_to_1_at_the_end(busy, samples):
 
 
 def test_steps_are_small(busy):
-    frame = Frame.empty(busy.camera)
+    frame = Frame.empty(busy)
     tested = [0]
     for _ in steps(busy, Settings("moller_trumbore"), frame):
         tested.append(frame.statistics.pairs_tested)
@@ -197,7 +197,7 @@ def test_a_cancelled_picture_keeps_its_rows(busy, share):
         if name == "rows_done":
             continue
         assert np.array_equal(values[:rows], getattr(whole, name)[:rows])
-        assert np.array_equal(values[rows:], getattr(Frame.empty(busy.camera), name)[rows:])
+        assert np.array_equal(values[rows:], getattr(Frame.empty(busy), name)[rows:])
 
 
 def test_cancelling_a_whole_picture_does_nothing(make):

@@ -155,6 +155,7 @@ class Timing:
         scene = self.scene()
         began = time.perf_counter()
         frame = render(scene, settings)
+        frame.passes()
         seconds = time.perf_counter() - began
         self._stages[settings].append(frame.statistics.stages)
         if settings == CERTIFIED:
