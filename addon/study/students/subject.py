@@ -92,7 +92,7 @@ def prepare(
         About so many: every second, third and so on in both directions. None for all.
     """
     region = scene.camera.region
-    frame = Frame.empty(scene.camera)
+    frame = Frame.empty(scene)
     for share in steps(scene, Settings(Method.CERTIFIED), frame):
         yield 0.5 * share
     total = region.width * region.height
