@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
 
 import pytest
-from reference_tracer.arguments import AGREE, DIFFERENCES, INPUT_ERROR
+from reference_tracer.arguments import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
 from reference_tracer.cli import main
 from reference_tracer.commands.judge import built_in
 from reference_tracer.scene_files import save_scene
@@ -127,3 +132,25 @@ def test_built_in_scenes_need_no_blender():
     assert [name for name, _, path in built_in() if path.is_file()] == [
         f"exercise_{kind}" for kind in ("orthographic", "perspective", "plane", "triangle")
     ]
+
+
+def test_ctrl_c_ends_the_student_too(tmp_path):
+    """The student's process is not the terminal's to end: this one does."""
+    path = tmp_path / "endless.py"
+    path.write_text(
+        "import os, pathlib\n"
+        f"pathlib.Path({str(tmp_path / 'pid')!r}).write_text(str(os.getpid()))\n"
+        "while True:\n    pass\n"
+    )
+    command = [sys.executable, "-m", "reference_tracer.cli", "judge", str(path), *SMALL]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    pid = tmp_path / "pid"
+    for _ in range(600):
+        if pid.exists() and pid.read_text():
+            break
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    assert "interrupted" in process.communicate(timeout=20)[1]
+    assert process.returncode == INTERRUPTED
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(pid.read_text()), 0)

@@ -113,7 +113,8 @@ def _student(number: int, j: Judgement, encode: Encode) -> str:
         parts.append(_table(names, rows))
     parts += [_scene(found, j.examples[found.subject.name], encode) for found in j.looks]
     if j.extremes:
-        head = "the first scale at which a ray is lost", "student", "textbook", "Möller–Trumbore"
+        names = "student", "not by rounding", "textbook", "Möller–Trumbore"
+        head = "the first scale at which a ray is lost", *names
         why = "Does not count: every formula in float64 gives way somewhere. A dot: it never does."
         parts.append(f"<h3>At the extremes</h3><p>{why}</p>")
         parts.append(_table(head, [tuple(map(escape, row)) for row in held_rows(j)]))

@@ -69,7 +69,7 @@ def lines(j: Judgement) -> list[str]:
     return out
 
 
-_YARDS = "student", "textbook", "Möller–T."
+_YARDS = "student", "not by rounding", "textbook", "Möller–T."
 
 
 def wrapped(text: str) -> list[str]:
@@ -79,13 +79,11 @@ def wrapped(text: str) -> list[str]:
 
 def held_rows(j: Judgement) -> list[tuple[str, ...]]:
     """Return cells of how far each sweep holds; a dot where it holds to its end."""
-    return [
-        (
-            h.scenario,
-            *("." if v is None else written(v) for v in (h.student, *h.yardsticks.values())),
-        )
-        for h in held(j.extremes)
-    ]
+    rows = []
+    for h in held(j.extremes):
+        scales = h.student, h.wrong, *h.yardsticks.values()
+        rows.append((h.scenario, *("." if v is None else written(v) for v in scales)))
+    return rows
 
 
 def tallies(j: Judgement) -> list[tuple[str, Tally]]:

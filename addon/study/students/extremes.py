@@ -20,9 +20,10 @@ from ...tracer.triangle import METHODS
 from ..scenarios.scenario import QUICK_HEIGHT, QUICK_WIDTH, Scenario
 from ..scenarios.sweeps import SCENARIOS
 from .known import Floats
-from .picture import Ask, look
+from .picture import EXCUSED, Ask, Mark, look
 from .subject import Subject, prepare
 
+_FINE = {m.name.lower() for m in (Mark.RIGHT, *EXCUSED)}
 YARDSTICKS = Method.TEXTBOOK, Method.MOLLER_TRUMBORE
 
 
@@ -44,7 +45,13 @@ class ExtremeRow:
     scale: float
     rays: int
     lost: int  # that see another surface than the certified one
+    pixels: dict[str, int]  # how many have each mark, by its name; what none has is left out
     yardsticks: dict[str, int]  # lost by the textbook's formulas, and by others, in float64
+
+    @property
+    def wrong(self) -> bool:
+        """Whether something is wrong that rounding does not excuse."""
+        return not set(self.pixels) <= _FINE
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
@@ -57,6 +64,7 @@ class Held:
 
     scenario: str
     student: float | None
+    wrong: float | None  # the first at which something is wrong that rounding does not excuse
     yardsticks: dict[str, float | None]
 
     def to_dict(self) -> dict[str, Any]:
@@ -97,8 +105,10 @@ def try_extremes(
     for done, e in enumerate(scenes):
         yield done / len(scenes)
         before()
-        lost = result_of(look(e.subject, ask)).lost
-        rows.append(ExtremeRow(e.scenario.name, e.scale, len(e.subject.t), lost, e.yardsticks))
+        found = result_of(look(e.subject, ask))
+        pixels = {name: n for name, n in found.counts.items() if n}
+        rays = len(e.subject.t)
+        rows.append(ExtremeRow(e.scenario.name, e.scale, rays, found.lost, pixels, e.yardsticks))
     return rows
 
 
@@ -111,6 +121,7 @@ def held(rows: Sequence[ExtremeRow]) -> list[Held]:
         Held(
             name,
             next((r.scale for r in sweep if r.lost), None),
+            next((r.scale for r in sweep if r.wrong), None),
             {
                 m: next((r.scale for r in sweep if r.yardsticks[m]), None)
                 for m in sweep[0].yardsticks

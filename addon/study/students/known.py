@@ -4,15 +4,18 @@ Whether a ray meets its triangle is decided by the certified tracer. How far a s
 be off is a bound, so that nobody is blamed for rounding: with arm = p1 - o, the edges' product
 N = |p2 - p1| x |p3 - p1| (all terms with +), the longest edge L, n the normal and k = L^2 / |n|,
 
-    dt = K u (|arm| . N + |t| |d| . N) / |d . n|
-    dx = |d| dt + 4 u (|o| + |t d| + |p|)
+    e  = K u (|arm| . N + |t| |d| . N) / |d . n|        of t, from the plane
+    dx = |d| e + 4 u (|o| + |t d| + |p|)                of the point
     ds = K u k^2 + k dx / L
+    dt = e + K u k^2 L / |d|
 
 These are the textbook's formulas, term by term, each term's size times some roundings u = 2^-53: n
 carries an error of some u N; t that of two products with n; x = o + t d that of t; and s_i is
 n . n_si / |n|^2, whose n_si has the error of x times an edge, and which cancels once more where the
 triangle is a needle. Möller and Trumbore's is of a lower degree, so that the bound holds for it.
-K is not small: it stands for every order of summation, and for formulas that are somewhat worse.
+The last term is for formulas that find t between the corners' depths, by the barycentrics. K is not
+small: it stands for every order of summation, and for formulas that are somewhat worse. Where n . n
+leaves float64's range there is no bound at all.
 What is nearer to an edge than ds is *in doubt*: float64 may say either.
 """
 
@@ -29,6 +32,7 @@ from ...tracer.certified import decide
 from ...tracer.vector import cross, dot
 
 ROUNDINGS = 16  # K
+LEAST = 2.0**-960  # of n . n: below it, products have lost digits at float64's lower end
 
 Floats = NDArray[np.float64]
 
@@ -94,12 +98,17 @@ def allowed(rays: Rays, corners: Floats, t: Floats) -> tuple[Floats, Floats]:
     sides = np.abs(np.stack((b - a, c - a, c - b)))
     product = cross_magnitude(sides[0], sides[1])
     n = cross(b - a, c - a)
-    size, longest = np.sqrt(dot(n, n)), np.sqrt((sides * sides).sum(axis=1).max(axis=0))
+    square = dot(n, n)
+    size, longest = np.sqrt(square), np.sqrt((sides * sides).sum(axis=1).max(axis=0))
     terms = dot(np.abs(a - o), product) + np.abs(t) * dot(np.abs(d), product)
-    t_allowed = ROUNDINGS * U * terms / np.abs(dot(d, n))
+    of_t = ROUNDINGS * U * terms / np.abs(dot(d, n))
     far = (
         np.abs(o).sum(axis=0) + np.abs(t * d).sum(axis=0) + np.abs(corners).max(axis=0).sum(axis=0)
     )
-    point = np.abs(d).sum(axis=0) * t_allowed + 4 * U * far
+    point = np.abs(d).sum(axis=0) * of_t + 4 * U * far
     shape = longest * longest / size
-    return t_allowed, ROUNDINGS * U * shape * shape + shape * point / longest
+    of_s = ROUNDINGS * U * shape * shape
+    s_allowed = of_s + shape * point / longest
+    t_allowed = of_t + of_s * longest / np.sqrt(dot(d, d))
+    bounded = (square >= LEAST) & np.isfinite(square)
+    return np.where(bounded, t_allowed, np.inf), np.where(bounded, s_allowed, np.inf)

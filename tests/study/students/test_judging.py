@@ -234,9 +234,11 @@ def test_extremes(right):
     assert len(rows) == len(begun) == 6
     assert all(r.lost == r.yardsticks["textbook"] for r in rows)
     table = {h.scenario: h for h in held(rows)}
+    assert all(h.wrong is None for h in table.values())
     assert table["tiny"].student == 1e-300 and table["integer_cube"].student is None
     none = result_of(try_extremes(scenes, nothing))
     assert all(h.student is not None for h in held(none))
+    assert all(h.wrong is not None for h in held(none))
 
 
 def test_an_error_at_the_extremes(two, checks, right, written):
