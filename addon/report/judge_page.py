@@ -23,14 +23,14 @@ from .judge_table import MARKS, VERDICTS, explain, held_rows, percent, tallies
 Encode = Callable[[NDArray[np.uint8]], bytes]
 
 _STYLE = Path(__file__).with_name("judge_page.css")
-MARK_COLORS = {  # sRGB
-    Mark.EDGE: (230, 150, 40),
-    Mark.DEPTH_TIE: (40, 150, 220),
-    Mark.MISSED: (225, 30, 40),
-    Mark.FALSE_HIT: (190, 40, 200),
-    Mark.WRONG_ORDER: (120, 70, 220),
-    Mark.WRONG_T: (20, 140, 110),
-    Mark.WRONG_BARYCENTRICS: (110, 130, 20),
+MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe and Ito)
+    Mark.EDGE: (70, 70, 70),
+    Mark.DEPTH_TIE: (86, 180, 233),
+    Mark.MISSED: (213, 60, 0),
+    Mark.FALSE_HIT: (204, 121, 167),
+    Mark.WRONG_ORDER: (0, 80, 178),
+    Mark.WRONG_T: (0, 158, 115),
+    Mark.WRONG_BARYCENTRICS: (236, 200, 30),
 }
 _DIM = 0.35
 _WARNING = (
