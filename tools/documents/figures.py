@@ -175,7 +175,7 @@ def of_tour() -> dict[str, str]:
     found = json.loads(TOUR.read_text(encoding="utf-8"))
     pixels = found["pixels"]
     counts = {f"tutorial_{n}": f"{pixels[n]:,}" for n in ("total", "agree", "differ", "explained")}
-    x, y = next(at[0] for at in pixels["examples"].values())
+    x, y = found["metrics"]["largest_difference"]["pixel"]
     return counts | {"tutorial_pixel": f"{x}, {y}", "tutorial_verdict": found["verdict"]}
 
 

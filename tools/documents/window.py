@@ -43,7 +43,7 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     save(near(OUT), folder / "near.png")
     found = json.loads((OUT / "comparison.json").read_text(encoding="utf-8"))
-    kept = {name: found[name] for name in ("pixels", "verdict", "blender")}
+    kept = {name: found[name] for name in ("pixels", "metrics", "verdict", "blender")}
     (folder / "comparison.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     for shot in sorted(OUT.glob("*.png")):
         picture = Image.open(shot).convert("RGB")
@@ -59,9 +59,9 @@ def save(picture: Image.Image, path: Path) -> None:
 
 
 def near(folder: Path) -> Image.Image:
-    """Return the pixels around the first that differs: as traced, as Blender shows them, why."""
+    """Return the pixels around the one that differs most: traced, as Blender shows them, why."""
     found = json.loads((folder / "comparison.json").read_text(encoding="utf-8"))
-    x, y = next(at[0] for at in found["pixels"]["examples"].values())
+    x, y = found["metrics"]["largest_difference"]["pixel"]
     with np.load(folder / "images.npz") as images:
         height, width = images["traced"].shape[:2]
         left = min(max(x - AROUND[0], 0), width - 2 * AROUND[0] - 1)
@@ -70,7 +70,9 @@ def near(folder: Path) -> Image.Image:
         cuts = [images[n][rows, left : left + 2 * AROUND[0] + 1] for n in NAMES]
     out = Image.new("RGB", (len(cuts) * (cuts[0].shape[1] * ZOOM + GAP) - GAP, 15 * ZOOM), "white")
     for k, cut in enumerate(cuts):
-        pixels = np.ascontiguousarray(to_display(cut)[::-1, :, :3])
+        shown = to_display(cut)[::-1]
+        # On black: a pixel that sees nothing may have a trace of its neighbour's colour.
+        pixels = np.rint(shown[..., :3] * (shown[..., 3:] / 255)).astype(np.uint8)
         size = pixels.shape[1] * ZOOM, pixels.shape[0] * ZOOM
         part = Image.fromarray(pixels).resize(size, Image.Resampling.NEAREST)
         corner = (x - left) * ZOOM, size[1] - (y - low + 1) * ZOOM
