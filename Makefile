@@ -5,7 +5,7 @@
 
 PYTHON_IN_VENV := .venv/bin/python
 
-.PHONY: help demo test test-browser test-gui torture bench lint extension clean
+.PHONY: help demo test test-browser test-gui torture bench docs lint extension clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -44,6 +44,15 @@ bench: .venv/.stamp ## measure speed beside embreex, Cycles and others, half an 
 	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
 		--editable '.[bench]'
 	.venv/bin/reftrace bench --out out/bench
+
+# The tutorial's pictures are of a real window; where there can be none, they stay as they are.
+docs: extension ## refresh the documents: run their commands, compute their figures, draw
+	@if reason=$$(tools/whole_blender.sh check); then \
+		$(PYTHON_IN_VENV) tools/make_docs.py; \
+	else \
+		echo "NOT TAKEN: the tutorial's pictures of Blender's window ($$reason)"; \
+		$(PYTHON_IN_VENV) tools/make_docs.py --no-window; \
+	fi
 
 lint: .venv/.stamp ## check the style of all code
 	$(PYTHON_IN_VENV) -m ruff check .

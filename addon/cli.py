@@ -7,13 +7,13 @@ import traceback
 
 from . import __version__, images, interrupts
 from .arguments import EXIT_CODES, INPUT_ERROR, INTERRUPTED, SIZES_DIFFER, Parser, check, words
-from .commands import bench, compare, explain, export, extremes, trace, trade
+from .commands import bench, compare, explain, export, extremes, judge, trace, trade
 from .compare.comparison import SizeError
 from .scene import SceneError
 from .tracer.certainty import AssumptionError
 from .tracer.processes import WorkerError
 
-COMMANDS = (compare, trace, explain, trade, extremes, bench, export)
+COMMANDS = (compare, trace, explain, judge, trade, extremes, bench, export)
 
 _EXPECTED = (  # what a user can do something about
     *(SceneError, SizeError, OSError, MemoryError),

@@ -1,0 +1,1 @@
+"""Students' own ray/triangle tests, judged against exact arithmetic: `judging.py` begins."""

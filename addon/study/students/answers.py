@@ -1,0 +1,81 @@
+"""What a student's function made of the checks, and which of that is wrong, in three ways.
+
+Hits, t and barycentrics are judged apart: one may be wrong where the others are right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .checks import Checks, Group
+from .known import Floats
+
+Mask = NDArray[np.bool_]
+Found = Iterator[tuple[str, str, Mask]]  # a fault's name, a sentence, the answers it explains
+
+MOST, FEW = 0.9, 0.1  # shares of pairs: "nearly all", "hardly any"
+
+
+@dataclass(frozen=True, eq=False)
+class Answers:
+    """What a function made of the checks: t (n,), barycentrics (n, 3)."""
+
+    checks: Checks
+    t: Floats
+    s: Floats
+
+    @cached_property
+    def hit(self) -> Mask:
+        """Where it says to hit, in front or behind."""
+        return np.isfinite(self.t)
+
+    @cached_property
+    def both(self) -> Mask:
+        """Where it says to hit, and does."""
+        return self.hit & self.checks.known.hit
+
+    @cached_property
+    def wrong_hit(self) -> Mask:
+        """Where it hits what it should not, or the other way round, without a doubt."""
+        return (self.hit != self.checks.known.hit) & ~self.checks.known.doubt
+
+    @cached_property
+    def wrong_t(self) -> Mask:
+        """Where a hit is right, and its t is off by more than float64 may be."""
+        return self.both & ~self.is_t(self.t)
+
+    @cached_property
+    def wrong_s(self) -> Mask:
+        """Where a hit is right, and a barycentric is off by more than float64 may be."""
+        return self.both & ~self.are_s(self.s)
+
+    def is_t(self, t: Floats) -> Mask:
+        """Return where t (n,) is the true one."""
+        known = self.checks.known
+        with np.errstate(all="ignore"):
+            return np.abs(t - known.t) <= known.t_allowed
+
+    def are_s(self, s: Floats) -> Mask:
+        """Return where barycentrics (n, 3) are the true ones."""
+        known = self.checks.known
+        with np.errstate(all="ignore"):
+            return (np.abs(s - known.s) <= known.s_allowed[:, None]).all(axis=1)
+
+    def share(self, what: Mask, *groups: Group, where: Mask | None = None) -> float:
+        """Return of how many pairs of some groups something holds, 0 to 1; 0 of none."""
+        of = self.checks.of(*groups)
+        if where is not None:
+            of = of & where
+        return float(what[of].mean()) if of.any() else 0.0
+
+    @cached_property
+    def facing(self) -> Mask:
+        """Where the ray sees the corners counter-clockwise."""
+        p = self.checks.triangles
+        n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+        return (n * self.checks.directions).sum(axis=1) < 0

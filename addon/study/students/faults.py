@@ -1,0 +1,95 @@
+"""What is wrong with a student's function, by name, from what it makes of the checks.
+
+Each fault is a hypothesis with a test that can fail: it says which of the wrong answers it would
+explain, and is only given where nearly all such pairs are wrong in just this way. What no fault
+explains is said to be unrecognised.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .answers import Answers, Mask
+from .checks import Checks, Group
+from .hit_faults import HIT_TESTS
+from .known import Floats
+from .value_faults import S_TESTS, T_TESTS
+
+Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
+
+ALONE = 3, 1  # sizes of the calls in which some pairs are asked about again
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong: its name, a sentence for the student, how many checks show it."""
+
+    name: str
+    sentence: str
+    pairs: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fault as JSON can hold it."""
+        return asdict(self)
+
+
+def find_faults(answers: Answers) -> list[Fault]:
+    """Return the faults that explain a function's wrong answers, and what is unrecognised."""
+    faults: list[Fault] = []
+    for wrong, tests, what in (
+        (answers.wrong_hit, HIT_TESTS, "hits"),
+        (answers.wrong_t, T_TESTS, "values of t"),
+        (answers.wrong_s, S_TESTS, "barycentrics"),
+    ):
+        left = wrong.copy()
+        for test in tests:
+            for name, sentence, explained in test(answers):
+                if pairs := int((explained & left).sum()):
+                    left &= ~explained
+                    _enter(faults, Fault(name, sentence, pairs))
+        if left.any():
+            faults.append(_unrecognised(answers, left, what))
+    return faults
+
+
+def _enter(faults: list[Fault], new: Fault) -> None:
+    """Add a fault; of one that is there by this name, the later sentence says more."""
+    for k, old in enumerate(faults):
+        if old.name == new.name:
+            faults[k] = replace(new, pairs=old.pairs + new.pairs)
+            return
+    faults.append(new)
+
+
+def _unrecognised(answers: Answers, left: Mask, what: str) -> Fault:
+    where = [g.name.lower() for g in Group if (left & answers.checks.of(g)).any()]
+    text = f"some {what} are wrong for a reason that is not recognised: {', '.join(where)}"
+    return Fault(f"unrecognised_{what.split()[-1]}", text, int(left.sum()))
+
+
+def dependence(checks: Checks, answers: Answers, ask: Ask) -> list[Fault]:
+    """Return what is wrong if the same pairs are answered otherwise when asked again.
+
+    Some are asked about again three at a time, where (3,) and (n, 3) are easily mixed up, and one
+    at a time.
+    """
+    some = np.concatenate([np.flatnonzero(checks.of(g))[:6] for g in Group])
+    for size in ALONE:
+        for first in range(0, len(some), size):
+            rows = some[first : first + size]
+            t, s = ask(checks.origins[rows], checks.directions[rows], checks.triangles[rows])
+            hit = np.isfinite(t)
+            same = (hit == answers.hit[rows]) & (~hit | (t == answers.t[rows]))
+            same &= ~hit | ((s == answers.s[rows]) | np.isnan(s)).all(axis=1)
+            if not same.all():
+                text = (
+                    f"a pair is answered otherwise in a call of {len(rows)} than in one of "
+                    f"{len(checks.group):,}: ray k is to be tested with triangle k, whatever else "
+                    "is in the call"
+                )
+                return [Fault("depends_on_the_call", text, int((~same).sum()))]
+    return []

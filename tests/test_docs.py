@@ -1,0 +1,140 @@
+"""The documents are what `make docs` makes of them, as far as that is the same on every machine."""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+PROJECT = Path(__file__).parent.parent
+DOCS = PROJECT / "docs"
+TOOLS = str(PROJECT / "tools")
+LINK = re.compile(r"\]\((?!https?:)([^)#\s]+)")
+
+
+@pytest.fixture(scope="module")
+def tools():
+    """The modules that make the documents, which are a script's own."""
+    sys.path.insert(0, TOOLS)
+    try:
+        import make_docs
+        from documents import figures, markers, pictures
+
+        yield {"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures}
+    finally:
+        sys.path.remove(TOOLS)
+
+
+def texts():
+    return sorted(p for p in DOCS.rglob("*.md"))
+
+
+def marked():
+    return [p for p in texts() if "<!-- " in p.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize("path", marked(), ids=lambda p: p.stem)
+def test_commands_and_figures(path, tools):
+    """Run again, every command prints what the text says, and every figure is that."""
+    shutil.rmtree(PROJECT / "out" / "lessons", ignore_errors=True)
+    text = path.read_text(encoding="utf-8")
+
+    def run(command):
+        if command.how == "here":
+            return "\n".join(command.body.splitlines()[2:-1])  # as it is: another machine's
+        return tools["make"].run(command)
+
+    again = tools["markers"].refreshed(text, run, tools["figures"].values())
+    assert again.splitlines() == text.splitlines()
+
+
+def test_all_marked_documents_are_refreshed(tools):
+    assert tools["make"].documents() == marked() and len(marked()) >= 6
+
+
+@pytest.mark.parametrize("path", texts(), ids=lambda p: p.stem)
+def test_links_lead_somewhere(path):
+    for link in LINK.findall(path.read_text(encoding="utf-8")):
+        assert (path.parent / link).exists(), link
+
+
+def test_commands_are_run_ones():
+    """No block with a command stands outside the markers."""
+    for path in marked():
+        rest = re.sub(r"<!-- run.*?<!-- /run -->", "", path.read_text(encoding="utf-8"), flags=re.S)
+        assert "```" not in rest and "\n    reftrace" not in rest, path.name
+
+
+def test_pictures(tools):
+    """The lessons' pictures are what is traced today."""
+    folder = DOCS / "images" / "lessons"
+    pictures = tools["pictures"].PICTURES
+    assert {p.stem for p in folder.glob("*.png")} == set(pictures)
+    for name, make in pictures.items():
+        stored = np.asarray(Image.open(folder / f"{name}.png").convert("RGBA"))[::-1]
+        fresh = make()
+        assert stored.shape == fresh.shape, name
+        assert (stored != fresh).any(axis=2).mean() < 0.001, name
+
+
+def test_pictures_are_small():
+    for path in (*DOCS.glob("images/lessons/*.png"), *DOCS.glob("images/tutorial/*.png")):
+        assert path.stat().st_size < 150_000, path.name
+
+
+def test_the_tutorials_pictures_are_there():
+    shown = re.findall(r"images/tutorial/(\w+)\.png", (DOCS / "tutorial.md").read_text("utf-8"))
+    assert sorted(shown) == sorted(p.stem for p in DOCS.glob("images/tutorial/*.png"))
+    for name in shown:
+        picture = Image.open(DOCS / "images" / "tutorial" / f"{name}.png").convert("L")
+        assert np.asarray(picture).std() > 5, name
+
+
+def test_every_fault_is_described():
+    grading = (DOCS / "grading.md").read_text(encoding="utf-8")
+    folder = PROJECT / "addon" / "study" / "students"
+    names = set()
+    for file in ("hit_faults.py", "value_faults.py", "faults.py"):
+        for node in ast.walk(ast.parse((folder / file).read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                if re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)+|parallel|float32", node.value):
+                    names.add(node.value)
+    assert len(names) > 20
+    assert not [name for name in names if f"`{name}`" not in grading]
+
+
+def test_markers(tools):
+    markers = tools["markers"]
+    text = (
+        "a <!-- one -->0<!-- / --> b\n<!-- run: reftrace x -->\nold\n<!-- /run -->\n"
+        "<!-- run silently: reftrace y -->\n<!-- /run -->\n"
+    )
+    found = [(c.how, c.text, c.body) for c in markers.commands(text)]
+    assert found == [("", "reftrace x", "old"), ("silently", "reftrace y", "")]
+    assert markers.figures(text) == ["one"]
+
+    def run(command):
+        return f"{command.text} in 0.25 s\n00:01.234  blend | Read\nend\n"
+
+    once = markers.refreshed(text, run, {"one": "1"})
+    assert "a <!-- one -->1<!-- / --> b" in once
+    assert "```\n$ reftrace x\nreftrace x in … s\nend\n```" in once
+    assert "```\n$ reftrace y\n```" in once
+    assert markers.refreshed(once, run, {"one": "1"}) == once
+    with pytest.raises(KeyError):
+        markers.refreshed(text, run, {})
+
+
+def test_only_reftrace_is_run(tools):
+    command = tools["markers"].Command("", "rm -r /", "")
+    with pytest.raises(SystemExit, match="run reftrace"):
+        tools["make"].run(command)
+    broken = tools["markers"].Command("", "reftrace trace not_there.ply --out out/a.png", "")
+    with pytest.raises(SystemExit, match=r"no file 'not_there\.ply'"):
+        tools["make"].run(broken)

@@ -1,0 +1,84 @@
+"""What `make docs` fills in: the parts of a Markdown file between markers.
+
+    <!-- run: reftrace trace scene.blend --out out/a.png -->      a command, and what it prints
+    <!-- run here: ... -->          the same, where what it prints depends on the machine
+    <!-- run silently: ... -->      the command alone: what it prints is of no interest
+    <!-- /run -->
+    <!-- NAME -->123<!-- / -->     a figure of `figures.py`
+
+Seconds are left out, as they are other ones every time.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+MARKED = "<!-- "  # a file without this has no markers
+_RUN = re.compile(
+    r"<!-- run(?P<how>| here| silently): (?P<command>[^\n]+?) -->\n(?P<body>.*?)<!-- /run -->", re.S
+)
+_FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>[^<]*)<!-- / -->")
+_SECONDS = re.compile(r"\b\d+\.\d+ s\b")
+_BLENDERS_OWN = re.compile(r"^\d\d:\d\d\.\d+ .*\n", re.M)  # its log, with the time of day
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command that a text names: how it is run, and what the text has of it."""
+
+    how: str
+    text: str
+    body: str
+
+
+def commands(text: str) -> list[Command]:
+    """Return the commands of a text, in their order."""
+    return [
+        Command(m["how"].strip(), m["command"], m["body"].strip("\n")) for m in _RUN.finditer(text)
+    ]
+
+
+def figures(text: str) -> list[str]:
+    """Return the names of the figures that a text has."""
+    return [m["name"] for m in _FIGURE.finditer(text)]
+
+
+def settled(output: str) -> str:
+    """Return what a command prints without what is another every time."""
+    return _SECONDS.sub("… s", _BLENDERS_OWN.sub("", output)).strip("\n")
+
+
+def block(command: Command, output: str) -> str:
+    """Return a command as a block, with what it prints unless that is of no interest."""
+    lines = ["```", f"$ {command.text}"]
+    if command.how != "silently" and output:
+        lines.append(output)
+    return "\n".join([*lines, "```"])
+
+
+def refreshed(text: str, run: Callable[[Command], str], values: Mapping[str, str]) -> str:
+    """Return a text with all its commands run, and its figures filled in.
+
+    Parameters
+    ----------
+    text : str
+    run : callable
+        Runs a command; returns what it prints.
+    values : mapping
+        Figures by their names.
+
+    Raises
+    ------
+    KeyError
+        If there is no figure of a name.
+    """
+
+    def filled(m: re.Match) -> str:
+        command = Command(m["how"].strip(), m["command"], m["body"])
+        body = block(command, settled(run(command)))
+        return f"<!-- run{m['how']}: {command.text} -->\n{body}\n<!-- /run -->"
+
+    text = _RUN.sub(filled, text)
+    return _FIGURE.sub(lambda m: f"<!-- {m['name']} -->{values[m['name']]}<!-- / -->", text)

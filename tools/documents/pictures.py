@@ -1,0 +1,104 @@
+"""The small pictures of the lessons, traced from the exercise's scenes: docs/images/lessons."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from reference_tracer.images import to_display
+from reference_tracer.report.judge_page import marked
+from reference_tracer.study.students.picture import look
+from reference_tracer.study.students.student import Student
+from reference_tracer.study.students.subject import prepare
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.progress import result_of
+
+from .figures import scene, traced
+
+WIDTH = 320  # pixels of one picture; several stand side by side
+GAP = 8
+STUDENTS = Path(__file__).resolve().parents[2] / "docs" / "students"
+
+Picture = NDArray[np.uint8]  # (h, w, 4), row 0 at the bottom
+
+
+def small(picture: Picture) -> Picture:
+    """Every second pixel, so that a pixel stays one."""
+    step = max(1, round(picture.shape[1] / WIDTH))
+    return picture[step // 2 :: step, step // 2 :: step]
+
+
+def beside(*pictures: Picture) -> Picture:
+    """Pictures of one height in a row, with transparent gaps."""
+    gap = np.zeros((pictures[0].shape[0], GAP, 4), np.uint8)
+    parts = [part for p in pictures for part in (gap, p)][1:]
+    return np.concatenate(parts, axis=1)
+
+
+def shown(name: str, method: str = "certified", precision: str = "float64") -> Picture:
+    return small(to_display(traced(name, method, precision).color))
+
+
+def orthographic() -> Picture:
+    return shown("orthographic")
+
+
+def perspective() -> Picture:
+    """The same place through the one camera, then through the other."""
+    return beside(shown("orthographic"), shown("perspective"))
+
+
+def plane() -> Picture:
+    """The picture, and its depth: the logarithm of t, near is dark."""
+    frame = traced("plane")
+    t = frame.t
+    seen = np.isfinite(t)
+    depth = np.ones((*t.shape, 4), np.uint8) * 255
+    log = np.log(np.where(seen, t, 1))
+    grey = (log - log[seen].min()) / (log[seen].max() - log[seen].min())
+    depth[seen, :3] = np.rint(40 + 190 * grey[seen])[:, None]
+    return beside(shown("plane"), small(depth))
+
+
+def triangle() -> Picture:
+    """As it is, and by the textbook's formulas taken literally."""
+    return beside(shown("triangle"), shown("triangle", "textbook_literal"))
+
+
+def weights() -> Picture:
+    """The barycentrics as red, green and blue: as they are, and as the textbook prints them."""
+    frame = traced("triangle")
+    seen = frame.triangle_index != NOTHING
+
+    def colored(order: list[int]) -> Picture:
+        out = np.full((*seen.shape, 4), 255, np.uint8)
+        out[seen, :3] = np.rint(255 * np.clip(frame.barycentrics[seen][:, order], 0, 1))
+        return small(out)
+
+    return beside(colored([0, 1, 2]), colored([0, 2, 1]))
+
+
+def judged() -> Picture:
+    """What a student's file makes of a scene, the certified picture, and the wrong pixels."""
+    subject = result_of(prepare("triangle", scene("triangle"), pixels=60_000))
+    with Student(STUDENTS / "as_printed.py") as student:
+        found = result_of(look(subject, student.ask))
+    pictures = to_display(found.color), to_display(subject.color), marked(found)
+    return beside(*pictures)
+
+
+PICTURES: Mapping[str, Callable[[], Picture]] = {
+    f.__name__: f for f in (orthographic, perspective, plane, triangle, weights, judged)
+}
+
+
+def write(folder: Path) -> None:
+    """Write them all as PNG."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, make in PICTURES.items():
+        Image.fromarray(np.ascontiguousarray(make()[::-1])).save(
+            folder / f"{name}.png", optimize=True
+        )

@@ -1,0 +1,71 @@
+"""Refreshes the documents: runs every command that they name, and computes every figure.
+
+    python tools/make_docs.py [--no-window] [FILE.md ...]
+
+Fills in what stands between the markers (`documents/markers.py` says which there are), draws
+docs/images/lessons, and takes the tutorial's pictures in a real Blender window (`--no-window`
+leaves that out; it needs root, and the extension in dist/).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from documents import figures, pictures
+from documents.markers import MARKED, Command, refreshed
+
+PROJECT = Path(__file__).resolve().parents[1]
+DOCS = PROJECT / "docs"
+LINES = 100  # of one command's output, at most
+
+
+def documents() -> list[Path]:
+    """The Markdown files that have markers."""
+    return [p for p in sorted(DOCS.rglob("*.md")) if MARKED in p.read_text(encoding="utf-8")]
+
+
+def run(command: Command) -> str:
+    """Run a command of a document in the project's folder; returns what it prints."""
+    name, *arguments = shlex.split(command.text)
+    if name != "reftrace":
+        raise SystemExit(f"documents run reftrace, not '{name}'")
+    done = subprocess.run(
+        [sys.executable, "-m", "reference_tracer.cli", *arguments],
+        cwd=PROJECT,
+        capture_output=True,
+        text=True,
+        env=os.environ | {"COLUMNS": "100"},
+    )
+    if done.returncode not in (0, 1, 2):  # agree, warnings, differences: what it found
+        raise SystemExit(f"{command.text}\n{done.stdout}{done.stderr}")
+    if (lines := done.stdout.count("\n")) > LINES:
+        raise SystemExit(f"{command.text} prints {lines} lines: no document has room for that")
+    return done.stdout
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Refresh the documents.")
+    parser.add_argument("files", nargs="*", type=Path, metavar="FILE.md")
+    parser.add_argument("--no-window", action="store_true", help="no pictures of Blender's window")
+    options = parser.parse_args()
+    shutil.rmtree(PROJECT / "out" / "lessons", ignore_errors=True)  # what the commands make
+    pictures.write(DOCS / "images" / "lessons")
+    if not options.no_window:
+        from documents import window
+
+        window.write(DOCS / "images" / "tutorial")
+    values = figures.values()
+    for path in options.files or documents():
+        text = path.read_text(encoding="utf-8")
+        path.write_text(refreshed(text, run, values), encoding="utf-8")
+        print(path.resolve().relative_to(PROJECT), flush=True)
+
+
+if __name__ == "__main__":
+    main()
