@@ -24,12 +24,12 @@ from .again import SOUND, parts_of, set_out
 from .cause import Cause, Settler
 from .shown import Shown, transformed
 
-# Rings within the radius and directions on each, where the tracer is asked; the second time only of
+# Rings within the radius and directions on each, where the tracer is asked; later ones only of
 # what is left: a sliver passes between the samples.
-DENSITIES = ((4, 16), (12, 32))
+DENSITIES = ((2, 8), (4, 16), (12, 32))
 DISTINCT = 16  # colours of which each three are tried
 _PIXELS = [(x, y) for x in (-2, -1, 0, 1, 2) for y in (-2, -1, 0, 1, 2) if x or y]
-STEPS = 100  # of Frank and Wolfe: two colours need one, three a few, some an age
+STEPS = 400  # of Frank and Wolfe: two colours need one, three a few, some an age
 # A mix is stored in half floats after some twenty roundings, and its samples lie between ours.
 NEAR = 2.0**-7
 

@@ -112,7 +112,7 @@ def test_command_for_a_pixel(blender, folder):
         *("--pixel", "480", "270", "--out", f"{inside}/pixel.html"),
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "The pixel sees Suzanne" in done.stdout
+    assert "The pixel sees Cone, triangle 9" in done.stdout
     assert (path / "pixel.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
