@@ -150,7 +150,10 @@ def test_ctrl_c_ends_the_student_too(tmp_path):
             break
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
-    assert "interrupted" in process.communicate(timeout=20)[1]
+    try:
+        assert "interrupted" in process.communicate(timeout=20)[1]
+    finally:
+        process.kill()
     assert process.returncode == INTERRUPTED
     with pytest.raises(ProcessLookupError):
         os.kill(int(pid.read_text()), 0)
