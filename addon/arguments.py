@@ -165,6 +165,13 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
         raise SceneError(f"--{error}") from error
 
 
+def printable(text: str) -> str:
+    """Return text that only shows: what steers a terminal, or is no letter, is spelt out."""
+    return "".join(
+        c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
+    )
+
+
 def words(error: BaseException) -> str:
     """Return what a user is told of an error, in one line."""
     text = " ".join(str(error).split())
@@ -258,6 +265,17 @@ def camera_from(options: argparse.Namespace, width: int, height: int) -> Camera 
         clip_end=distance * 1e3,
         name="--eye",
     )
+
+
+def camera_options(options: argparse.Namespace) -> tuple[str, ...]:
+    """Return the camera's options that were given, as they are typed."""
+    out: list[str] = []
+    for name in ("width", "height", "eye", "target", "angle", "ortho_scale"):
+        value = getattr(options, name, None)
+        if value is not None:
+            values = value if isinstance(value, list) else [value]
+            out += [f"--{name.replace('_', '-')}", *map(repr, values)]
+    return tuple(out)
 
 
 def refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:

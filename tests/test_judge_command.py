@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -92,6 +93,45 @@ def test_ones_own_scenes(make, solution, tmp_path, capsys):
     assert "mine  " in text and "exercise" not in text
 
 
+def test_files_of_one_name(make, solution, template, tmp_path, capsys):
+    """They are told apart, in the tables and in the JSON; a scene that is named twice is one."""
+    files = []
+    for folder, text in (("a", solution), ("b", template)):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "own.py").write_bytes(text.read_bytes())
+        files.append(str(tmp_path / folder / "own.py"))
+    (tmp_path / "c").mkdir()
+    empty, full = tmp_path / "c" / "own.npz", tmp_path / "own.npz"
+    save_scene(empty, make.scene(make.camera(10, 6)))
+    save_scene(full, make.scene(make.camera(10, 6), make.quad(-9, 0.03, -9, 9.1, -2)))
+    scenes = [str(empty), str(full), str(full)]
+    assert main(["judge", *files, *scenes, "--out", str(tmp_path / "out")]) == DIFFERENCES
+    assert [line.split()[:2] for line in capsys.readouterr().out.splitlines()[-3:-1]] == [
+        ["a/own.py", "100.0"],
+        ["b/own.py", "0.0"],
+    ]
+    found = json.loads((tmp_path / "out" / "judge.json").read_text(encoding="utf-8"))["students"]
+    assert [s["file"] for s in found] == ["a/own.py", "b/own.py"]
+    for student, right in zip(found, (True, False), strict=True):
+        names, tallies = zip(*((s["name"], s["tally"]) for s in student["scenes"]), strict=True)
+        assert [n.split("/")[-2:] for n in names] == [["c", "own.npz"], [tmp_path.name, "own.npz"]]
+        assert [t["total"] for t in tallies] == [0, 30]
+        assert (tallies[1]["surface"] == 30) is right
+
+
+def test_the_command_for_a_pixel_can_be_typed(template, tmp_path, capsys):
+    """A folder with a space, and a camera that the options have placed."""
+    path = tmp_path / "a folder" / "mesh.obj"
+    path.parent.mkdir()
+    path.write_text("v -1 -1 0\nv 1 -1 0\nv 0 1 .5\nf 1 2 3\n")
+    camera = ["--eye", "0.1", "0", "-5", "--angle", "40", "--width", "20", "--height", "14"]
+    assert main(["judge", str(template), str(path), *camera]) == DIFFERENCES
+    line = next(x for x in capsys.readouterr().out.splitlines() if "reftrace explain" in x)
+    command = shlex.split(line.partition(": reftrace ")[2])
+    assert main(command) == AGREE
+    assert "sees mesh.obj, triangle 0" in capsys.readouterr().out
+
+
 def test_extremes(solution, capsys):
     assert main(["judge", str(solution), *SMALL, "--extremes"]) == AGREE
     text = capsys.readouterr().out
@@ -109,6 +149,9 @@ def test_extremes(solution, capsys):
         (["FILE", "--time-limit", "0"], "--time-limit is 0"),
         (["FILE", "--pixels", "-3"], "--pixels is -3"),
         (["FILE", "--memory-limit", "nan"], "--memory-limit is nan"),
+        (["FILE", "--memory-limit", "inf"], "--memory-limit is inf"),
+        (["FILE", "--memory-limit", "1e-6"], "--memory-limit is 1e-06"),
+        (["FILE", "--time-limit", "inf"], "--time-limit is inf"),
     ],
 )
 def test_wrong_input(options, words, template, tmp_path, capsys, monkeypatch):

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
 from .. import images
-from ..arguments import AGREE, DIFFERENCES, INPUT_ERROR, WARNINGS, add_camera
+from ..arguments import AGREE, DIFFERENCES, INPUT_ERROR, WARNINGS, add_camera, camera_options
 from ..opening import SOURCES, load
 from ..report import folders
 from ..report.progress_bar import progress_bar
@@ -18,6 +19,7 @@ from ..scene_files import load_scene
 from ..tracer.progress import Work, result_of, scaled
 from .parts import Commands, command, write_study
 
+LEAST_MEMORY = 0.09  # GiB: Python and numpy by themselves take nearly as much
 CODES = {"right": AGREE, "boundary": WARNINGS, "wrong": DIFFERENCES, "failed": DIFFERENCES}
 _DESCRIPTION = """\
 Judge ray/triangle tests that students wrote: files with a function
@@ -90,11 +92,10 @@ def run(options: argparse.Namespace) -> int:
     from ..report import judge_table
     from ..study.students.student import Limits
 
-    students = [f for f in options.files if f.suffix == ".py"]
-    scenes = [f for f in options.files if f.suffix != ".py"]
+    students, scenes = _sorted(options.files)
     limits = Limits(options.time_limit, int(options.memory_limit * 2**30))
     with folders.made(Path(options.out)) if options.out else nullcontext():
-        opened = [(*_opened(f, options), f) for f in scenes] or built_in()
+        opened = _opened(scenes, options) or built_in()
         with progress_bar() as progress:
             judgements = result_of(_work(options, students, opened, limits), progress)
         for j in judgements:
@@ -119,7 +120,7 @@ def _work(
 
     subjects = []
     for k, (name, scene, path) in enumerate(scenes):
-        work = prepare(name, scene, str(path), options.pixels)
+        work = prepare(name, scene, str(path), options.pixels, camera_options(options))
         subjects.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     judging = judge_all(students, make_checks(), subjects, hard, limits)
@@ -132,9 +133,20 @@ def built_in() -> list[Named]:
     return [(path.stem, load_scene(path), path) for path in sorted(folder.glob("*.npz"))]
 
 
-def _opened(path: Path, options: argparse.Namespace) -> tuple[str, Scene]:
-    options.scene = path
-    return path.stem, load(options)[0]
+def _sorted(files: Sequence[Path]) -> tuple[list[Path], list[Path]]:
+    """Return students' files and scenes, each once."""
+    once = list(dict.fromkeys(files))
+    return [f for f in once if f.suffix == ".py"], [f for f in once if f.suffix != ".py"]
+
+
+def _opened(paths: Sequence[Path], options: argparse.Namespace) -> list[Named]:
+    from ..study.students.names import stems
+
+    out = []
+    for name, path in zip(stems(paths), paths, strict=True):
+        options.scene = path
+        out.append((name, load(options)[0], path))
+    return out
 
 
 def _check(options: argparse.Namespace) -> None:
@@ -145,16 +157,17 @@ def _check(options: argparse.Namespace) -> None:
     SceneError
         If no student's file is named, one is not there, or a number is out of range.
     """
-    students = [f for f in options.files if f.suffix == ".py"]
+    students, _ = _sorted(options.files)
     if not students:
         raise SceneError("name a student's file (.py), or --template FILE to make one")
     for path in students:
         if not path.is_file():
             raise SceneError(f"there is no file '{path}'")
     for name in ("pixels", "time_limit", "memory_limit"):
-        if not getattr(options, name) > 0:
-            option = name.replace("_", "-")
-            raise SceneError(f"--{option} is {getattr(options, name):g}; it must be above 0")
+        value, least = getattr(options, name), LEAST_MEMORY if name == "memory_limit" else 0
+        if not least < value < math.inf:
+            option = f"--{name.replace('_', '-')}"
+            raise SceneError(f"{option} is {value:g}; it must be a finite number above {least:g}")
 
 
 def _write_template(path: Path) -> int:

@@ -65,7 +65,7 @@ _GROUPS = {
 
 def _student(j: Judgement) -> dict[str, Any]:
     return {
-        "file": j.path.name,
+        "file": j.name,
         "verdict": j.verdict,
         "score": j.score,
         "seconds": round(j.seconds, 6),

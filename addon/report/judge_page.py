@@ -49,7 +49,7 @@ def page(judgements: Sequence[Judgement], encode: Encode) -> str:
     encode : callable
         Makes PNG bytes of an (h, w, 4) uint8 picture, row 0 at the bottom.
     """
-    head = f"<title>Judged: {escape(', '.join(j.path.name for j in judgements))}</title>"
+    head = f"<title>Judged: {escape(', '.join(j.name for j in judgements))}</title>"
     parts = [
         "<!doctype html>",
         f'<html lang="en"><head><meta charset="utf-8">{head}',
@@ -68,7 +68,7 @@ def _class_table(judgements: Sequence[Judgement]) -> str:
     rows = []
     for k, j in enumerate(judgements):
         wrong = dict.fromkeys([e.kind for _, e in j.errors] + [f.name for f in j.faults])
-        link = f'<a href="#s{k}">{escape(j.path.name)}</a>'
+        link = f'<a href="#s{k}">{escape(j.name)}</a>'
         rows.append((link, f"{j.score:.1f}", _verdict(j), escape(", ".join(wrong))))
     return _table(("file", "score", "verdict", "what is wrong"), rows)
 
@@ -85,7 +85,7 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def _student(number: int, j: Judgement, encode: Encode) -> str:
-    name = escape(j.path.name)
+    name = escape(j.name)
     parts = [f'<section id="s{number}"><h2>{name}</h2>']
     parts.append(f'<p><span class="score">{j.score:.1f}</span> of 100 {_verdict(j)}</p>')
     parts += [_error(where, error) for where, error in j.errors]
@@ -102,9 +102,9 @@ def _student(number: int, j: Judgement, encode: Encode) -> str:
         (
             escape(what),
             f"{t.total:,}",
-            *(percent(v) for v in t.shares.values()),
+            *(percent(v) if t.total else "–" for v in t.shares.values()),
             f"{t.boundary_right:,} of {t.boundary:,}" if t.boundary else "–",
-            f"{t.score:.1f}",
+            f"{t.score:.1f}" if t.total else "–",
         )
         for what, t in tallies(j)
     ]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shlex
+import subprocess
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
@@ -39,7 +41,9 @@ def explain(subject: Subject, example: Example) -> str:
     source = Path(subject.source)
     if source.exists() and source.resolve().is_relative_to(Path.cwd()):
         source = Path(os.path.relpath(source))
-    return f"reftrace explain {source} --pixel {example.pixel[0]} {example.pixel[1]}"
+    joined = subprocess.list2cmdline if os.name == "nt" else shlex.join
+    pixel = map(str, example.pixel)
+    return joined(["reftrace", "explain", str(source), "--pixel", *pixel, *subject.camera_options])
 
 
 def percent(share: float) -> str:
@@ -51,7 +55,7 @@ def percent(share: float) -> str:
 
 def lines(j: Judgement) -> list[str]:
     """Return what a student wants to know, a fact a line."""
-    out = [f"{j.path.name}: {VERDICTS[j.verdict]}, score {j.score:.1f} of 100"]
+    out = [f"{j.name}: {VERDICTS[j.verdict]}, score {j.score:.1f} of 100"]
     for where, error in j.errors:
         out += wrapped(f"its own error, in {where}: {error.message}")
         out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
@@ -94,6 +98,8 @@ def tallies(j: Judgement) -> list[tuple[str, Tally]]:
 
 def _row(name: str, tally: Tally) -> tuple[str, ...]:
     border = f"{tally.boundary_right:,} of {tally.boundary:,}" if tally.boundary else "-"
+    if not tally.total:
+        return name, "0", "-", "-", "-", border, "-"
     shares = (percent(v) for v in tally.shares.values())
     return name, f"{tally.total:,}", *shares, border, f"{tally.score:.1f}"
 
@@ -121,7 +127,7 @@ def class_table(judgements: Sequence[Judgement]) -> list[str]:
     rows = [("file", "score", "verdict", "what is wrong")]
     for j in judgements:
         wrong = [error.kind for _, error in j.errors] + [f.name for f in j.faults]
-        rows.append((j.path.name, f"{j.score:.1f}", j.verdict, ", ".join(dict.fromkeys(wrong))))
+        rows.append((j.name, f"{j.score:.1f}", j.verdict, ", ".join(dict.fromkeys(wrong))))
     return columns(rows, left=(0, 2, 3))
 
 

@@ -19,6 +19,7 @@ import sys
 import time
 import traceback
 import warnings
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -147,31 +148,42 @@ def _say(answers: BinaryIO, head: dict[str, Any], *arrays: np.ndarray) -> None:
     answers.flush()
 
 
+# What comes of a limit that the system does not know, or holds to be too large: there is none.
+_NO_LIMIT = ImportError, ValueError, OSError, OverflowError
+
+
 def limit_memory(size: int) -> None:
     """Let this process have so many bytes and no more, where the system can do that."""
-    try:
+    with suppress(*_NO_LIMIT):  # Windows has none of it, macOS not the first: time is limited
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (size, size))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    except (ImportError, ValueError, OSError):
-        pass  # Windows has none of it, macOS not the first: the time limit is left
 
 
 def limit_time(seconds: float) -> None:
     """Let the system end this process, should nobody be left who does."""
-    try:
+    with suppress(*_NO_LIMIT):
         import resource
 
         _, most = resource.getrlimit(resource.RLIMIT_CPU)
         resource.setrlimit(resource.RLIMIT_CPU, (int(time.process_time() + seconds) + 5, most))
-    except (ImportError, ValueError, OSError):
-        pass
+
+
+def keep_from_forks(*streams: BinaryIO) -> None:
+    """Give processes that the student's code forks nothing in place of these streams.
+
+    Else two would answer a request, or one that outlives this process would keep the answers open.
+    """
+    if hasattr(os, "register_at_fork"):
+        nothing, ends = os.open(os.devnull, os.O_RDWR), [s.fileno() for s in streams]
+        os.register_at_fork(after_in_child=lambda: [os.dup2(nothing, end) for end in ends])
 
 
 def main() -> None:
     """Serve over the standard streams, which the student's code gets others in place of."""
     requests, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
+    keep_from_forks(requests, answers)
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
     os.dup2(2, 1)
     limit_memory(int(sys.argv[2]))

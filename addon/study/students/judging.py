@@ -16,6 +16,7 @@ from .checks import Checks
 from .examples import Example, find_examples
 from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
+from .names import distinct
 from .picture import Look, look
 from .student import Limits, Student, StudentError
 from .subject import Subject
@@ -29,6 +30,7 @@ class Judgement:
     """What is said of one file."""
 
     path: Path
+    name: str  # what a reader calls it
     checks: Tally | None = None  # None: not finished
     faults: list[Fault] = field(default_factory=list)
     scenes: list[str] = field(default_factory=list)  # the names of all
@@ -67,6 +69,7 @@ def judge(
     subjects: Sequence[Subject],
     extremes: Sequence[ExtremeScene] = (),
     limits: Limits | None = None,
+    name: str = "",
 ) -> Work[Judgement]:
     """Judge one file; yields the share of the work done.
 
@@ -79,8 +82,11 @@ def judge(
         What is lost there is reported, and does not count in the score.
     limits : Limits, optional
         The time is that of each scene, and of the checks.
+    name : str, optional
+        What a reader calls it; by default the file's name.
     """
-    out = Judgement(Path(path), scenes=[s.name for s in subjects])
+    path = Path(path)
+    out = Judgement(path, name or distinct([path])[0], scenes=[s.name for s in subjects])
     with Student(path, limits) as student:
         try:
             _on_checks(out, student, checks)
@@ -140,7 +146,7 @@ def judge_all(
 ) -> Work[list[Judgement]]:
     """Judge several files, each by itself."""
     out = []
-    for k, path in enumerate(paths):
-        work = judge(path, checks, subjects, extremes, limits)
+    for k, (path, name) in enumerate(zip(paths, distinct(paths), strict=True)):
+        work = judge(path, checks, subjects, extremes, limits, name)
         out.append((yield from scaled(work, k / len(paths), 1 / len(paths))))
     return out

@@ -23,9 +23,12 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arguments import printable
+
 SECONDS = 60.0  # of a scene, by default
 MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
 KEPT = 4000  # bytes of what it prints
+_LONGEST = 1 << 20  # bytes of a line that answers
 
 _CHILD = Path(__file__).with_name("child.py")
 _ADVICE = {  # what numpy says of it -> what a student needs to know
@@ -34,11 +37,14 @@ _ADVICE = {  # what numpy says of it -> what a student needs to know
 }
 
 
+KINDS = frozenset({"syntax", "exception", "answer", "exit", "memory", "time", "ended"})
+
+
 class StudentError(Exception):
     """What a student's code did wrong.
 
-    `kind` is one of syntax, exception, answer (of a wrong form), exit, memory, time, ended;
-    `trace` has the lines of the student's own files, (file, line, function, text), outermost first.
+    `kind` is one of KINDS ("answer": of a wrong form); `trace` has the lines of the student's own
+    files, (file, line, function, text), outermost first.
     """
 
     def __init__(self, kind: str, message: str, trace: tuple[tuple, ...] = ()) -> None:
@@ -88,8 +94,8 @@ class Student:
 
     @property
     def said(self) -> str:
-        """The first of what the student's code has printed."""
-        return self._said.decode("utf-8", "replace")
+        """The first of what the student's code has printed; what steers a terminal is spelt out."""
+        return printable(self._said.decode("utf-8", "replace"))
 
     def new_scene(self) -> None:
         """Let the time limit begin anew."""
@@ -117,14 +123,14 @@ class Student:
             for array in arrays:
                 to.write(memoryview(array).cast("B"))
             to.flush()
-            answer = self._answer(back)
+            seconds = self._answer(back)
             t = np.frombuffer(_read(back, 8 * count))
             s = np.frombuffer(_read(back, 24 * count)).reshape(count, 3)
-        self.seconds += answer["seconds"]
+        self.seconds += seconds
         return t, s
 
     def end(self) -> None:
-        """End the process, and what it has started."""
+        """End the process, and what it has started, but for what has a session of its own."""
         process, self._process = self._process, None
         if process is None:
             return
@@ -134,8 +140,9 @@ class Student:
             with suppress(OSError):
                 stream.close()
         self._reader.join(1.0)
-        with suppress(OSError):
-            process.stderr.close()
+        if not self._reader.is_alive():  # else what lives on has it open, and closing would wait
+            with suppress(OSError):
+                process.stderr.close()
 
     def _start(self) -> None:
         own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
@@ -158,7 +165,7 @@ class Student:
     def _listen(self, stream: BinaryIO) -> None:
         """Read all that is printed, so that nobody waits for it, and keep the first of it."""
         with suppress(OSError, ValueError):
-            while part := stream.read1(1 << 16):
+            while part := os.read(stream.fileno(), 1 << 16):
                 self.printed += len(part)
                 self._said += part[: KEPT - len(self._said)]
 
@@ -171,7 +178,7 @@ class Student:
             late.set()
             _kill(process)
 
-        watch = threading.Timer(max(self._left, 0.0), stop)
+        watch = threading.Timer(min(max(self._left, 0.0), threading.TIMEOUT_MAX), stop)
         watch.daemon = True
         began, well = time.monotonic(), False
         watch.start()
@@ -190,22 +197,49 @@ class Student:
             if not well:
                 self.end()
 
-    def _answer(self, back: BinaryIO) -> dict[str, Any]:
-        line = back.readline()
-        if not line.endswith(b"\n"):
+    def _answer(self, back: BinaryIO) -> float:
+        """Return the seconds that an answer has taken, or raise the error that it is."""
+        line = back.readline(_LONGEST)
+        if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
-        answer = json.loads(line)
-        if answer["ok"]:
+        try:
+            answer = _parsed(line)
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+            text = "its process answered something that is no answer: does the file write to other"
+            text += " streams than the standard ones, or change numpy or json?"
+            raise StudentError("ended", text) from error
+        if isinstance(answer, float):
             return answer
-        message = answer["message"]
+        kind, message, trace = answer
         for sign, advice in _ADVICE.items():
             if sign in message:
                 message += f" ({advice})"
-        if answer["kind"] == "memory":
+        if kind == "memory":
             message += f" (the limit is {self.limits.memory / 2**30:.3g} GiB)"
-        if answer["kind"] == "exit":
+        if kind == "exit":
             message += " (the file must not call sys.exit or quit)"
-        raise StudentError(answer["kind"], message, tuple(map(tuple, answer["trace"])))
+        raise StudentError(kind, message, trace)
+
+
+def _parsed(line: bytes) -> float | tuple[str, str, tuple[tuple, ...]]:
+    """Return the seconds that an answer has taken, or an error's kind, message and trace.
+
+    The student's code shares the process that writes it, and may have written it: nothing is taken
+    for granted.
+    """
+    answer = json.loads(line)
+    if answer["ok"]:
+        seconds = float(answer.get("seconds", 0.0))
+        if not 0 <= seconds < np.inf:
+            raise ValueError(seconds)
+        return seconds
+    if answer["kind"] not in KINDS:
+        raise ValueError(answer["kind"])
+    trace = tuple(
+        (printable(file), None if number is None else int(number), printable(name), printable(text))
+        for file, number, name, text in answer["trace"]
+    )
+    return answer["kind"], printable(answer["message"]), trace
 
 
 def _read(stream: BinaryIO, size: int) -> bytes:

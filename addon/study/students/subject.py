@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene import Scene
+from ...scene import Scene, SceneError
 from ...tracer.bounds import U, plane_depths
 from ...tracer.camera import Rays, camera_rays, film_positions_of
 from ...tracer.candidates import Pairs
@@ -55,6 +55,7 @@ class Subject:
     ambiguous: NDArray[np.bool_]  # (n,) the ray meets an edge or two surfaces exactly
     near_edge: NDArray[np.bool_]  # (n,) it passes within float64's reach of an edge
     near_tie: NDArray[np.bool_]  # (n,) two surfaces are within float64's reach of one another
+    camera_options: tuple[str, ...] = ()  # those of the command line that placed its camera
 
     @property
     def boundary(self) -> NDArray[np.bool_]:
@@ -80,7 +81,11 @@ def arrays(rays: Rays, pixel: NDArray, corners: NDArray) -> tuple[NDArray, NDArr
 
 
 def prepare(
-    name: str, scene: Scene, source: str = "", pixels: int | None = PIXELS
+    name: str,
+    scene: Scene,
+    source: str = "",
+    pixels: int | None = PIXELS,
+    camera_options: tuple[str, ...] = (),
 ) -> Work[Subject]:
     """Trace a scene, certified, and find the truth of some of its pixels.
 
@@ -90,8 +95,20 @@ def prepare(
     scene : Scene
     pixels : int, optional
         About so many: every second, third and so on in both directions. None for all.
+    camera_options : tuple of str, optional
+        Those of the command line without which `source` has another camera.
+
+    Raises
+    ------
+    SceneError
+        If the camera shows what is behind its rays' origins: students' functions only have t > 0.
     """
     region = scene.camera.region
+    if scene.camera.clip_start < 0:
+        raise SceneError(
+            f"{name}: the camera '{scene.camera.name}' shows what is behind it (its clip start is "
+            f"{scene.camera.clip_start:g} m), where t < 0 is no hit: raise its clip start to 0."
+        )
     frame = Frame.empty(scene)
     for share in steps(scene, Settings(Method.CERTIFIED), frame):
         yield 0.5 * share
@@ -122,6 +139,7 @@ def prepare(
         frame.certainty.ravel()[chosen] == Certainty.AMBIGUOUS,
         np.zeros(len(chosen), bool),
         _near_planes(scene, rays, frame.t.ravel()[chosen], planes),
+        camera_options,
     )
     yield from _find_pairs(subject, chosen)
     return subject

@@ -71,7 +71,11 @@ class Tally:
 
 
 def score_of(tallies: Sequence[Tally | None]) -> float:
-    """Return the mean score of some, 0 to 100, rounded down to a tenth; None counts as 0."""
+    """Return the mean score of some, 0 to 100, rounded down to a tenth; None counts as 0.
+
+    One in which nothing is counted says nothing, and is left out, unless all are such.
+    """
+    tallies = [t for t in tallies if t is None or t.total] or tallies
     if not any(tallies):
         return 0.0
     each = [sum(w * t.shares[name] for name, w in WEIGHTS.items()) if t else 0.0 for t in tallies]

@@ -108,7 +108,7 @@ WRONG = {
     "parallel": (RETURN, "hit |= slope == 0\n    t = np.where(slope == 0, 1.0, t)\n    " + RETURN),
     "no_hits": (HIT, HIT + " & False"),
     "all_hits": ("np.where(hit, t, np.inf)", "np.where(np.isfinite(t), t, 1)"),
-    "depends_on_the_call": (RETURN, "t = t * (1 + 3e-16 * (len(t) < 9))\n    " + RETURN),
+    "depends_on_the_call": (RETURN, "t = t * (1 + 1e-3 * (len(t) < 9))\n    " + RETURN),
     "unrecognised_t": ("np.where(hit, t, np.inf)", "np.where(hit, t + 0.01, np.inf)"),
     "unrecognised_hits": (HIT, HIT + " & (o[:, 0] > 0)"),
     "unrecognised_barycentrics": ("np.stack((s1, s2, s3), axis=1)",

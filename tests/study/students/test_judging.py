@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.scene import SceneError
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.study.students.examples import find_examples
 from reference_tracer.study.students.extremes import extreme_scenes, held, plain, try_extremes
@@ -147,6 +148,12 @@ def test_infinite_planes_are_not_the_students(make):
     assert set(marks(none)) == {"right", "missed"} and none.tally.score == 0
 
 
+def test_what_is_behind_the_origin_cannot_be_judged(make):
+    camera = make.camera(6, 4, orthographic=True, clip_start=-3.0)
+    with pytest.raises(SceneError, match=r"scene of mine: the camera .* clip start is -3 m"):
+        result_of(prepare("scene of mine", make.scene(camera, make.quad(-1, 1, -1, 1, -2))))
+
+
 def test_stride(make):
     scene = make.scene(make.camera(50, 40), make.quad(-1.1, 0.9, -1.3, 1, -4))
     subject = result_of(prepare("s", scene, pixels=100))
@@ -179,7 +186,10 @@ def test_scores():
     assert nearly.score == 99.9 and not nearly.all_right
     assert Tally(10, 0, 0, 0, 0, 0).score == 0 and Tally(10, 10, 10, 0, 0, 0).score == 80
     assert score_of([right, None]) == 50 and score_of([None]) == 0 and score_of([]) == 0
-    assert Tally(0, 0, 0, 0, 4, 4).score == 100
+    empty = Tally(0, 0, 0, 0, 4, 4)
+    assert empty.score == 100
+    # Where nothing is counted, nothing is given for it.
+    assert score_of([Tally(10, 0, 0, 0, 0, 0), empty]) == 0 and score_of([empty, None]) == 0
 
 
 def test_judge(two, checks, right, wrong_text, written):

@@ -41,6 +41,38 @@ HOSTILE = {
     "writes": (HEAD + "o -= 1\n    " + NOTHING, "exception", "must not be changed"),
     "sorts": (HEAD + "p.sort()\n    " + NOTHING, "exception", "must not be changed"),
     "reads input": (HEAD + "input()", "exception", "EOFError"),
+    "changes json": ("import json\njson.dumps = lambda *_: '{}'", "ended", "no answer"),
+    "forges an error": (
+        "import json, os\nfor fd in range(3, 9):\n    try: os.write(fd, json.dumps("
+        "dict(ok=False, kind='<b>', message='', trace=[])).encode() + b'\\n')\n"
+        "    except OSError: pass",
+        "ended",
+        "no answer",
+    ),
+    "forges a trace": (
+        "import json, os\nfor fd in range(3, 9):\n    try: os.write(fd, json.dumps("
+        "dict(ok=False, kind='exit', message='', trace=[[1, 2]])).encode() + b'\\n')\n"
+        "    except OSError: pass",
+        "ended",
+        "no answer",
+    ),
+    "forges seconds": (
+        HEAD + 'for fd in range(3, 9):\n        try: os.write(fd, b\'{"ok": true, "seconds": '
+        "NaN}\\n')\n        except OSError: pass\n    " + NOTHING,
+        "ended",
+        "no answer",
+    ),
+    "an endless line": (
+        "import os\nfor fd in range(3, 9):\n    try: os.write(fd, b'x' * (1 << 21))\n"
+        "    except OSError: pass",
+        "ended",
+        "no answer",
+    ),
+    "steers the terminal": (
+        "raise ValueError('\x1b[31m\x07 \\udc80 \u202e')",
+        "exception",
+        r"\x1b[31m\x07 \udc80 \u202e",
+    ),
     "evil words": (
         "class E(Exception):\n    def __str__(self):\n        raise self\n" + HEAD + "raise E",
         "exception",
@@ -147,6 +179,48 @@ def alive(pid):
             return file.read().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
         return False
+
+
+LIVING_ON = {  # what outlives the student's process, and holds its streams open
+    "fork": "if os.fork() == 0:\n    os.setsid()\n    time.sleep(60)\n    os._exit(0)\n",
+    "process": "subprocess.Popen(['sleep', '60'], start_new_session=True)\n",
+}
+
+
+@pytest.mark.parametrize("kind", LIVING_ON)
+def test_nobody_waits_for_what_lives_on(kind, written, tmp_path):
+    own = f"open({str(tmp_path / 'pid')!r}, 'w').write(str(os.getpid()))\n"
+    text = f"import subprocess, time, os\n{own}{LIVING_ON[kind]}{HEAD}{NOTHING}"
+    began = time.monotonic()
+    with Student(written(text)) as student:
+        assert np.isinf(student.ask(*RAYS)[0]).all()
+    with Student(written(text.replace("import sub", "print('x')\nimport sub")), None) as student:
+        assert np.isinf(student.ask(*RAYS)[0]).all()
+        student._process.kill()
+        with pytest.raises(StudentError, match=r"SIGKILL|before it had answered"):
+            student.ask(*RAYS)
+    assert time.monotonic() - began < 10
+
+
+def test_two_processes_give_one_answer(written):
+    """A file that forks has a second process, which goes on as if it had been asked."""
+    text = "import os\nos.fork()\n" + HEAD + "return o[:, 0], p[:, 0]"
+    rays = np.arange(15.0).reshape(5, 3), np.ones((5, 3)), np.ones((5, 3, 3))
+    with Student(written(text)) as student:
+        for _ in range(3):
+            assert student.ask(*rays)[0].tolist() == [0, 3, 6, 9, 12]
+
+
+@pytest.mark.parametrize("limits", [Limits(seconds=1e12), Limits(memory=1 << 100)])
+def test_limits_that_no_system_has(limits, written):
+    with Student(written(HEAD + NOTHING), limits) as student:
+        assert np.isinf(student.ask(*RAYS)[0]).all()
+
+
+def test_what_it_prints_does_not_steer_the_terminal(written):
+    with Student(written("print('\x1b[2J<b>', flush=True)\n" + HEAD + NOTHING)) as student:
+        student.ask(*RAYS)
+    assert student.said == "\\x1b[2J<b>\n"
 
 
 def test_it_is_given_what_it_is_asked(written, rng):
