@@ -36,7 +36,7 @@ def texts():
 
 
 def marked():
-    return [p for p in texts() if "<!-- " in p.read_text(encoding="utf-8")]
+    return [p for p in texts() if "<!-- /" in p.read_text(encoding="utf-8")]
 
 
 @pytest.mark.parametrize("path", marked(), ids=lambda p: p.stem)

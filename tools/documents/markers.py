@@ -15,7 +15,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-MARKED = "<!-- "  # a file without this has no markers
+MARKED = "<!-- /"  # a file without this, which ends every marker, has none of them
 _RUN = re.compile(
     r"<!-- run(?P<how>| here| silently): (?P<command>[^\n]+?) -->\n(?P<body>.*?)<!-- /run -->", re.S
 )
