@@ -23,6 +23,8 @@ _EXPECTED = (  # what a user can do something about
 
 def main(argv: list[str] | None = None) -> int:
     """Run `reftrace`; returns the exit code."""
+    for stream in filter(None, (sys.stdout, sys.stderr)):  # which may not have each letter
+        stream.reconfigure(errors="backslashreplace")
     options = _parser().parse_args(argv)
     try:
         with interrupts.heard():

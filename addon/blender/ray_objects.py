@@ -6,6 +6,7 @@ out, and they are hidden from renders.
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import bpy
@@ -33,28 +34,33 @@ def draw(scene: Any, derivation: Derivation) -> Any:
 
 
 def drawn() -> bool:
-    """Return whether there is one."""
-    return any(c.get(DRAWN) for c in bpy.data.collections)
+    """Return whether there is one, or some of it."""
+    return any(_own(bpy.data.collections)) or any(_own(bpy.data.objects))
 
 
 def remove() -> int:
-    """Remove what was drawn, in whichever scene; return how many objects went.
+    """Remove what was drawn, wherever it is by now; return how many objects went.
 
     What the user has put into the collection goes up to where the collection was.
     """
-    count = 0
-    for collection in [c for c in bpy.data.collections if c.get(DRAWN)]:
-        own = [o for o in collection.objects if o.get(DRAWN)]
-        meshes = [o.data for o in own]
-        materials = {m for mesh in meshes for m in mesh.materials if m and m.get(DRAWN)}
+    collections, own = _own(bpy.data.collections), _own(bpy.data.objects)
+    for collection in collections:
+        parent = _parent(collection)
         for obj in collection.objects:
             if not obj.get(DRAWN) and len(obj.users_collection) == 1:
-                _parent(collection).objects.link(obj)
+                parent.objects.link(obj)
         for child in collection.children:
-            _parent(collection).children.link(child)
-        bpy.data.batch_remove([*own, *meshes, *materials, collection])
-        count += len(own)
-    return count
+            if child not in parent.children.values():
+                parent.children.link(child)
+    users = Counter(o.data for o in own if o.type == "MESH")
+    meshes = [mesh for mesh, count in users.items() if mesh.users == count]  # but for the user's
+    materials = {m for mesh in meshes for m in mesh.materials if m and m.get(DRAWN)}
+    bpy.data.batch_remove([*own, *meshes, *materials, *collections])
+    return len(own)
+
+
+def _own(blocks: Any) -> list[Any]:
+    return [b for b in blocks if b.get(DRAWN) and not b.library]
 
 
 def _parent(collection: Any) -> Any:

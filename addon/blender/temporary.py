@@ -73,6 +73,13 @@ def _isolate(scene: Any, layer: str) -> None:
     for other in [v for v in scene.view_layers if v.name != layer]:
         scene.view_layers.remove(other)
     scene.view_layers[layer].use = True
-    for child in scene.view_layers[layer].layer_collection.children:
-        if child.collection.get(DRAWN):  # a drawing about the scene, and no part of it
+    _leave_out_drawings(scene.view_layers[layer].layer_collection)
+
+
+def _leave_out_drawings(parent: Any) -> None:
+    """Exclude what the add-on has drawn about the scene, wherever the user has put it."""
+    for child in parent.children:
+        if child.collection.get(DRAWN):
             child.exclude = True
+        else:
+            _leave_out_drawings(child)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
-from ..arguments import Parser, add_camera, refuse
+from ..arguments import Parser, add_camera, printable, refuse
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather
 from ..explain.derivation import derive_pixel
@@ -90,6 +90,8 @@ def check_options(options: argparse.Namespace) -> None:
         path = getattr(options, name)
         if path and path.suffix.lower() not in endings:
             raise SceneError(f"'{path}' must end in {' or '.join(endings)}")
+    if options.out and options.reproducer and options.out.resolve() == options.reproducer.resolve():
+        raise SceneError(f"--out and --reproducer are the same file, '{options.out}'")
     if options.limit is not None and options.limit < 1:
         raise SceneError(f"--limit is {options.limit}; it must be at least 1")
     scene = getattr(options, "scene", None)
@@ -109,13 +111,14 @@ def finish(options: argparse.Namespace, pixel: Pixel) -> int:
     if options.reproducer:
         _write(options.reproducer, reproducer.text(pixel))
     if not options.out:
-        print(WRITERS[".md"](derivation), end="")
+        print(printable(WRITERS[".md"](derivation)), end="")
         return 0
     _write(options.out, WRITERS[options.out.suffix.lower()](derivation))
-    print(f"{answer_sentence(derivation)} {options.out}")
+    print(printable(f"{answer_sentence(derivation)} {options.out}"))
     return 0
 
 
 def _write(path: Path, text: str) -> None:
     with folders.made_for_file(path), folders.replacing_file(path) as new:
-        new.write_text(text, encoding="utf-8")
+        # A name that a file holds may be no Unicode; JSON spells it as this does.
+        new.write_text(text, encoding="utf-8", errors="backslashreplace")

@@ -10,7 +10,15 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from .. import images
-from ..arguments import AGREE, DIFFERENCES, INPUT_ERROR, WARNINGS, add_camera, camera_options
+from ..arguments import (
+    AGREE,
+    DIFFERENCES,
+    INPUT_ERROR,
+    WARNINGS,
+    add_camera,
+    camera_options,
+    printable,
+)
 from ..opening import SOURCES, load
 from ..report import folders
 from ..report.progress_bar import progress_bar
@@ -99,7 +107,7 @@ def run(options: argparse.Namespace) -> int:
         with progress_bar() as progress:
             judgements = result_of(_work(options, students, opened, limits), progress)
         for j in judgements:
-            print("\n".join(judge_table.lines(j)), end="\n\n")
+            print(printable("\n".join(judge_table.lines(j))), end="\n\n")
         if len(judgements) > 1:
             print("\n".join(judge_table.class_table(judgements)))
         if options.out:

@@ -7,21 +7,16 @@ not the steps that the derivation shows.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tracer import plane
 from ..tracer.certainty import Certainty, broken_assumptions
-from ..tracer.hits import NOTHING, Hits, Name
+from ..tracer.hits import Hits, Name
 from ..tracer.settings import Method, Precision
-from ..tracer.triangle import METHODS
-from ..tracer.visibility import within_clip
 from .candidates import contest_hits, world_triangles
+from .methods import PLAIN, nearest
 from .pixel import Pixel
-
-NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 
 SENTENCES = {
     Certainty.NOT_CERTIFIED: "by floating point alone: this machine's arithmetic allows no proof",
@@ -47,29 +42,17 @@ class Answer:
 
 
 def plain_answers(pixel: Pixel) -> list[Answer]:
-    """Return the answers of the plain methods, in the tracer's order."""
-    methods = [m for m in Method if m.is_plain]
-    return [_plain(pixel, m, p) for m, p in product(methods, Precision)]
+    """Return the answers of the plain methods, in the tracer's order.
 
-
-def _plain(pixel: Pixel, method: Method, precision: Precision) -> Answer:
-    rays, triangles = pixel.rays(precision.dtype), world_triangles(pixel)
-    with np.errstate(over="ignore"):  # what float32 cannot hold is inf, and is not hit
-        corners = triangles.corners.astype(precision.dtype)
-    met: list[tuple[float, Name, NDArray]] = []
-    if len(triangles.instance):
-        hit, t, s = METHODS[method](rays, *corners)
-        for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
-            name = int(triangles.instance[k]), int(triangles.triangle[k])
-            met.append((float(t[k]), name, s[:, k].astype(float)))
-    for c in pixel.candidates:
-        if c.is_plane:
-            point, normal = (v[:, None].astype(precision.dtype) for v in c.points)
-            t = plane.intersect(rays, point, normal)
-            if within_clip(pixel.camera, t)[0]:
-                met.append((float(t[0]), c.name, np.zeros(3)))
-    t, seen, s = min(met, key=lambda m: m[:2], default=(np.inf, NOWHERE, np.zeros(3)))
-    return Answer(method, precision, seen, t, s)
+    They are the pictures' own, except where float32 rounds a triangle so far that its box on the
+    film, which float64 keeps away from the pixel, holds it: that triangle is no candidate.
+    """
+    triangles = world_triangles(pixel)
+    out = []
+    for method, precision in PLAIN:
+        t, seen, s = nearest(pixel, triangles, method, precision)
+        out.append(Answer(method, precision, seen, t, s))
+    return out
 
 
 def certified_answer(pixel: Pixel) -> Answer:

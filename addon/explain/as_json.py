@@ -40,8 +40,8 @@ def to_dict(derivation: Derivation) -> dict[str, Any]:
             "orthographic": camera.orthographic,
             "width": camera.width,
             "height": camera.height,
-            "clip_start": camera.clip_start,
-            "clip_end": camera.clip_end,
+            "clip_start": number(np.float64(camera.clip_start)),
+            "clip_end": number(np.float64(camera.clip_end)),
             "steps": [_quantity(q) for q in derivation.camera],
         },
         "ray": [_quantity(q) for q in derivation.ray],
@@ -62,7 +62,7 @@ def to_dict(derivation: Derivation) -> dict[str, Any]:
             ],
         },
         "color": {
-            "linear_rgba": [float(c) for c in derivation.color],
+            "linear_rgba": [number(np.float64(c)) for c in derivation.color],
             "steps": [_quantity(q) for q in derivation.shading],
         },
     }
@@ -103,7 +103,7 @@ def _test(test: Test) -> dict[str, Any]:
         "instance": c.instance,
         "triangle": c.triangle,
         "slot": c.slot,
-        "colors": c.colors.astype(float).tolist(),
+        "colors": [[number(v) for v in color] for color in c.colors.astype(float)],
         "steps": [_quantity(q) for q in test.quantities],
         "judgements": {
             kind: {

@@ -24,6 +24,7 @@ from ..tracer.settings import Method, Settings
 from ..tracer.triangle import METHODS
 from ..tracer.visibility import candidates, plan, within_clip
 from ..tracer.world import WorldTriangles
+from .methods import PLAIN, nearest
 from .pixel import Candidate, Pixel, check_pixel
 
 LIMIT = 8  # candidates that one still reads
@@ -48,7 +49,8 @@ def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
         Of the traced picture, the camera's region; (0, 0) is its lower left.
     limit : int
         Keep so many triangles: first what the textbook accepts, the nearest first, then what the
-        ray passes, the closest miss first. More, where the proven answer would not be the same.
+        ray passes, the closest miss first. More, where the proven answer, or what one of the plain
+        methods sees, would not be the same.
         Infinite planes do not count.
 
     Raises
@@ -81,7 +83,8 @@ def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
         source=source,
     )
     order = _order(pixel, triangles)
-    kept = order[: _enough(pixel, triangles, order, limit)]
+    count = _enough(pixel, triangles, order, limit)
+    kept = [*order[:count], *_seen_by_methods(pixel, triangles, order[count:])]
     return replace(
         pixel,
         candidates=(*(_candidate(scene, triangles, k) for k in kept), *planes),
@@ -163,6 +166,14 @@ def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], li
             break
         count *= 2
     return min(count, len(order))
+
+
+def _seen_by_methods(
+    pixel: Pixel, triangles: WorldTriangles, left: NDArray[np.intp]
+) -> list[np.intp]:
+    """Return which of those left out a plain method sees, in the order given."""
+    seen = {nearest(pixel, triangles, *plain)[1] for plain in PLAIN}
+    return [k for k in left if (int(triangles.instance[k]), int(triangles.triangle[k])) in seen]
 
 
 def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:

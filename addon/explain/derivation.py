@@ -14,15 +14,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..scene import Scene
 from ..tracer.hits import Name
 from . import textbook
-from .answers import NOWHERE, Answer, certified_answer, plain_answers
+from .answers import Answer, certified_answer, plain_answers
 from .arithmetic import Arithmetic, Number
 from .as_json import to_dict
 from .candidates import LIMIT, gather
 from .formulas import CAMERA, COLOR, PLANE, RAY, STORED, TRIANGLE, Formula
 from .judgement import Judgement, judge
+from .methods import NOWHERE
 from .pixel import Candidate, Pixel
 from .textbook import Steps
 
@@ -196,10 +199,13 @@ def _color(
     colors = seen.candidate.colors
     if len(colors) == 1:
         return (), (*map(float, colors[0][:3]), 1.0)
+    mean = (colors * certified.s[:, None]).sum(axis=0)  # as `tracer.shading.colors` has it
+    color = (*map(float, mean[:3].astype("float32")), 1.0)
+    if not np.isfinite(colors).all():  # there is nothing to compute exactly
+        return (), color
     columns = {}
     for kind in Arithmetic:
         weights = [_value(seen, f"s{k}", kind) for k in (1, 2, 3)]
         corners = [kind.vector(c[:3]) for c in colors]
         columns[kind] = textbook.color_steps(weights, corners)
-    mean = (colors * certified.s[:, None]).sum(axis=0)  # as `tracer.shading.colors` has it
-    return _quantities(columns, COLOR), (*map(float, mean[:3].astype("float32")), 1.0)
+    return _quantities(columns, COLOR), color

@@ -176,7 +176,7 @@ def _nearest(derivation: Derivation) -> list[Block]:
         Heading(2, "3. The nearest"),
         Paragraph("Of all that is accepted, the least t is seen: the textbook's answer."),
         Table(("", "sees", "t"), tuple(rows)),
-        Paragraph("What the tracer's methods see, beside what is proven:"),
+        Paragraph("What the tracer's methods see of these, beside what is proven:"),
         Table(("method", "precision", "sees", "t", ""), methods),
     ]
 
@@ -185,6 +185,8 @@ def _color(derivation: Derivation) -> list[Block]:
     seen = derivation.seen
     if seen is None:
         said = "Nothing is met, so the pixel has the background's colour."
+    elif len(seen.colors) > 1 and not derivation.shading:
+        said = "A colour at a corner is not finite, and so the mean of the corners' may not be."
     elif derivation.shading:
         said = "The colour is the mean of those at the corners, weighed by s₁, s₂, s₃; alpha is 1."
     elif seen.is_plane:

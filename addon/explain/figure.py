@@ -50,9 +50,9 @@ def shapes(derivation: Derivation) -> list[Shape]:
     pixel = derivation.pixel
     o, d = pixel.origin, pixel.direction
     end = _end(derivation)
-    size = max(end, 1e-30)
+    size = max(abs(end), 1e-30)
     largest = _OF_TRIANGLE * _extent(derivation)
-    out = [_cone("Ray", o, o + end * d, min(_THIN * size, largest / 2), RAY)]
+    out = [_cone("Ray", o, d, end, min(_THIN * size, largest / 2), RAY)]
     for number, test in enumerate(derivation.tests, 1):
         t = _t(test)
         is_seen = test.candidate is derivation.seen
@@ -161,8 +161,11 @@ def _across(direction: NDArray) -> tuple[NDArray, NDArray]:
     return u / np.linalg.norm(u), v / np.linalg.norm(v)
 
 
-def _cone(name: str, start: NDArray, end: NDArray, radius: float, color: Color) -> Shape:
-    u, v = _across(end - start)
+def _cone(
+    name: str, start: NDArray, along: NDArray, length: float, radius: float, color: Color
+) -> Shape:
+    u, v = _across(along)  # not end - start: at t = 0, or far away, that is zero
+    end = start + length * along
     angles = 2 * np.pi * np.arange(_SIDES) / _SIDES
     ring = [end + radius * (np.cos(a) * u + np.sin(a) * v) for a in angles]
     middle = _SIDES + 1  # a line by itself is drawn however thin the cone is

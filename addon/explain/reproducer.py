@@ -19,12 +19,15 @@ from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
 
 SCHEMA = "reference_tracer.pixel/1"
+_ENDLESS = "inf"  # JSON has no number for it
 _COUNTS = "first_plane", "triangles", "left_out", "refused"
 
 
 def text(pixel: Pixel) -> str:
     """Return a pixel as the text of a file."""
     camera = asdict(pixel.camera) | {"world_from_camera": pixel.camera.world_from_camera.tolist()}
+    if np.isinf(pixel.camera.clip_end):
+        camera["clip_end"] = _ENDLESS
     content = {
         "schema": SCHEMA,
         "rerun": "reftrace explain THIS_FILE.json",
@@ -85,7 +88,7 @@ def _pixel(content: Any) -> Pixel:
         _whole(content, "x", ""),
         _whole(content, "y", ""),
         candidates,
-        _array(content, "background", "", (4,)).astype(np.float32),
+        _colors(_array(content, "background", "", (4,)), "background"),
         source=_get(content, "source", "", str),
         **{name: _whole(content, name, "") for name in _COUNTS},
     )
@@ -113,7 +116,8 @@ def _camera(c: dict) -> Camera:
         _whole(c, "width", "camera."),
         _whole(c, "height", "camera."),
         _get(c, "orthographic", "camera.", bool),
-        *(float(_array(c, k, "camera.", ())) for k in ("clip_start", "clip_end")),
+        float(_array(c, "clip_start", "camera.", ())),
+        np.inf if c.get("clip_end") == _ENDLESS else float(_array(c, "clip_end", "camera.", ())),
         Region(**{k: _whole(region, k, "camera.region.") for k in ends}),
         _get(c, "name", "camera.", str),
     )
@@ -123,24 +127,29 @@ def _candidate(c: Any, where: str) -> Candidate:
     if not isinstance(c, dict):
         raise SceneError(f"{where} must be an object in braces")
     where += "."
-    triangle = _get(c, "triangle", where, int)
+    is_plane = c.get("triangle") == NOTHING
+    triangle = NOTHING if is_plane else _whole(c, "triangle", where)
     colors = _array(c, "colors", where, None)
-    if colors.shape not in ((1, 4), (3, 4)):
-        raise SceneError(f"{where}colors must be one RGBA, or one for each corner")
-    points = _array(c, "points", where, (2, 3) if triangle == NOTHING else (3, 3))
-    if triangle == NOTHING and not points[1].any():
+    if colors.shape not in (((1, 4),) if is_plane else ((1, 4), (3, 4))):
+        raise SceneError(f"{where}colors must be one RGBA, or one for each corner of a triangle")
+    points = _array(c, "points", where, (2, 3) if is_plane else (3, 3))
+    if is_plane and not points[1].any():
         raise SceneError(f"{where}points[1], the plane's normal, is zero")
-    if triangle < NOTHING:
-        raise SceneError(f"{where}triangle is {triangle}; a plane has {NOTHING}")
     return Candidate(
         _get(c, "object", where, str),
         _whole(c, "instance", where),
         triangle,
         points,
-        colors.astype(np.float32),
+        _colors(colors, f"{where}colors"),
         _get(c, "mesh", where, str),
         _whole(c, "slot", where),
     )
+
+
+def _colors(values: NDArray[np.float64], where: str) -> NDArray[np.float32]:
+    if np.abs(values).max() > np.finfo(np.float32).max:
+        raise SceneError(f"{where} is beyond what a float32 holds")
+    return values.astype(np.float32)
 
 
 def _get(content: dict, key: str, where: str, kind: type) -> Any:
@@ -167,7 +176,8 @@ def _array(
     if key not in content:
         raise SceneError(f"{where}{key} is missing")
     try:
-        values = np.array(content[key], dtype=np.float64)
+        values = np.array(content[key])
+        values = values.astype(np.float64 if values.dtype.kind in "iuf" else "no numbers")
     except (ValueError, TypeError, OverflowError):
         values = np.array(np.nan)
     if not np.isfinite(values).all() or (shape is not None and values.shape != shape):

@@ -155,6 +155,42 @@ def test_what_the_user_puts_there_stays(suzanne):
     assert ray_objects.NAME not in bpy.data.collections
 
 
+def test_what_is_left_of_a_deleted_collection_goes_too(suzanne):
+    """Deleting a collection in the outliner moves its objects to the parent."""
+    ops.explain(**PIXEL)
+    before = blocks()
+    ops.draw_ray()
+    drawing = bpy.data.collections[ray_objects.NAME]
+    for obj in list(drawing.objects):
+        bpy.context.scene.collection.objects.link(obj)
+    bpy.data.collections.remove(drawing)
+    assert ops.remove_ray.poll() and ops.remove_ray() == {"FINISHED"}
+    assert blocks() == before
+
+
+def test_a_mesh_that_the_user_uses_stays(suzanne):
+    ops.explain(**PIXEL, draw_ray=True)
+    mesh = bpy.data.collections[ray_objects.NAME].objects["Hit"].data
+    mine = bpy.data.objects.new("Mine", mesh)
+    ops.remove_ray()
+    assert mine.data == mesh and len(mesh.vertices) == 6
+
+
+def test_no_picture_has_a_ray_that_was_put_elsewhere(suzanne, compare):
+    """Also where the user has put its collection into another one."""
+    clean = compare()
+    ops.explain(**PIXEL, draw_ray=True)
+    drawing, outer = bpy.data.collections[ray_objects.NAME], bpy.data.collections.new("Outer")
+    bpy.context.scene.collection.children.link(outer)
+    outer.children.link(drawing)
+    bpy.context.scene.collection.children.unlink(drawing)
+    for obj in drawing.objects:
+        obj.hide_render = False
+    drawn = compare()
+    np.testing.assert_array_equal(drawn.frame.color, clean.frame.color)
+    np.testing.assert_array_equal(drawn.picture, clean.picture)
+
+
 def test_no_picture_has_the_ray(suzanne, compare):
     clean = compare()
     ops.explain(**PIXEL, draw_ray=True)

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import subprocess
+import sys
+from dataclasses import replace
 
 import pytest
 import trimesh
@@ -59,6 +63,33 @@ def test_a_scene_file(ball_scene, tmp_path, capsys):
     assert "of scene.npz" in capsys.readouterr().out
 
 
+def test_a_name_that_steers_a_terminal_is_spelt_out(make, tmp_path, capsys):
+    """And one that is no Unicode can be written all the same."""
+    scene = replace(
+        make.scene(make.camera(4, 4), make.quad(-1, 1, -1.1, 1, -3)), objects=("a\x1b[2J\ud800<b>",)
+    )
+    save_scene(tmp_path / "scene.npz", scene)
+    assert explain(tmp_path / "scene.npz", "--pixel", 1, 1) == AGREE
+    assert "a\\x1b" in (text := capsys.readouterr().out) and "\x1b" not in text
+    pixel = tmp_path / "pixel.json"
+    for suffix in (".md", ".html", ".json"):
+        where = "--out", tmp_path / f"out{suffix}", "--reproducer", pixel
+        assert explain(tmp_path / "scene.npz", "--pixel", 1, 1, *where) == AGREE
+    assert json.loads(pixel.read_text())["candidates"][0]["object"] == scene.objects[0]
+    assert "<b>" not in (tmp_path / "out.html").read_text()
+    assert explain(pixel, "--out", tmp_path / "again.json") == AGREE
+    assert (tmp_path / "again.json").read_text() == (tmp_path / "out.json").read_text()
+
+
+def test_a_terminal_without_the_letters(ball):
+    """Windows' pipes have 256 letters, and formulas more."""
+    command = [sys.executable, "-m", "reference_tracer.cli", "explain", ball, "--pixel", "12", "8"]
+    done = subprocess.run(
+        [*command, *SMALL], capture_output=True, env=os.environ | {"PYTHONIOENCODING": "cp1252"}
+    )
+    assert done.returncode == AGREE and b"s\\u2081" in done.stdout
+
+
 @pytest.mark.parametrize(
     ("options", "says"),
     [
@@ -68,6 +99,7 @@ def test_a_scene_file(ball_scene, tmp_path, capsys):
         (["--pixel", "0", "0", "--limit", "0"], "--limit is 0"),
         (["--pixel", "0", "0", "--out", "pixel.pdf"], "must end in .md or .html or .json"),
         (["--pixel", "0", "0", "--reproducer", "pixel.npz"], "must end in .json"),
+        (["--pixel", "0", "0", "--reproducer", "p.json", "--out", "./p.json"], "the same file"),
     ],
 )
 def test_what_is_wrong_is_said(ball, capsys, options, says):

@@ -233,3 +233,18 @@ def test_a_miss_of_float32_is_said(make):
     scene = ball(make, far=1e6)
     told = [markdown.text(derive(scene, x, 9)) for x in range(8, 16)]
     assert any("Float32 rejects what is truly hit" in t or "Float32 accepts" in t for t in told)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_color_that_is_not_finite(make, value):
+    """Blender's colour attributes may be anything; the picture has it, so the derivation does."""
+    colors = np.full((2, 3, 4), 0.5, np.float32)
+    colors[:, 1, 2] = value
+    quad = make.quad(-1, 1, -1.1, 1, -3)
+    mesh = Mesh(quad.vertices, quad.triangles, corner_colors=colors)
+    scene = make.scene(make.camera(4, 4), mesh)
+    found = derive(scene, 1, 1)
+    np.testing.assert_array_equal(np.float32(found.color), render(scene).color[1, 1])
+    assert "not finite" in markdown.text(found) and "not finite" in html.page(found)
+    linear = json.loads(as_json.text_of(found))["color"]["linear_rgba"]
+    assert linear == [0.5, 0.5, str(value), 1.0]

@@ -50,6 +50,18 @@ def test_pieces_lie_in_their_planes_and_hold_x(ball_scene):
         assert (inside[0] <= o + t * d).all() and (o + t * d <= inside[1]).all()
 
 
+@pytest.mark.parametrize("z", [2.0, 0.0])
+def test_seen_behind_the_rays_origin(make, z):
+    """An orthographic camera may show what is behind it, and what it stands in."""
+    camera = make.camera(4, 4, orthographic=True, clip_start=-3.0)
+    found = derive(make.scene(camera, make.quad(-1, 1, -1.1, 1, z)), 1, 1)
+    assert found.certified.t == -z
+    drawn = {s.name.split(" = ")[0]: s.vertices for s in shapes(found)}
+    assert {"Ray", "Hit", "s1", "s2", "s3"} <= set(drawn)
+    assert all(np.isfinite(v).all() for v in drawn.values())
+    assert drawn["Hit"].mean(axis=0)[2] == pytest.approx(z)
+
+
 def test_nothing_met_is_a_ray_alone(one_triangle):
     scene = one_triangle([(0, 0, -4), (1, 0, -4), (-1, 0, -4)])  # degenerate
     names = [s.name for s in shapes(derive(scene, 1, 1))]

@@ -102,6 +102,12 @@ def put(value, *keys):
         (put([[0, 0]], "candidates", 0, "points"), "points must be 3 x 3 finite"),
         (put([1, 2], "candidates", 0, "colors"), "colors must be one RGBA"),
         (put(-2, "candidates", 0, "triangle"), "triangle is -2"),
+        (put(2**31, "candidates", 0, "triangle"), "triangle is 2147483648"),
+        (put([[1e39, 0, 0, 1]], "candidates", 0, "colors"), "beyond what a float32 holds"),
+        (put([0, 0, -1e39, 1], "background"), "background is beyond what a float32 holds"),
+        (put([[0, 0, 0, 1]] * 3, "candidates", -1, "colors"), "one for each corner of a triangle"),
+        (put("50", "camera", "clip_end"), "clip_end must be a finite number"),
+        (put(True, "camera", "clip_end"), "clip_end must be a finite number"),
         (put(10**30, "candidates", 0, "slot"), "slot is 1000"),
         (put([[0, 0, 0], [0, 0, 0]], "candidates", -1, "points"), "normal, is zero"),
         (put(99, "candidates", -1, "instance"), "planes are not numbered"),
@@ -117,6 +123,16 @@ def test_what_is_wrong_is_named(saved, change, says):
     with pytest.raises(SceneError, match=says) as error:
         reproducer.read(path)
     assert str(path) in str(error.value)
+
+
+def test_an_endless_clip_range(make, tmp_path):
+    scene = make.scene(make.camera(4, 4, clip_end=np.inf), make.quad(-1, 1, -1.1, 1, -3))
+    found, path = derive(scene, 1, 1), tmp_path / "pixel.json"
+    path.write_text(reproducer.text(found.pixel))
+    assert json.loads(path.read_text(), parse_constant=pytest.fail)["camera"]["clip_end"] == "inf"
+    again = derive_pixel(reproducer.read(path))
+    assert again.pixel.camera.clip_end == np.inf and again.certified.t == found.certified.t
+    assert json.loads(as_json.text_of(again))["camera"]["clip_end"] == "inf"
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "\x80", "null", "[]", '"x"', "NaN"])
