@@ -85,7 +85,7 @@ def _writer(filepath: str) -> Any:
 def _write(filepath: str, text: str) -> None:
     path = Path(bpy.path.abspath(filepath))
     with folders.made_for_file(path), folders.replacing_file(path) as new:
-        new.write_text(text, encoding="utf-8")
+        new.write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 class _OfLatest:

@@ -14,7 +14,7 @@ from ..study.students.checks import Group
 from ..study.students.extremes import held
 from ..study.students.judging import Judgement
 from ..study.students.picture import Look
-from ..study.students.student import StudentError
+from ..study.students.student_error import StudentError
 from ..study.students.tally import WEIGHTS, Tally
 from .files import SavePng
 from .folders import replacing

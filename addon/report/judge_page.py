@@ -17,7 +17,7 @@ from ..images import to_display
 from ..study.students.examples import Example
 from ..study.students.judging import Judgement
 from ..study.students.picture import Look, Mark
-from ..study.students.student import StudentError
+from ..study.students.student_error import StudentError
 from .judge_table import MARKS, VERDICTS, explain, held_rows, percent, tallies
 
 Encode = Callable[[NDArray[np.uint8]], bytes]

@@ -18,7 +18,8 @@ from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
 from .names import distinct
 from .picture import Look, look
-from .student import Limits, Student, StudentError
+from .student import Limits, Student
+from .student_error import StudentError
 from .subject import Subject
 from .tally import Tally, score_of
 

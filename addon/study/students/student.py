@@ -18,12 +18,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...arguments import printable
+from .student_error import StudentError, parsed
 
 SECONDS = 60.0  # of a scene, by default
 MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
@@ -35,36 +36,6 @@ _ADVICE = {  # what numpy says of it -> what a student needs to know
     "read-only": "the arrays that intersect is given must not be changed: write a = a - b, "
     "not a -= b, or copy them first",
 }
-
-
-KINDS = frozenset({"syntax", "exception", "answer", "exit", "memory", "time", "ended"})
-
-
-class StudentError(Exception):
-    """What a student's code did wrong.
-
-    `kind` is one of KINDS ("answer": of a wrong form); `trace` has the lines of the student's own
-    files, (file, line, function, text), outermost first.
-    """
-
-    def __init__(self, kind: str, message: str, trace: tuple[tuple, ...] = ()) -> None:
-        super().__init__(message)
-        self.kind, self.message, self.trace = kind, message, trace
-
-    @property
-    def line(self) -> int | None:
-        """The line of the student's file where it happened, if there is one."""
-        return self.trace[-1][1] if self.trace else None
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return the error as JSON can hold it."""
-        names = "file", "line", "function", "text"
-        return {
-            "kind": self.kind,
-            "message": self.message,
-            "line": self.line,
-            "trace": [dict(zip(names, t, strict=True)) for t in self.trace],
-        }
 
 
 @dataclass
@@ -203,7 +174,7 @@ class Student:
         if not line.endswith(b"\n") and len(line) < _LONGEST:
             raise EOFError
         try:
-            answer = _parsed(line)
+            answer = parsed(line)
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
             text = "its process answered something that is no answer: does the file write to other"
             text += " streams than the standard ones, or change numpy or json?"
@@ -219,27 +190,6 @@ class Student:
         if kind == "exit":
             message += " (the file must not call sys.exit or quit)"
         raise StudentError(kind, message, trace)
-
-
-def _parsed(line: bytes) -> float | tuple[str, str, tuple[tuple, ...]]:
-    """Return the seconds that an answer has taken, or an error's kind, message and trace.
-
-    The student's code shares the process that writes it, and may have written it: nothing is taken
-    for granted.
-    """
-    answer = json.loads(line)
-    if answer["ok"]:
-        seconds = float(answer.get("seconds", 0.0))
-        if not 0 <= seconds < np.inf:
-            raise ValueError(seconds)
-        return seconds
-    if answer["kind"] not in KINDS:
-        raise ValueError(answer["kind"])
-    trace = tuple(
-        (printable(file), None if number is None else int(number), printable(name), printable(text))
-        for file, number, name, text in answer["trace"]
-    )
-    return answer["kind"], printable(answer["message"]), trace
 
 
 def _read(stream: BinaryIO, size: int) -> bytes:

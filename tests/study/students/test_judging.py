@@ -12,7 +12,8 @@ from reference_tracer.study.students.examples import find_examples
 from reference_tracer.study.students.extremes import extreme_scenes, held, plain, try_extremes
 from reference_tracer.study.students.judging import judge
 from reference_tracer.study.students.picture import Mark, look
-from reference_tracer.study.students.student import Limits, StudentError
+from reference_tracer.study.students.student import Limits
+from reference_tracer.study.students.student_error import StudentError
 from reference_tracer.study.students.subject import prepare
 from reference_tracer.study.students.tally import Tally, score_of
 from reference_tracer.tracer.progress import result_of

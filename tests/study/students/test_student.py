@@ -8,7 +8,8 @@ import time
 
 import numpy as np
 import pytest
-from reference_tracer.study.students.student import KEPT, Limits, Student, StudentError
+from reference_tracer.study.students.student import KEPT, Limits, Student
+from reference_tracer.study.students.student_error import StudentError
 
 HEAD = "import os, sys\nimport numpy as np\n\ndef intersect(o, d, p):\n    "
 NOTHING = "return np.full(len(o), np.inf), np.zeros((len(o), 3))"
