@@ -1,4 +1,4 @@
-"""`blender FILE --command reference_tracer compare|trade|extremes`, for scripts and farms."""
+"""`blender FILE --command reference_tracer compare|explain|trade|extremes`, for scripts."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from ..arguments import (
     settings_from,
     words,
 )
+from ..commands import explain
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import Comparison, SizeError
@@ -36,7 +37,7 @@ from ..tracer.progress import result_of
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import studies
-from .compare import compare_to_folder, made
+from .compare import compare_to_folder, export_open_file, made
 
 ENGINES = ("viewport", "workbench", "cycles")  # the first needs a window
 
@@ -77,6 +78,10 @@ def _parser() -> Parser:
     add_settings(sub)
     add_judge(sub)
     add_page(sub)
+    text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
+    sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES)
+    sub.set_defaults(run=_explain)
+    explain.add_options(sub)
     sub = command(
         "trade",
         _trade,
@@ -97,6 +102,14 @@ def _compare(options: Any) -> int:
         with suppress(OSError):  # where it is the folder that cannot be written
             files.write_failure(bpy.path.abspath(options.out), error)
         raise
+
+
+def _explain(options: Any) -> int:
+    explain.check_options(options)
+    _check_open()
+    scene, _, _ = export_open_file(bpy.context)
+    source = bpy.path.basename(bpy.data.filepath)
+    return explain.finish(options, explain.pixel_of(options, scene, source))
 
 
 def _trade(options: Any) -> int:

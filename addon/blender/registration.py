@@ -5,7 +5,10 @@ from __future__ import annotations
 import importlib
 
 # Names, so that a module is imported when it is registered and not before.
-MODULES = ("properties", "engine", "operators", "page", "panels", "study_panels", "commands")
+MODULES = (
+    *("properties", "engine", "operators", "pixel_operators", "inspector"),
+    *("page", "panels", "inspector_panels", "study_panels", "commands"),
+)
 
 
 def register() -> None:

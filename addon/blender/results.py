@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import Comparison
+from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
 from ..report import extremes as extremes_report
 from ..report import trade_plot
@@ -30,7 +31,7 @@ class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
     file: str
-    content: Comparison | Trade | tuple[BreakingPoint, ...]
+    content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...]
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
     rows: tuple[Row, ...] = ()  # of the extremes, as they were measured
@@ -62,6 +63,11 @@ def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
 
     lines = [extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
     return _keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
+
+
+def keep_derivation(scene: Any, derivation: Derivation, sentence: str) -> Result:
+    """Remember the derivation of a pixel of a scene."""
+    return _keep(Derivation, derivation, [sentence], scene.name)
 
 
 def _show_plots(
@@ -99,7 +105,7 @@ def latest(kind: type, scene: Any) -> Result | None:
 
     Parameters
     ----------
-    kind : {Comparison, Trade, BreakingPoint}
+    kind : {Comparison, Derivation, Trade, BreakingPoint}
     scene : bpy.types.Scene
     """
     found = _latest.get(kind)

@@ -12,6 +12,8 @@ from typing import Any
 
 import bpy
 
+DRAWN = "reference_tracer_drawn"  # a custom property of what the add-on itself draws in a scene
+
 _copies: dict[str, tuple[str, str | None]] = {}  # name of a temporary scene: the user's, judge
 
 
@@ -71,3 +73,6 @@ def _isolate(scene: Any, layer: str) -> None:
     for other in [v for v in scene.view_layers if v.name != layer]:
         scene.view_layers.remove(other)
     scene.view_layers[layer].use = True
+    for child in scene.view_layers[layer].layer_collection.children:
+        if child.collection.get(DRAWN):  # a drawing about the scene, and no part of it
+            child.exclude = True

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
-from ..arguments import add_camera, refuse
+from ..arguments import Parser, add_camera, refuse
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather
 from ..explain.derivation import derive_pixel
@@ -16,7 +18,7 @@ from ..explain.output import WRITERS
 from ..explain.pixel import Pixel
 from ..opening import SOURCES, load
 from ..report import folders
-from ..scene import SceneError
+from ..scene import Scene, SceneError
 from .parts import Commands, command
 
 
@@ -30,6 +32,12 @@ def add(commands: Commands) -> None:
         "reftrace explain scene.blend --pixel 480 270 --out pixel.html",
         f"{SOURCES}, or a pixel.json that --reproducer wrote",
     )
+    add_options(parser)
+    add_camera(parser)
+
+
+def add_options(parser: Parser) -> None:
+    """Add what `blender --command` has, too."""
     parser.add_argument(
         "--pixel", type=int, nargs=2, metavar=("X", "Y"), help="0 0 is the picture's lower left"
     )
@@ -47,28 +55,36 @@ def add(commands: Commands) -> None:
     parser.add_argument(
         "--limit", type=int, metavar="N", help=f"show so many triangles at most (default {LIMIT})"
     )
-    add_camera(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Derive, and print or write it."""
-    _check(options)
-    pixel = _pixel(options)
-    derivation = derive_pixel(pixel)
-    files = [(options.reproducer, lambda: reproducer.text(pixel))]
-    if options.out:
-        files.append((options.out, lambda: WRITERS[options.out.suffix.lower()](derivation)))
-    else:
-        print(WRITERS[".md"](derivation), end="")
-    for path, text in files:
-        if path:
-            _write(path, text())
-    if options.out:
-        print(f"{answer_sentence(derivation)} {options.out}")
-    return 0
+    check_options(options)
+    if options.scene.suffix.lower() == ".json":
+        own = "width", "height", "eye", "target", "angle", "ortho_scale"
+        why = f"is not for '{options.scene}', which is one pixel by itself"
+        refuse(options, ("pixel", "limit", *own), why)
+        return finish(options, reproducer.read(options.scene))
+    with _told_aside():
+        scene, _ = load(options)
+    return finish(options, pixel_of(options, scene, options.scene.name))
 
 
-def _check(options: argparse.Namespace) -> None:
+@contextmanager
+def _told_aside() -> Iterator[None]:
+    """Send what is said meanwhile, by Blender too, to stderr: it is no part of the Markdown."""
+    sys.stdout.flush()
+    own = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        os.dup2(own, 1)
+        os.close(own)
+
+
+def check_options(options: argparse.Namespace) -> None:
     """Find what is wrong with the options before any work."""
     for name, endings in (("out", tuple(WRITERS)), ("reproducer", (".json",))):
         path = getattr(options, name)
@@ -76,21 +92,28 @@ def _check(options: argparse.Namespace) -> None:
             raise SceneError(f"'{path}' must end in {' or '.join(endings)}")
     if options.limit is not None and options.limit < 1:
         raise SceneError(f"--limit is {options.limit}; it must be at least 1")
-    if options.scene.suffix.lower() == ".json":
-        own = "width", "height", "eye", "target", "angle", "ortho_scale"
-        names = ("pixel", "limit", *own)
-        refuse(options, names, f"is not for '{options.scene}', which is one pixel by itself")
-    elif options.pixel is None:
+    scene = getattr(options, "scene", None)
+    if options.pixel is None and not (scene and scene.suffix.lower() == ".json"):
         raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
 
 
-def _pixel(options: argparse.Namespace) -> Pixel:
-    if options.scene.suffix.lower() == ".json":
-        return reproducer.read(options.scene)
-    with redirect_stdout(sys.stderr):  # what was exported is no part of the Markdown
-        scene, _ = load(options)
+def pixel_of(options: argparse.Namespace, scene: Scene, source: str) -> Pixel:
+    """Return the pixel of a scene that the options name."""
     limit = LIMIT if options.limit is None else options.limit
-    return gather(scene, *options.pixel, limit, options.scene.name)
+    return gather(scene, *options.pixel, limit, source)
+
+
+def finish(options: argparse.Namespace, pixel: Pixel) -> int:
+    """Derive a pixel, and print or write what the options want of it; return the exit code."""
+    derivation = derive_pixel(pixel)
+    if options.reproducer:
+        _write(options.reproducer, reproducer.text(pixel))
+    if not options.out:
+        print(WRITERS[".md"](derivation), end="")
+        return 0
+    _write(options.out, WRITERS[options.out.suffix.lower()](derivation))
+    print(f"{answer_sentence(derivation)} {options.out}")
+    return 0
 
 
 def _write(path: Path, text: str) -> None:

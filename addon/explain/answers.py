@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..tracer import plane
 from ..tracer.certainty import Certainty, broken_assumptions
-from ..tracer.hits import NOTHING, Hits, Name, Statistics
+from ..tracer.hits import NOTHING, Hits, Name
 from ..tracer.settings import Method, Precision
 from ..tracer.triangle import METHODS
 from ..tracer.visibility import within_clip
@@ -74,7 +74,7 @@ def _plain(pixel: Pixel, method: Method, precision: Precision) -> Answer:
 
 def certified_answer(pixel: Pixel) -> Answer:
     """Return the answer that is proven; NOT_CERTIFIED where this process can prove nothing."""
-    hits: Hits = contest_hits(pixel, world_triangles(pixel), Statistics())
+    hits: Hits = contest_hits(pixel, world_triangles(pixel))
     proven = not broken_assumptions()
     return Answer(
         Method.CERTIFIED,

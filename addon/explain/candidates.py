@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Instance, Mesh, Region, Scene
-from ..tracer.camera import Rays
+from ..tracer.camera import camera_rays
 from ..tracer.candidates import Pairs
 from ..tracer.certified import Contest
-from ..tracer.hits import NOTHING, Name, Statistics
+from ..tracer.hits import NOTHING, Hits, Name, Statistics
 from ..tracer.pieces import refused
 from ..tracer.progress import result_of
 from ..tracer.settings import Method, Settings
@@ -47,8 +47,8 @@ def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
     x, y : int
         Of the traced picture, the camera's region; (0, 0) is its lower left.
     limit : int
-        Keep so many triangles: first what is seen and all that is tied with it, then what the
-        textbook accepts, the nearest first, then what the ray passes, the closest miss first.
+        Keep so many triangles: first what the textbook accepts, the nearest first, then what the
+        ray passes, the closest miss first. More, where the proven answer would not be the same.
         Infinite planes do not count.
 
     Raises
@@ -81,7 +81,7 @@ def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
         source=source,
     )
     order = _order(pixel, triangles)
-    kept = order[: max(limit, _needed(pixel, triangles, order))]
+    kept = order[: _enough(pixel, triangles, order, limit)]
     return replace(
         pixel,
         candidates=(*(_candidate(scene, triangles, k) for k in kept), *planes),
@@ -147,29 +147,37 @@ def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     return np.lexsort((triangles.triangle, triangles.instance, distance, outside, ~seen))
 
 
-def _needed(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp]) -> int:
-    """Return how many of the first in order hold all that is seen, or tied with what is seen."""
-    names = seen_by_proof(pixel, triangles)
-    numbered = zip(triangles.instance[order], triangles.triangle[order], strict=True)
-    return max((k for k, name in enumerate(numbered, start=1) if name in names), default=0)
+def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], limit: int) -> int:
+    """Return how many of the first in order have the same proven answer as all of them.
+
+    At least `limit`: what is tied with the first comes with it, and what raised a doubt of it.
+    """
+    whole = contest_hits(pixel, triangles)
+    names = whole.ties.get(0, frozenset()) | {(int(whole.instance[0]), int(whole.triangle[0]))}
+    ordered = zip(triangles.instance[order], triangles.triangle[order], strict=True)
+    last = max((k for k, name in enumerate(ordered, start=1) if name in names), default=0)
+    count = max(limit, last)
+    while count < len(order):
+        hits = contest_hits(pixel, triangles.take(order[:count]))
+        if hits.certainty[0] == whole.certainty[0] and hits.ties == whole.ties:
+            break
+        count *= 2
+    return min(count, len(order))
 
 
-def seen_by_proof(pixel: Pixel, triangles: WorldTriangles) -> frozenset[Name]:
-    """Return the names of what is certainly seen, of these triangles and the pixel's planes."""
-    hits = contest_hits(pixel, triangles, Statistics())
-    return hits.ties.get(0, frozenset()) | {(int(hits.instance[0]), int(hits.triangle[0]))}
-
-
-def contest_hits(pixel: Pixel, triangles: WorldTriangles, statistics: Statistics):
+def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
     """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
     planes = [(c.points[0], c.points[1]) for c in pixel.candidates if c.is_plane]
-    clip = pixel.camera.clip_start, pixel.camera.clip_end
-    rays: Rays = pixel.rays()
-    contest = Contest(rays, planes, pixel.first_plane, *clip)
+    camera = pixel.camera
+    # As in `tracer.verdict`: the bounds are those for all of the picture's rays.
+    px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5])
+    around = camera_rays(camera, px, np.array([0.5, camera.height - 0.5] * 2))
+    clip = camera.clip_start, camera.clip_end
+    contest = Contest(pixel.rays(), planes, pixel.first_plane, *clip, around)
     every = np.arange(len(triangles.instance))
     if len(every):
         contest.enter(Pairs(np.zeros_like(every), every, triangles))
-    return result_of(contest.hits(statistics))
+    return result_of(contest.hits(Statistics()))
 
 
 def _candidate(scene: Scene, triangles: WorldTriangles, k: int) -> Candidate:

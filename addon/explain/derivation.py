@@ -108,7 +108,7 @@ def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
     x, y : int
         Of the traced picture, the camera's region; (0, 0) is its lower left pixel.
     limit : int
-        Show at most so many triangles, unless more are tied for the first: see
+        Show at most so many triangles, unless the answer needs more: see
         :func:`candidates.gather`.
     source : str
         What a reader calls the scene.

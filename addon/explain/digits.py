@@ -15,7 +15,7 @@ import numpy as np
 from .arithmetic import Number
 
 EXACT_DIGITS = 24  # significant: a float64 has 17
-_PLAIN = range(-5, 16)  # decimal exponents that are written without "e"
+_PLAIN = range(-4, 16)  # decimal exponents that are written without "e"
 
 
 class Parts(NamedTuple):
@@ -114,9 +114,9 @@ def marked(value: np.floating, exact: Fraction | None) -> Parts:
 
 
 def off_text(off: float | None) -> str:
-    """Return an error in ulp, short: 0, 0.31, 2.5, 8.4e+03; "–" where there is none to tell."""
+    """Return an error in ulp, short: 0, 0.31, 2.5, 840, 1.2e+07; "–" where none can be told."""
     if off is None:
         return "–"
     if off == 0:
         return "0"
-    return f"{off:.2g}" if off < 1000 else f"{off:.1e}"
+    return f"{off:.2g}" if off < 99.5 else f"{off:.0f}" if off < 1e5 else f"{off:.1e}"

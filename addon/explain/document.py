@@ -99,9 +99,8 @@ def _candidates(derivation: Derivation) -> list[Block]:
     ]
     if pixel.left_out:
         lines.append(
-            f"{triangles:,} of them are below, {pixel.left_out:,} are left out: what is seen and "
-            "all that is tied with it comes first, then what the textbook accepts, the nearest "
-            "first, then what the ray passes most closely."
+            f"{triangles:,} of them are below, {pixel.left_out:,} are left out: first comes what "
+            "the textbook accepts, the nearest first, then what the ray passes most closely."
         )
     if planes:
         lines.append(f"Infinite planes may be met by any ray: {planes:,}, all below.")

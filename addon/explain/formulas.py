@@ -24,7 +24,7 @@ class Formula(NamedTuple):
 
 
 CAMERA = {
-    "left": Formula("u_min", "", "view window, at depth 1 (perspective) or in metres"),
+    "left": Formula("u_min", "", "the view window"),
     "right_end": Formula("u_max"),
     "bottom": Formula("v_min"),
     "top": Formula("v_max"),
@@ -62,7 +62,7 @@ TRIANGLE = {
     "p1": Formula("p₁", "", "corners, in world space"),
     "p2": Formula("p₂"),
     "p3": Formula("p₃"),
-    "n": Formula("n", "(p₃ − p₁) × (p₂ − p₁)", "the plane's normal; its length is twice the area"),
+    "n": Formula("n", "(p₃ − p₁) × (p₂ − p₁)", "as long as twice the area"),
     "from_p": Formula("(o − p₁) · n"),
     "towards": Formula("d · n", "", "0: parallel"),
     "t": Formula("t", "−((o − p₁) · n) / (d · n)"),
@@ -72,9 +72,9 @@ TRIANGLE = {
     "ns3": Formula("nₛ₃", "(p₃ − p₁) × (x − p₁)", "0 on the edge p₃p₁"),
     "area": Formula("‖n‖²", "n · n"),
     "s1": Formula("s₁", "(n · nₛ₁) / ‖n‖²", "weighs p₁"),
-    "s2": Formula("s₂", "(n · nₛ₃) / ‖n‖²", "weighs p₂; printed as s₃ (erratum 1)"),
-    "s3": Formula("s₃", "(n · nₛ₂) / ‖n‖²", "weighs p₃; printed as s₂ (erratum 1)"),
-    "sum": Formula("s₁ + s₂ + s₃", "", "printed: must be 1 (erratum 2)"),
+    "s2": Formula("s₂", "(n · nₛ₃) / ‖n‖²", "printed as s₃: erratum 1"),
+    "s3": Formula("s₃", "(n · nₛ₂) / ‖n‖²", "printed as s₂: erratum 1"),
+    "sum": Formula("s₁ + s₂ + s₃", "", "printed: = 1, erratum 2"),
 }
 COLOR = {
     "c1": Formula("c₁", "", "colours at the corners, linear"),

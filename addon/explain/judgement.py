@@ -99,7 +99,8 @@ def _inside(steps: Steps) -> list[Reason]:
     ]
     negative = [r for r in found if "negative" in r]  # where one is, it also says why others are >1
     if not found and not isinstance(steps["sum"], Fraction):
-        if not abs(steps["sum"] - 1) <= SUM_TOLERANCE[steps["sum"].dtype]:
+        kind = steps["sum"].dtype
+        if not abs(steps["sum"] - kind.type(1)) <= kind.type(SUM_TOLERANCE[kind]):
             found.append(Reason.SUM)
     return negative or found
 

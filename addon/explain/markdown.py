@@ -10,7 +10,10 @@ from .derivation import Derivation
 from .digits import Parts
 from .document import blocks
 
-_ESCAPED = re.compile(r"([\\`*_{}\[\]<>|#~])")
+# What would be markup where it stands; an index as in u_min and a "<" before a space would not.
+_ESCAPED = re.compile(
+    r"([\\`*\[\]|~]|<(?=[a-zA-Z/!?])|&(?=#?\w+;)|(?<![a-zA-Z\d])_|_(?![a-zA-Z\d]))"
+)
 _HEAD = "| | | float32 | off | float64 | off | exact |\n|---|---|---|--:|---|--:|---|"
 
 

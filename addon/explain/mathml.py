@@ -12,6 +12,8 @@ from html import escape
 from .formulas import VECTORS, Formula
 
 _TOKEN = re.compile(r"([A-Za-z]+)([ₛᵢ₁₂₃]+)?(?:_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
+_BARS = '<mo stretchy="false">‖</mo>'
+_SIGNS = re.compile(r"\d|[a-z]+")
 _INDEX = str.maketrans("ₛᵢ₁₂₃", "si123")
 
 
@@ -50,7 +52,7 @@ def inline(text: str) -> str:
         elif square:
             out.append(f"<msup>{_last_group(out)}<mn>2</mn></msup>")
         elif bars:
-            out.append("<mo>‖</mo>")
+            out.append(_BARS)
         else:
             still = ' stretchy="false"' if operator in "()" else ""
             out.append(f"<mo{still}>{escape(operator)}</mo>")
@@ -60,15 +62,20 @@ def inline(text: str) -> str:
 def _word(word: str, indices: list[str | None]) -> str:
     kind = ' class="derivation-vector"' if word in VECTORS else ""
     letter = f"<mi{kind}>{word}</mi>"
-    below = "".join(f"<mi>{index}</mi>" for index in indices if index)
+    below = "".join(_index(sign) for index in indices if index for sign in _SIGNS.findall(index))
     return f"<msub>{letter}<mrow>{below}</mrow></msub>" if below else letter
+
+
+def _index(sign: str) -> str:
+    tag = "mn" if sign.isdigit() else "mi"
+    return f"<{tag}>{sign}</{tag}>"
 
 
 def _last_group(out: list[str]) -> str:
     """Take ‖…‖, or the last sign alone, off the end of what is there."""
     first = len(out) - 1
-    if out[first] == "<mo>‖</mo>":
-        first = max(k for k in range(first) if out[k] == "<mo>‖</mo>")
+    if out[first] == _BARS:
+        first = max(k for k in range(first) if out[k] == _BARS)
     group = "".join(out[first:])
     del out[first:]
     return f"<mrow>{group}</mrow>"

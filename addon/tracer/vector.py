@@ -26,6 +26,8 @@ def gather(values: NDArray, index: NDArray[np.integer]) -> NDArray:
     if values.ndim == 1:
         return values[index]
     out = np.empty((*values.shape[:-1], len(index)), values.dtype)
+    if not out.size:  # of nothing, reshape cannot tell how many rows there are
+        return out
     for row, target in zip(
         values.reshape(-1, values.shape[-1]), out.reshape(-1, len(index)), strict=True
     ):

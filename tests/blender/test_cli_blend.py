@@ -188,3 +188,14 @@ def test_too_large_a_picture(tmp_path):
     done = reftrace("trade", SAMPLES / "suzanne.blend", "--width", "10000000", "--samples", "1")
     assert done.returncode == 4
     assert "choose a smaller size" in done.stderr and "Traceback" not in done.stderr
+
+
+def test_explain_prints_markdown_and_nothing_else(tmp_path):
+    """What is exported, and what Blender says, goes elsewhere: `> pixel.md` holds the page."""
+    again = tmp_path / "pixel.json"
+    scene = SAMPLES / "exercise_triangle.blend"
+    done = reftrace("explain", scene, "--pixel", "320", "180", "--reproducer", again)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("# The ray through pixel (320, 180) of exercise_triangle.blend")
+    assert "objects exported" in done.stderr
+    assert reftrace("explain", again).stdout == done.stdout

@@ -215,3 +215,31 @@ def test_the_operator_fails_where_it_cannot_write(saved, tmp_path):
     (tmp_path / "file").write_text("in the way")
     with pytest.raises(RuntimeError, match="file"):
         bpy.ops.reference_tracer.compare(directory=str(tmp_path / "file"))
+
+
+def test_explain_prints_or_writes(saved, tmp_path, capsys):
+    assert commands.run(["explain", "--pixel", "30", "18"]) == 0
+    assert capsys.readouterr().out.startswith("# The ray through pixel (30, 18) of scene.blend")
+    page, again = tmp_path / "pixel.html", tmp_path / "pixel.json"
+    written = ["--out", str(page), "--reproducer", str(again)]
+    assert commands.run(["explain", "--pixel", "30", "18", *written]) == 0
+    assert page.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert "reference_tracer.pixel/1" in again.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ([], "--pixel X Y"),
+        (["--pixel", "64", "0"], "between 0 and 63"),
+        (["--limit", "0"], "limit"),
+    ],
+)
+def test_explain_says_what_is_wrong(saved, capsys, options, says):
+    assert commands.run(["explain", *options]) == 4
+    assert says in capsys.readouterr().err
+
+
+def test_explain_needs_a_file(capsys):
+    assert commands.run(["explain", "--pixel", "0", "0"]) == 4
+    assert "no file is open" in capsys.readouterr().err

@@ -91,7 +91,15 @@ def test_digits_that_are_wrong_are_marked():
 
 
 @pytest.mark.parametrize(
-    ("off", "shown"), [(None, "–"), (0.0, "0"), (0.31, "0.31"), (12.4, "12"), (8412.0, "8.4e+03")]
+    ("off", "shown"),
+    [
+        (None, "–"),
+        (0.0, "0"),
+        (0.31, "0.31"),
+        (12.4, "12"),
+        (8412.3, "8412"),
+        (123456.0, "1.2e+05"),
+    ],
 )
 def test_errors_are_short(off, shown):
     assert off_text(off) == shown

@@ -118,3 +118,19 @@ def test_a_fraction():
     assert "".join(above.itertext()) == "(o−p1)·n" and "".join(below.itertext()) == "d·n"
     assert [e.text for e in root if e.tag == "mo"] == ["=", "−"]
     assert [e.get("class") for e in below.iter("mi")] == ["derivation-vector"] * 2
+
+
+@pytest.mark.parametrize(
+    ("plain", "escaped"),
+    [
+        ("exercise_triangle.blend", "exercise_triangle.blend"),
+        ("_x_ __y__", r"\_x\_ \_\_y\_\_"),
+        ("s₂ < 0", "s₂ < 0"),
+        ("<b>", r"\<b>"),
+        ("a|b*c`e~[f](g)", r"a\|b\*c\`e\~\[f\](g)"),
+        ("&amp; &", r"\&amp; &"),
+        ("two\nlines", "two lines"),
+    ],
+)
+def test_markdown_escapes_what_would_be_markup(plain, escaped):
+    assert markdown.escaped(plain) == escaped

@@ -104,6 +104,18 @@ def test_command_for_the_trade(blender, folder):
     assert {p.name for p in path.iterdir()} == {"tradeoff.txt", "tradeoff.json"}
 
 
+def test_command_for_a_pixel(blender, folder):
+    path, inside = folder
+    done = blender.run(
+        SCENE,
+        *("--command", "reference_tracer", "explain"),
+        *("--pixel", "480", "270", "--out", f"{inside}/pixel.html"),
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "The pixel sees Suzanne" in done.stdout
+    assert (path / "pixel.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+
+
 def test_command_refuses_a_file_that_is_not_there(blender, folder):
     path, inside = folder
     done = blender.run(

@@ -1,0 +1,53 @@
+"""Scenes as hostile as they come: every pixel's derivation has the proven answer, and is whole."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from reference_tracer.explain import as_json, html, markdown, reproducer
+from reference_tracer.explain.arithmetic import FLOATS, Arithmetic
+from reference_tracer.explain.derivation import derive, derive_pixel
+from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.render import trace
+from reference_tracer.tracer.settings import Settings
+
+from ..tracer.hostile_scenes import hostile_scene
+
+SCENES = 20
+PROVEN = Certainty.BOUND, Certainty.EXACT
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_hostile_scenes(make, tmp_path: Path, seed):
+    rng = np.random.default_rng(seed)
+    kinds, disagreed = set(), 0
+    for number in range(SCENES):
+        scene = hostile_scene(make, rng)
+        hits, region = trace(scene, Settings("certified")), scene.camera.region
+        for index in rng.choice(len(hits.t), min(6, len(hits.t)), replace=False).tolist():
+            y, x = divmod(index, region.width)
+            found = derive(scene, x, y, limit=int(rng.integers(1, 9)))
+            certified = found.certified
+            assert certified.seen == (hits.instance[index], hits.triangle[index])
+            assert certified.t == hits.t[index]
+            # A picture may ask whole numbers about a triangle whose box the derivation rules out.
+            certainty = Certainty(int(hits.certainty[index]))
+            assert certified.certainty == certainty or {certified.certainty, certainty} == {*PROVEN}
+            assert certified.ties == hits.ties.get(index, frozenset())
+            kinds.add(certified.certainty)
+            if certified.certainty in PROVEN:
+                # What is proven without a rule is what the textbook says, exactly.
+                nearest = found.nearest[Arithmetic.EXACT]
+                seen = None if nearest is None else found.tests[nearest].candidate
+                assert seen is found.seen
+                disagreed += any(found.nearest[kind] != nearest for kind in FLOATS)
+        texts = markdown.text(found), html.page(found), as_json.text_of(found)
+        json.loads(texts[2])
+        path = tmp_path / f"{number}.json"
+        path.write_text(reproducer.text(found.pixel), encoding="utf-8")
+        again = derive_pixel(reproducer.read(path))
+        assert (markdown.text(again), html.page(again), as_json.text_of(again)) == texts
+    assert {Certainty.BOUND, Certainty.AMBIGUOUS} <= kinds and disagreed

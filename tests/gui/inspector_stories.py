@@ -1,0 +1,244 @@
+"""What a user does with the pixel inspector, played in Blender's window: see `story.py`."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
+
+from story import (
+    compared,
+    data_blocks,
+    invoke,
+    module,
+    noted,
+    play,
+    press,
+    press_compare,
+    result,
+    running,
+    screenshot,
+    settings,
+    until,
+    window,
+)
+
+BUTTON = 44  # pixels from the top of the image editor's sidebar to the middle of our button
+DERIVATION = "explain.derivation.Derivation"
+
+
+def area_of(kind):
+    """The largest area, made an editor of a kind."""
+    area = max(window().screen.areas, key=lambda a: a.width * a.height)
+    area.type = kind
+    area.spaces.active.show_region_ui = True
+    return area
+
+
+def region_of(area):
+    return next(r for r in area.regions if r.type == "WINDOW")
+
+
+def click(region, x, y):
+    """Click with the left button at a place of a region, as a hand does."""
+    place = str(region.x + int(x)), str(window().height - 1 - region.y - int(y))
+    for action in (["mousemove", *place], ["mousedown", "1"], ["mouseup", "1"]):
+        subprocess.run(["xdotool", *action], check=True)
+        yield 0.2
+    yield 0.8
+
+
+def zoom(area, ratio):
+    """Show an image's pixels so large, the image in the middle."""
+    with bpy.context.temp_override(window=window(), area=area, region=region_of(area)):
+        bpy.ops.image.view_zoom_ratio(ratio=ratio)
+
+
+def show_tab(area, category="Reference Tracer"):
+    """Bring our tab of a sidebar to the front; from 4.3 on scripts may."""
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    yield 0.3
+    sidebar.active_panel_category = category
+    area.tag_redraw()
+    yield 0.5
+
+
+def pixel():
+    found = result(DERIVATION)
+    if found is None:
+        return None
+    p = found.content.pixel
+    seen = found.content.seen
+    return [p.x, p.y, seen and seen.object, found.content.certified.t]
+
+
+def look_through_camera(area):
+    space = area.spaces.active
+    space.region_3d.view_perspective = "CAMERA"
+    space.region_3d.view_camera_zoom = 0
+    space.region_3d.view_camera_offset = (0, 0)
+
+
+def place_in_view(area, x, y):
+    """Where the centre of a pixel is in the camera's view, by Blender's own projection."""
+    from bpy_extras.view3d_utils import location_3d_to_region_2d
+
+    scene = window().scene
+    derived = module("explain.pixel"), module("blender.explain")
+    with bpy.context.temp_override(window=window()):
+        camera = derived[1].exported(bpy.context).camera
+    looking = derived[0].Pixel(camera, x, y, (), None)
+    point = looking.origin + 5 * looking.direction
+    assert scene.camera
+    region = region_of(area)
+    return location_3d_to_region_2d(region, region.data, point)
+
+
+def in_images():
+    """In the traced image, the difference, a render: each click is its pixel; Esc ends it."""
+    press_compare()
+    yield from until(compared)
+    comparison = result().content
+    noted["frame"] = {}
+    area = area_of("IMAGE_EDITOR")
+    yield 1
+    yield from show_tab(area)
+    before = settings()
+    sidebar = next(r for r in area.regions if r.type == "UI")
+    yield from click(sidebar, 0.4 * sidebar.width, sidebar.height - BUTTON)
+    noted["running"] = running()
+    region = region_of(area)
+    for name, x, y in (("Traced", 470, 300), ("Difference", 400, 190), ("Blender", 600, 200)):
+        area.spaces.active.image = bpy.data.images[f"Reference Tracer {name}"]
+        zoom(area, 2)
+        yield 0.7
+        u, v = region.view2d.view_to_region((x + 0.5) / 960, (y + 0.5) / 540, clip=False)
+        yield from click(region, u, v)
+        noted[name] = {"clicked": [x, y], "pixel": pixel()}
+        frame = comparison.frame
+        noted["frame"][name] = float(frame.t[y, x])
+        screenshot(f"inspect_{name.lower()}")
+    zoom(area, 0.5)
+    yield 0.5
+    u, v = region.view2d.view_to_region(-0.02, 0.5, clip=False)
+    yield from click(region, u, v)
+    noted["outside"] = pixel()
+    bpy.data.images.new("Other", 64, 64)
+    area.spaces.active.image = bpy.data.images["Other"]
+    yield 0.7
+    u, v = region.view2d.view_to_region(0.5, 0.5, clip=False)
+    yield from click(region, u, v)
+    noted["other"] = pixel()
+    screenshot("inspect_refused")
+    press("Escape")
+    yield 0.5
+    noted["after_escape"] = running()
+    noted["changed"] = {k: v for k, v in settings().items() if before[k] != v}
+    noted["texts"] = [t.name for t in bpy.data.texts]
+    noted["text_begins"] = bpy.data.texts[0].as_string().splitlines()[0]
+
+
+def in_render():
+    """In the picture of F12, whole and with a border that crops it or not."""
+    scene = window().scene
+    scene.render.engine = "REFERENCE_TRACER"
+    noted["clicks"] = []
+    area = area_of("IMAGE_EDITOR")
+    for border, crop in ((False, False), (True, True), (True, False)):
+        scene.render.use_border, scene.render.use_crop_to_border = border, crop
+        scene.render.border_min_x, scene.render.border_max_x = 0.25, 0.75
+        scene.render.border_min_y, scene.render.border_max_y = 0.2, 0.9
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.render.render()
+        area.spaces.active.image = bpy.data.images["Render Result"]
+        yield 1
+        invoke("inspect")
+        region = region_of(area)
+        u, v = region.view2d.view_to_region(0.5, 0.5, clip=False)
+        yield from click(region, u, v)
+        noted["clicks"].append([border, crop, pixel()])
+        press("Escape")
+        yield 0.5
+    screenshot("inspect_render")
+
+
+def in_view():
+    """In the camera's view, with the ray drawn; undo and one button remove it."""
+    area = area_of("VIEW_3D")
+    look_through_camera(area)
+    yield 1
+    yield from show_tab(area)
+    bpy.context.window_manager.reference_tracer_inspector.draw_ray = True
+    clean = data_blocks()
+    selected = [o.name for o in window().view_layer.objects if o.select_get()]
+    noted["started"] = list(invoke("inspect"))
+    region = region_of(area)
+    noted["clicks"] = []
+    for x, y in ((480, 300), (597, 90)):
+        yield from click(region, *place_in_view(area, x, y))
+        noted["clicks"].append([[x, y], pixel()])
+    screenshot("inspect_view")
+    now = data_blocks()
+    noted["drawn"] = sorted(set(now["objects"]) - set(clean["objects"]))
+    noted["selection_kept"] = selected == [
+        o.name for o in window().view_layer.objects if o.select_get()
+    ]
+    view = area.spaces.active.region_3d
+    view.view_perspective = "PERSP"
+    yield 0.5
+    last = pixel()
+    yield from click(region, region.width / 3, region.height / 2)
+    noted["not_through_the_camera"] = pixel() == last
+    screenshot("inspect_not_the_camera")
+    press("Escape")
+    yield 0.5
+    noted["after_escape"] = running()
+    frame_drawing(area)
+    yield 1
+    screenshot("inspect_ray")
+    noted["after_undo"] = []
+    for step in ("undo", "undo", "redo"):
+        with bpy.context.temp_override(window=window()):
+            getattr(bpy.ops.ed, step)()
+        yield 0.5
+        noted["after_undo"].append(len(set(data_blocks()["objects"]) - set(clean["objects"])))
+    noted["removed"] = list(invoke("remove_ray"))
+    yield 0.5
+    noted["left"] = {
+        k: sorted(set(v) - set(clean[k])) for k, v in data_blocks().items() if v != clean[k]
+    }
+
+
+def frame_drawing(area):
+    """Look at the hit aslant, as one who wants to see the three weights would."""
+    from mathutils import Quaternion
+
+    hit = next(o for o in bpy.data.objects if o.name.startswith("Hit"))
+    piece = next(o for o in bpy.data.objects if o.name.startswith("2.1 plane"))
+    normal = piece.data.polygons[0].normal
+    towards = window().scene.camera.location - hit.location
+    view = area.spaces.active.region_3d
+    view.view_location = hit.location
+    view.view_distance = 2.5
+    facing = (normal if normal.dot(towards) > 0 else -normal).to_track_quat("Z", "Y")
+    view.view_rotation = Quaternion((0, 0, 1), 0.6) @ facing @ Quaternion((1, 0, 0), 0.3)
+
+
+def other_file():
+    """Another file ends it, and it can be begun again."""
+    area_of("VIEW_3D")
+    yield 0.5
+    invoke("inspect")
+    noted["running"] = running()
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
+    yield 1
+    noted["left"] = running()
+    noted["again"] = list(invoke("inspect"))
+    press("Escape")
+    yield 0.5
+    noted["ended"] = running()
+
+
+play((in_images, in_render, in_view, other_file))

@@ -1,0 +1,58 @@
+"""The pixel inspector in the real window: clicks, what they find, Esc. Screenshots in out/gui."""
+
+import pytest
+
+pytestmark = pytest.mark.gui
+
+
+def story(blender, name):
+    return blender.story(name, file="inspector_stories")
+
+
+def test_clicks_in_the_comparisons_images(blender):
+    noted = story(blender, "in_images")
+    assert len(noted["running"]) == 1  # by a click on its button
+    for name in ("Traced", "Difference", "Blender"):
+        x, y, seen, t = noted[name]["pixel"]
+        assert [x, y] == noted[name]["clicked"]
+        assert t == noted["frame"][name]
+        assert (seen is None) == (t == float("inf"))
+    assert noted["Traced"]["pixel"][2] == "Suzanne"
+    assert noted["outside"] == noted["other"] == noted["Blender"]["pixel"]  # nothing new
+    assert noted["after_escape"] == []
+    assert noted["changed"] == {}
+    assert noted["texts"] == ["Reference Tracer Pixel"]
+    assert noted["text_begins"].startswith("# The ray through pixel (600, 200) of suzanne.blend")
+
+
+def test_clicks_in_a_render(blender):
+    noted = story(blender, "in_render")
+    whole, cropped, border = noted["clicks"]
+    assert whole[2][:2] == [480, 270]
+    # The border is 240 to 720 by 108 to 486; its middle is pixel (240, 189) of what is rendered.
+    assert cropped[2][:2] == [240, 189]
+    assert border[2][:2] == [480 - 240, 270 - 108]
+    assert whole[2][2:] == border[2][2:]  # the same ray
+
+
+def test_clicks_in_the_camera_view(blender):
+    noted = story(blender, "in_view")
+    for clicked, found in noted["clicks"]:
+        # A pixel of the picture is about as large as one of the screen here.
+        assert abs(found[0] - clicked[0]) <= 1 and abs(found[1] - clicked[1]) <= 1
+        assert found[2]
+    assert "Ray" in noted["drawn"] and "Hit" in noted["drawn"]
+    assert sum(name.startswith("s") and " = " in name for name in noted["drawn"]) == 3
+    assert noted["selection_kept"]
+    assert noted["not_through_the_camera"]
+    assert noted["after_escape"] == []
+    first, none, again = noted["after_undo"]  # a step each
+    assert first > 0 and none == 0 and again == first
+    assert noted["removed"] == ["FINISHED"]
+    assert noted["left"] == {}
+
+
+def test_another_file_ends_it(blender):
+    noted = story(blender, "other_file")
+    assert noted["running"] and noted["left"] == []
+    assert noted["again"] == ["RUNNING_MODAL"] and noted["ended"] == []
