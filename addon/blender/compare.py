@@ -138,7 +138,6 @@ def gather(
     known = Known(
         names=names,
         certificate=certificate,
-        curves=None if like_for_like else (),
         self_check=checked,
         next_frame=later,
     )

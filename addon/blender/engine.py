@@ -156,7 +156,9 @@ def export_for_render(scene: Any) -> Certified:
     scene.render.engine = ENGINE
     _captured = []
     try:
-        with values_kept():
+        # Else the frame would be that of the context's scene (5.2).
+        override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0])
+        with values_kept(), override:
             bpy.ops.render.render(scene=scene.name)
         return _captured[0]
     except RuntimeError as error:  # Blender turns our report into one

@@ -40,7 +40,7 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Named, ...]:
         return ()
     with temporary_scene(user) as tmp:
         return tuple(
-            Named(f"the view transform '{name}'", _looked_up(table, shown))
+            Named(f"the view transform {name}", _looked_up(table, shown))
             for name, shown in _shown(tmp, table)
         )
 
@@ -49,9 +49,9 @@ def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[
     """Yield names and what becomes of the colours (n, 3), linear as sRGB's curve is undone."""
     view = tmp.view_settings
     own = view.view_transform
-    stops = f", exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}"
     plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")
-    yield own + ("" if plain else f"{stops}, look {view.look}"), _saved(tmp, table)
+    more = f" with exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}, look '{view.look}'"
+    yield f"'{own}'" + ("" if plain else more), _saved(tmp, table)
     view.look, view.exposure, view.gamma = "None", 0.0, 1.0
     for name in COMMON:
         try:
@@ -59,17 +59,16 @@ def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[
         except TypeError:  # this Blender does not have it
             continue
         if not (plain and name == own):
-            yield name, _saved(tmp, table)
+            yield f"'{name}'", _saved(tmp, table)
 
 
 def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
     """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
     image = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
     try:
-        image.colorspace_settings.name = tmp.sequencer_colorspace_settings.name
-        image.colorspace_settings.is_data = False
         opaque = np.ones((len(table), 1), np.float32)
         image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
+        tmp.render.dither_intensity = 0.0
         settings = tmp.render.image_settings
         if hasattr(settings, "media_type"):  # from 5.0 on
             settings.media_type = "IMAGE"

@@ -64,6 +64,12 @@ def add(commands: Commands) -> None:
         metavar="PIXELS",
         help="how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)",
     )
+    group.add_argument(
+        "--dither",
+        type=float,
+        metavar="LEVELS",
+        help="noise in a .png, in levels of 255 (default what the .blend says, else 0)",
+    )
     add_camera(parser)
 
 
@@ -83,7 +89,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _with_blender(options: argparse.Namespace) -> int:
-    refuse(options, ("filter",), "is for a picture of --against")
+    refuse(options, ("filter", "dither"), "is for a picture of --against")
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -101,8 +107,10 @@ def _against(options: argparse.Namespace) -> int:
     refuse(options, ("judge", "identity"), "is for Blender's picture, not for one of --against")
     if options.as_is:
         raise SceneError("--as-is is for Blender's picture, not for one of --against")
-    if options.filter is not None and not options.filter >= 0:
-        raise SceneError(f"--filter is {options.filter:g}; it must be at least 0")
+    for name in ("filter", "dither"):
+        value = getattr(options, name)
+        if value is not None and not 0 <= value < np.inf:
+            raise SceneError(f"--{name} is {value:g}; it must be a number of at least 0")
     picture = images.load(options.against)
     about = {
         "version": None,
@@ -133,7 +141,8 @@ def _blend(
         from ..blender.compare import gather_against
 
         context = blender.context
-        shown = _shown(picture, export_camera(context.scene))
+        dither = context.scene.render.dither_intensity
+        shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = settings_from(options, context.scene.reference_tracer.settings())
         gathered = gather_against(context, shown, about, settings, bool(options.self_check))
         return (yield from gathered.steps(trace))
@@ -149,7 +158,7 @@ def _file(
             scene,
             manifest,
             settings_from(options, stored),
-            _shown(picture, scene.camera),
+            _shown(options, picture, scene.camera),
             about,
             trace,
             Known(curves=(), self_check=bool(options.self_check)),
@@ -157,12 +166,15 @@ def _file(
     )
 
 
-def _shown(picture: images.Picture, camera: Camera) -> Shown:
+def _shown(
+    options: argparse.Namespace, picture: images.Picture, camera: Camera, dither: float = 0.0
+) -> Shown:
     """Return what is compared of a picture: of one of the whole view, the camera's border."""
     color, r = picture.color, camera.region
     if color.shape[:2] == (camera.height, camera.width):
         color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
-    return Shown(color, levels=picture.levels, opaque=picture.opaque)
+    dither = dither if options.dither is None else options.dither
+    return Shown(color, levels=picture.levels, dither=dither, opaque=picture.opaque)
 
 
 def _manifest(path: Path, scene: Scene) -> Manifest:

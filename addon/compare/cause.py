@@ -182,17 +182,18 @@ def differing(
     interpolated: NDArray[np.bool_] | bool = False,
     levels: int = 0,
     sums: int = 0,
+    dither: float = 0.0,
 ) -> NDArray[np.bool_]:
     """Return which pixels of two (..., c) pictures differ by more than rounding.
 
     UNITS of a half float's last place are allowed, but at least LEAST; where a colour is
     `interpolated` (...), INTERPOLATED more. What is not finite differs from everything. Where the
     second picture was stored in so many `levels` above 0 of sRGB's curve, as a PNG is, half a level
-    is allowed in place of that. A mean of `sums` samples, added up in half floats, loses half a
-    unit with each.
+    is allowed in place of that, and `dither` levels of noise. A mean of `sums` samples, added up in
+    half floats, loses half a unit with each.
     """
     size = np.maximum(np.abs(first), np.abs(second))
-    apart, allowed = difference(first, second, interpolated, levels, sums)
+    apart, allowed = difference(first, second, interpolated, levels, sums, dither)
     with np.errstate(invalid="ignore"):
         return ~((apart <= allowed) & np.isfinite(size)).all(axis=-1)
 
@@ -203,6 +204,7 @@ def difference(
     interpolated: NDArray[np.bool_] | bool = False,
     levels: int = 0,
     sums: int = 0,
+    dither: float = 0.0,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return how far two pictures are apart, (..., c), and how far :func:`differing` allows."""
     first, second = first.astype(np.float64), second.astype(np.float64)
@@ -212,7 +214,7 @@ def difference(
     with np.errstate(invalid="ignore"):
         apart = np.abs(first - second)
         if levels:
-            return apart, np.broadcast_to((0.5 + LEVEL_SLACK) / levels + more, apart.shape)
+            return apart, np.broadcast_to((0.5 + LEVEL_SLACK + dither) / levels + more, apart.shape)
         size = np.maximum(np.abs(first), np.abs(second))
         unit = np.spacing(np.minimum(size, 2.0**15).astype(np.float16))  # the last binade
         unit = unit.astype(np.float64)

@@ -24,12 +24,12 @@ from .again import SOUND, parts_of, set_out
 from .cause import Cause, Settler
 from .shown import Shown, transformed
 
-# Rings within the radius and directions on each, where the tracer is asked; the second time only of
+# Rings within the radius and directions on each, where the tracer is asked; later ones only of
 # what is left: a sliver passes between the samples.
-DENSITIES = ((4, 16), (12, 32))
+DENSITIES = ((2, 8), (4, 16), (12, 32))
 DISTINCT = 16  # colours of which each three are tried
 _PIXELS = [(x, y) for x in (-2, -1, 0, 1, 2) for y in (-2, -1, 0, 1, 2) if x or y]
-STEPS = 100  # of Frank and Wolfe: two colours need one, three a few
+STEPS = 400  # of Frank and Wolfe: two colours need one, three a few, some an age
 # A mix is stored in half floats after some twenty roundings, and its samples lie between ours.
 NEAR = 2.0**-7
 
@@ -94,16 +94,65 @@ def is_mix(color: NDArray, mixed: NDArray, sums: int = 0) -> NDArray[np.bool_]:
     logs = [np.log2(1 + np.maximum(v, 0)) for v in (color[rest], mixed[:, rest])]
     # A colour's own error is up to 1.44 times as large in the logarithm, itself a half float.
     found[rest] = in_hull(*logs, 2 * allowed[rest])
-    # Where colours lie almost on a line those steps are short: then each two and three are tried.
-    for index in np.flatnonzero(~found[rest]):
-        found[rest[index]] = any(
-            distance_to_triangles(t[at], np.unique(p[:, at], axis=0)[:DISTINCT]) <= near
-            for t, p, at, near in (
-                (color, mixed, rest[index], allowed[rest[index]]),
-                (*logs, index, 2 * allowed[rest[index]]),
-            )
-        )
     return found
+
+
+def in_hull(
+    target: NDArray[np.float64], points: NDArray[np.float64], allowed: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
+
+    A target is outside for sure once a plane lies between. Where colours lie almost on a line the
+    steps are short: then each two and three of the colours are tried.
+    """
+    found = np.zeros(len(target), bool)
+    left = np.arange(len(target))  # those that are not decided yet
+    nearest = np.argmin(((points - target) ** 2).sum(axis=-1), axis=0)
+    at, all_points = points[nearest, left], points
+    weight = np.zeros(points.shape[:2])
+    weight[nearest, left] = 1
+    for _ in range(STEPS):
+        way = target[left] - at
+        length = np.sqrt((way**2).sum(axis=-1))
+        near = length <= allowed[left]
+        found[left[near]] = True
+        ahead, behind, share, beyond = _pair(points, weight, way, at)
+        keep = np.flatnonzero(~near & (beyond <= allowed[left] * length))
+        if len(keep) < len(left):
+            left, at, points, weight = left[keep], at[keep], points[:, keep], weight[:, keep]
+            ahead, behind, share = ahead[keep], behind[keep], share[keep]
+        if not len(left):
+            break
+        index = np.arange(len(left))
+        at = at + share[:, None] * (points[ahead, index] - points[behind, index])
+        weight[ahead, index] += share
+        weight[behind, index] -= share
+    for n in left:
+        distinct = np.unique(all_points[:, n], axis=0)[:DISTINCT]
+        found[n] = distance_to_triangles(target[n], distinct) <= allowed[n]
+    return found
+
+
+def _pair(
+    points: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    way: NDArray[np.float64],
+    at: NDArray[np.float64],
+) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    """Return the points farthest ahead and behind on the way from `at` to the target, (n,) each.
+
+    Besides, how much weight to move, and how far the target lies beyond the farthest of all, times
+    the length of the way.
+    """
+    score = np.einsum("knc,nc->kn", points, way)
+    ahead = np.argmax(score, axis=0)
+    behind = np.argmin(np.where(weight > 0, score, np.inf), axis=0)
+    index = np.arange(len(way))
+    beyond = (way * (at + way)).sum(axis=-1) - score[ahead, index]
+    step = points[ahead, index] - points[behind, index]
+    size = (step**2).sum(axis=-1)
+    share = (way * step).sum(axis=-1) / np.where(size > 0, size, 1)
+    return ahead, behind, np.clip(share, 0, weight[behind, index]), beyond
 
 
 def distance_to_triangles(target: NDArray[np.float64], points: NDArray[np.float64]) -> float:
@@ -120,47 +169,3 @@ def distance_to_triangles(target: NDArray[np.float64], points: NDArray[np.float6
         away = np.linalg.norm(foot - target, axis=1)
         least = min(least, away[inside].min(initial=np.inf))
     return float(least)
-
-
-def in_hull(
-    target: NDArray[np.float64], points: NDArray[np.float64], allowed: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
-
-    One that is not reached in STEPS steps counts as outside.
-    """
-    found = np.zeros(len(target), bool)
-    left = np.arange(len(target))  # those that are looked at still
-    nearest = np.argmin(((points - target) ** 2).sum(axis=-1), axis=0)
-    at = points[nearest, left]
-    weight = np.zeros(points.shape[:2])
-    weight[nearest, left] = 1
-    for _ in range(STEPS):
-        way = target[left] - at
-        near = (way**2).sum(axis=-1) <= allowed[left] ** 2
-        if near.any():
-            found[left[near]] = True
-            left, at, way = left[~near], at[~near], way[~near]
-            points, weight = points[:, ~near], weight[:, ~near]
-        if not len(left):
-            break
-        ahead, behind, share = _pair(points, weight, way)
-        index = np.arange(len(left))
-        at = at + share[:, None] * (points[ahead, index] - points[behind, index])
-        weight[ahead, index] += share
-        weight[behind, index] -= share
-    return found
-
-
-def _pair(
-    points: NDArray[np.float64], weight: NDArray[np.float64], way: NDArray[np.float64]
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64]]:
-    """Return the points farthest ahead and behind, (n,) each, and how much weight to move."""
-    score = np.einsum("knc,nc->kn", points, way)
-    ahead = np.argmax(score, axis=0)
-    behind = np.argmin(np.where(weight > 0, score, np.inf), axis=0)
-    index = np.arange(len(way))
-    step = points[ahead, index] - points[behind, index]
-    size = (step**2).sum(axis=-1)
-    share = (way * step).sum(axis=-1) / np.where(size > 0, size, 1)
-    return ahead, behind, np.clip(share, 0, weight[behind, index])

@@ -23,6 +23,7 @@ from .cause import Cause, differing
 from .causes import find_causes
 from .faults import FAULTS, Case, Fault, Wrong
 
+ROUNDING = Cause.EDGE, Cause.DEPTH_TIE, Cause.CLIP_PLANE
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
 
@@ -32,7 +33,7 @@ class FaultRow:
 
     `changed` pixels of the traced picture (or of Blender's) are others than without the fault;
     `differ` then differ, `looked_at` of these were asked for their cause, and `unexplained` had
-    none.
+    none. All are `within_rounding` where what Blender's own float32 may do accounts for each.
     """
 
     name: str
@@ -41,14 +42,17 @@ class FaultRow:
     differ: int
     looked_at: int
     unexplained: int
+    within_rounding: bool = False
     note: str = ""
 
     @property
     def result(self) -> str:
-        """One of 'caught', 'missed', 'cannot be seen here'."""
+        """One of 'caught', 'missed', 'within rounding', 'cannot be seen here'."""
         if not self.changed:
             return "cannot be seen here"
-        return "caught" if self.unexplained else "missed"
+        if self.unexplained:
+            return "caught"
+        return "within rounding" if self.within_rounding else "missed"
 
     @property
     def missed(self) -> bool:
@@ -75,9 +79,9 @@ def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
     try:
         wrong = fault.make(case)
     except SceneError as error:  # nothing can be traced with it: nobody would miss that
-        return FaultRow(fault.name, fault.text, 0, 0, 0, 0, f"refused: {error}")
+        return FaultRow(fault.name, fault.text, 0, 0, 0, 0, note=f"refused: {error}")
     if wrong is None:
-        return FaultRow(fault.name, fault.text, 0, 0, 0, 0, "there is nothing to get wrong")
+        return FaultRow(fault.name, fault.text, 0, 0, 0, 0, note="there is nothing to get wrong")
     frame = case.frame
     if wrong.scene is not case.scene:
         frame = Frame.empty(wrong.scene)
@@ -98,7 +102,8 @@ def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
     looked_at = int((found.cause != Cause.AGREE).sum())
     unexplained = int((found.cause == Cause.UNEXPLAINED).sum())
     differ = looked_at + found.passed_over
-    return FaultRow(fault.name, fault.text, changed, differ, looked_at, unexplained)
+    within = bool(np.isin(found.cause, (Cause.AGREE, *ROUNDING)).all())
+    return FaultRow(fault.name, fault.text, changed, differ, looked_at, unexplained, within)
 
 
 def _changed(case: Case, wrong: Wrong, frame: Frame) -> NDArray[np.bool_]:
@@ -121,7 +126,8 @@ def table(rows: Sequence[FaultRow]) -> list[str]:
     """Return the self-check as a person reads it, a fault a line."""
     if not rows:
         return []
-    caught, seen = sum(r.result == "caught" for r in rows), sum(r.changed > 0 for r in rows)
+    caught = sum(r.result == "caught" for r in rows)
+    seen = caught + sum(r.missed for r in rows)
     out = [f"self-check: {caught} of {seen} faults that can be seen here are caught"]
     for r in rows:
         pixels = f"{r.unexplained:,} of {r.looked_at:,} px unexplained" if r.changed else r.note

@@ -35,6 +35,8 @@ class Shown:
         Whose each instance of the traced scene is, then each plane; NOTHING at the end.
     levels : int
         Above 0 where the picture was stored in so many levels of sRGB's curve: 255 for a PNG.
+    dither : float
+        So many levels of noise were added.
     sums : int
         How many samples were added up in half floats; 0 for one.
     opaque : bool
@@ -49,6 +51,7 @@ class Shown:
     owner: NDArray[np.int32] | None = None
     owners: NDArray[np.int32] | None = None
     levels: int = 0
+    dither: float = 0.0
     sums: int = 0
     opaque: bool = False
     lit: bool = False
@@ -83,7 +86,12 @@ class Shown:
         traced = colors if self.transform is None else transformed(colors, self.transform)
         last = 3 if self.opaque else 4
         return differing(
-            traced[..., :last], self.color[..., :last], interpolated, self.levels, self.sums
+            traced[..., :last],
+            self.color[..., :last],
+            interpolated,
+            self.levels,
+            self.sums,
+            self.dither,
         )
 
     def difference(self, colors: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -94,7 +102,7 @@ class Shown:
         traced = colors if self.transform is None else transformed(colors, self.transform)
         last = 3 if self.opaque else 4
         apart, allowed = difference(
-            traced[..., :last], self.color[..., :last], False, self.levels, self.sums
+            traced[..., :last], self.color[..., :last], False, self.levels, self.sums, self.dither
         )
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         return tuple(np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))

@@ -45,3 +45,37 @@ def test_examples_say_where(build, compare):
     for x, y in places:
         assert comparison.causes.cause[y, x] != 0
     assert f"({places[0][0]}, {places[0][1]})" in "\n".join(comparison.lines())
+
+
+@pytest.mark.parametrize("smooth", ["FXAA", "5", "8", "32"])
+@pytest.mark.parametrize("name", ["exercise_plane", "exercise_triangle", "suzanne"])
+def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
+    """Every colour is a mix of what the tracer sees within the filter; nothing is excused."""
+    scene = opened(name, 160)
+    scene.display.shading.light, scene.display.render_aa = "FLAT", smooth
+    found = compare(as_is=True)
+    by_cause = found.pixels["by_cause"]
+    assert found.pixels["unexplained"] == by_cause["not_modelled"] == by_cause["color"] == 0
+    assert by_cause["anti_aliasing"] > 100
+    assert found.pixels["interior"]["agree"] > 0.8 * found.pixels["interior"]["total"]
+    assert found.verdict == "warnings"
+
+
+def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
+    """Blender draws one object less, in studio light: the other shades are no reason."""
+    from reference_tracer.blender import compare as compare_module
+
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    scene.display.shading.light = "STUDIO"
+    real = compare_module.stand_ins
+
+    def lacking(tmp, *rest):
+        tmp.collection.objects.unlink(tmp.objects["Green"])
+        return real(tmp, *rest)
+
+    monkeypatch.setattr(compare_module, "stand_ins", lacking)
+    found = compare(as_is=True)
+    assert found.verdict == "differences"
+    assert found.pixels["unexplained_shows"]["other_object"] > 100

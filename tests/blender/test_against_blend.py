@@ -1,0 +1,155 @@
+"""`reftrace compare scene.blend --against`: pictures of Blender's, made otherwise than traced."""
+
+from __future__ import annotations
+
+import json
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer import cli, images
+from reference_tracer.blender import registration
+
+
+@pytest.fixture
+def scene(build):
+    scene = build.scene(96, 54)
+    build.solids()
+    build.corner_camera(lens=40)
+    scene.display.shading.light = "FLAT"
+    scene.display.shading.show_specular_highlight = False
+    scene.display.render_aa = "OFF"
+    scene.render.film_transparent = True
+    scene.render.engine = "BLENDER_WORKBENCH"
+    return scene
+
+
+@pytest.fixture
+def drawn(scene, tmp_path):
+    """Press F12 in the open file; leaves a PNG as the user would save it."""
+
+    def run(**view):
+        for name, value in view.items():
+            setattr(scene.view_settings, name, value)
+        image = scene.render.image_settings
+        if hasattr(image, "media_type"):
+            image.media_type = "IMAGE"
+        image.file_format, image.color_mode, image.color_depth = "PNG", "RGBA", "8"
+        scene.render.filepath = str(tmp_path / "drawn.png")
+        bpy.ops.render.render(write_still=True)
+
+    return run
+
+
+@pytest.fixture
+def judged(tmp_path, capsys, addon):
+    """Save the open file, and compare it with the picture as the command does."""
+
+    def run(*options):
+        bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+        registration.unregister()  # the command registers by itself, in a process of its own
+        try:
+            paths = (str(tmp_path / name) for name in ("scene.blend", "drawn.png", "out"))
+            blend, picture, out = paths
+            code = cli.main(["compare", blend, "--against", picture, "--out", out, *options])
+        finally:
+            registration.register()
+        found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
+        return code, found, capsys.readouterr().out
+
+    return run
+
+
+def test_blenders_own_png_of_a_plain_view(scene, drawn, judged):
+    drawn(view_transform="Standard")
+    code, found, _ = judged()
+    assert found["pixels"]["unexplained"] == 0
+    assert code == 0 and found["verdict"] == "agree" and found["transform"] == ""
+
+
+@pytest.mark.parametrize(
+    ("view", "named"),
+    [
+        ({"view_transform": "Filmic"}, "the view transform 'Filmic'"),
+        ({"view_transform": "AgX"}, "the view transform 'AgX'"),
+        ({"view_transform": "Standard", "exposure": -1.0}, "exposure -1"),
+        ({"view_transform": "Standard", "gamma": 1.5}, "gamma 1.5"),
+    ],
+)
+def test_a_view_transform_is_named(view, named, scene, drawn, judged):
+    drawn(**view)
+    code, found, text = judged()
+    assert named in found["transform"]
+    assert found["pixels"]["unexplained"] == 0 and code == 1
+    assert found["pixels"]["by_cause"]["color"] > 500
+    assert f"colours: {found['transform']}" in text
+
+
+def test_a_view_transform_that_the_scene_no_longer_has(scene, drawn, judged):
+    """The picture went through Filmic, the file says Standard."""
+    drawn(view_transform="Filmic")
+    scene.view_settings.view_transform = "Standard"
+    _, found, _ = judged()
+    assert "Filmic" in found["transform"] and found["pixels"]["unexplained"] == 0
+
+
+def test_an_object_that_only_the_viewport_hides(scene, drawn, judged):
+    """The picture is of the scene without it, as the viewport has it."""
+    bpy.data.objects["Green"].hide_render = True
+    drawn(view_transform="Standard")
+    bpy.data.objects["Green"].hide_render = False
+    bpy.data.objects["Green"].hide_viewport = True
+    code, found, text = judged()
+    assert found["hidden"] == [{"object": "Green", "reason": "hidden in the viewport"}]
+    assert found["pixels"]["unexplained"] == 0 < found["pixels"]["by_cause"]["hidden"]
+    assert code == 1 and "only one side shows 'Green': hidden in the viewport" in text
+
+
+def test_an_object_that_renders_do_not_have(scene, drawn, judged):
+    drawn(view_transform="Standard")
+    bpy.data.objects["Green"].hide_render = True
+    _, found, _ = judged()
+    assert found["hidden"] == [{"object": "Green", "reason": "hidden in renders"}]
+    assert found["pixels"]["unexplained"] == 0
+
+
+def test_an_object_that_is_gone_without_a_reason(scene, drawn, judged):
+    drawn(view_transform="Standard")
+    bpy.data.objects.remove(bpy.data.objects["Green"])
+    code, found, _ = judged()
+    assert code == 2 and found["hidden"] == [] and found["pixels"]["unexplained"] > 50
+
+
+def test_the_wrong_frame(scene, drawn, judged):
+    cube = bpy.data.objects["Red"]
+    for frame, x in ((1, 0.0), (2, 0.4), (3, 0.8)):
+        cube.location.x = x - 1.1
+        cube.keyframe_insert("location", frame=frame)
+    scene.frame_set(2)
+    drawn(view_transform="Standard")
+    scene.frame_set(1)
+    code, found, _ = judged()
+    assert [h["reason"] for h in found["hidden"]] == [
+        "the picture is of frame 2, the scene is at 1"
+    ]
+    assert found["pixels"]["unexplained"] == 0 and code == 1
+
+
+def test_a_picture_of_another_size(scene, drawn, judged):
+    drawn(view_transform="Standard")
+    scene.render.resolution_x = 100
+    code, found, _ = judged()
+    assert code == 3 and found["verdict"] == "failed"
+
+
+def test_the_file_is_read_as_blender_shows_it(scene, drawn, tmp_path):
+    drawn(view_transform="Standard")
+    mine = images.load(tmp_path / "drawn.png")
+    loaded = bpy.data.images.load(str(tmp_path / "drawn.png"))
+    values = np.array(loaded.pixels[:], np.float32).reshape(54, 96, 4)
+    np.testing.assert_allclose(images.encoded(mine.color)[..., 3], values[..., 3], atol=1e-6)
+    solid = values[..., 3] == 1
+    assert solid.sum() > 500
+    stored = values[solid][:, :3]
+    expected = images.curve(stored) if loaded.is_float else stored
+    np.testing.assert_allclose(images.encoded(mine.color)[solid][:, :3], expected, atol=1e-4)

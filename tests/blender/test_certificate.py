@@ -1,0 +1,54 @@
+"""The camera certificate against Blender's own matrix, over the matrix of camera settings."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import bpy
+import pytest
+from reference_tracer.blender import engine as engine_module
+from reference_tracer.blender.compare import gather
+from reference_tracer.compare.certificate import CameraMismatchError
+
+from . import test_compare_scenes as settings
+
+SETTINGS = (
+    settings.shifted,
+    settings.portrait,
+    settings.vertical_fit,
+    settings.pixel_aspect,
+    settings.tall_pixels,
+    settings.orthographic,
+    settings.border_with_crop,
+    settings.mirrored,
+    settings.scaled,
+    settings.parented,
+    settings.sheared,
+    settings.percentage,
+)
+
+
+@pytest.mark.parametrize("setting", SETTINGS, ids=lambda s: s.__name__)
+def test_every_camera_has_one(setting, build):
+    build.scene(160, 90)
+    setting(build)
+    found = gather(bpy.context).known.certificate
+    assert found.passed and found.largest < 0.01 and found.points > 1000
+
+
+def test_another_camera_is_refused_before_any_picture(build, monkeypatch):
+    build.scene()
+    build.corner_camera()
+    real = engine_module.export
+
+    def shifted(depsgraph):
+        scene, manifest = real(depsgraph)
+        window = replace(scene.camera.window, left=scene.camera.window.left * 1.1)
+        return replace(scene, camera=replace(scene.camera, window=window)), manifest
+
+    monkeypatch.setattr(engine_module, "export", shifted)
+    with pytest.raises(CameraMismatchError, match="not Blender's"):
+        gather(bpy.context)
+    with pytest.raises(RuntimeError, match="not Blender's"):
+        bpy.ops.reference_tracer.compare()
+    assert not bpy.data.images

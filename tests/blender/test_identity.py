@@ -1,0 +1,146 @@
+"""Whose surface each pixel of Blender's picture shows: by objects, instancers and stand-ins."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.compare.identity import NOTHING
+
+from .test_unchanged import differences, state
+
+CYCLES = ("exercise_plane", "geometry_nodes", "suzanne")
+
+
+def shown(comparison) -> set[str]:
+    """Return the names of what Blender shows, all of it known."""
+    identity = comparison.identity
+    counts = identity.counts()
+    assert counts["not_known"] == 0
+    assert counts["other_object"] <= 0.01 * identity.shown.size  # edges
+    assert comparison.pixels["unexplained"] == 0
+    return {identity.names[i] for i in np.unique(identity.shown) if i != NOTHING}
+
+
+@pytest.mark.parametrize("name", CYCLES)
+def test_cycles_shows_the_same_objects(name, opened, compare):
+    opened(name, 128)
+    found = shown(compare(judge="CYCLES"))
+    opened(name, 128)
+    assert found == shown(compare(judge="WORKBENCH")) and len(found) >= 3
+
+
+def test_instances_show_what_instances_them(build, compare):
+    build.scene()
+    child = build.cube("Child", 0.5, link=False)
+    collection = build.collection("Kit", child)
+    for name, x in (("Left", -1), ("Right", 1)):
+        empty = build.empty(name, location=(x, 0, 0))
+        empty.instance_type, empty.instance_collection = "COLLECTION", collection
+    points = build.square("Points", 1, location=(0, 1, 0))
+    build.instances_on_points(points, child)
+    build.camera()
+    assert shown(compare()) == {"Left", "Right", "Points"}
+
+
+def test_corners_that_carry_children(build, compare):
+    """The copies are parented to the copy, or nothing would be shown of them."""
+    build.scene()
+    parent = build.square("Parent", 2)
+    child = build.cube("Child", 0.4)
+    child.parent, parent.instance_type = parent, "VERTS"
+    build.camera()
+    assert shown(compare()) == {"Parent"}
+
+
+@pytest.mark.parametrize("color_type", ["MATERIAL", "OBJECT", "SINGLE", "VERTEX", "RANDOM"])
+def test_whatever_the_colours_are(color_type, build, compare):
+    build.scene(color_type=color_type)
+    build.solids()
+    build.corner_camera(lens=40)
+    assert shown(compare()) == {"Red", "Green", "Blue", "Floor"}
+
+
+def test_planes_hidden_objects_and_excluded_collections(build, compare):
+    scene = build.scene()
+    plane = build.square("Ground", 2, location=(0, 0, -1))
+    plane.reference_tracer.infinite_plane = True
+    build.cube("Seen", 0.5)
+    build.cube("Not Rendered", 0.5, location=(1, 0, 0)).hide_render = True
+    inner = build.collection("Inner", build.cube("In Inner", 0.5, link=False, location=(0, 1, 0)))
+    outer = build.collection("Outer", link=True)
+    outer.children.link(inner)
+    out = build.collection("Out", build.cube("In Out", 0.5, link=False, location=(0, -1, 0)))
+    scene.collection.children.link(out)
+    bpy.context.view_layer.layer_collection.children["Out"].exclude = True
+    build.camera(rotation=(0.2, 0, 0))
+    found = compare()
+    assert shown(found) == {"Ground", "Seen", "In Inner"}
+    assert "In Out" not in found.identity.names
+
+
+def test_copies_of_what_is_linked_animated_and_modified(build, compare):
+    build.scene()
+    cube = build.cube("Cube", 1)
+    cube.keyframe_insert("location", frame=1)
+    cube.modifiers.new("Subsurf", "SUBSURF").levels = 2
+    other = build.cube("Mirrored", 0.5, location=(1.5, 0, 0))
+    other.modifiers.new("Mirror", "MIRROR").mirror_object = cube
+    build.camera()
+    bpy.context.view_layer.update()  # or the matrices would be those of before
+    before = state()
+    assert shown(compare()) == {"Cube", "Mirrored"}
+    found = [d for d in differences(before, state()) if "/names/images" not in d[0]]
+    assert found == []
+
+
+def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
+    """Blender's picture with two colours swapped: the same objects in other colours."""
+    from reference_tracer.blender import compare as compare_module
+
+    build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    real = compare_module.picture
+    monkeypatch.setattr(
+        compare_module,
+        "picture",
+        lambda *a, **k: np.ascontiguousarray(real(*a, **k)[..., [2, 1, 0, 3]]),
+    )
+    found = compare()
+    shows = found.pixels["unexplained_shows"]
+    assert found.verdict == "differences"
+    assert shows["same_object"] > 100 and shows["other_object"] == 0
+    assert any("show the same object in another colour" in line for line in found.lines())
+
+
+def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch):
+    """What is drawn for identity lacks an object, and no colour says so."""
+    from reference_tracer.blender import identity as identity_module
+
+    build.scene(color_type="SINGLE")
+    build.solids()
+    build.corner_camera(lens=40)
+    real = identity_module.picture
+
+    def lacking(tmp, *rest):
+        copy = next(o for o in tmp.objects if o.name.startswith("Green"))
+        copy.hide_render = True
+        return real(tmp, *rest)
+
+    monkeypatch.setattr(identity_module, "picture", lacking)
+    found = compare()
+    shows = found.pixels["unexplained_shows"]
+    assert found.verdict == "differences"
+    assert shows["other_object"] > 100 and shows["same_object"] == 0
+
+
+def test_it_can_be_left_out(build, compare):
+    build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    assert compare(identity=False).identity is None
+    bpy.context.scene.reference_tracer.identity = False
+    found = compare()
+    assert found.identity is None and found.verdict == "agree"
+    assert found.to_dict()["identity"] is None

@@ -1,0 +1,80 @@
+"""The self-check on Blender's own pictures, and every engine in one table."""
+
+from __future__ import annotations
+
+import json
+
+import bpy
+import pytest
+from reference_tracer.blender import commands
+
+
+@pytest.mark.parametrize("name", ["exercise_perspective", "shifted_room", "geometry_nodes"])
+def test_sample_scenes_miss_no_fault(name, opened, compare):
+    opened(name, 120)
+    found = compare(self_check=True)
+    results = {row.name: row.result for row in found.self_check}
+    assert found.verdict == "agree" and "missed" not in results.values()
+    assert sum(result == "caught" for result in results.values()) >= 12
+    assert results["flipped_winding"] == "cannot be seen here"
+
+
+@pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
+def test_the_frame_after(judge, build, compare):
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    cube = bpy.data.objects["Red"]
+    for frame, x in ((1, -1.1), (2, -0.7)):
+        cube.location.x = x
+        cube.keyframe_insert("location", frame=frame)
+    scene.frame_set(1)
+    found = compare(self_check=True, judge=judge)
+    [row] = [row for row in found.self_check if row.name == "wrong_frame"]
+    assert row.result == "caught" and found.verdict == "agree"
+    assert scene.frame_current == 1 and cube.location.x == pytest.approx(-1.1)
+
+
+@pytest.fixture
+def saved(build, tmp_path):
+    scene = build.scene(64, 36)
+    build.solids()
+    build.corner_camera(lens=40)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend"))
+    return scene
+
+
+def test_on_request_of_the_command_and_the_panel(saved, tmp_path, capsys):
+    assert commands.run(["compare", "--self-check", "--out", str(tmp_path / "out")]) == 0
+    assert "faults that can be seen here are caught" in capsys.readouterr().out
+    found = json.loads((tmp_path / "out/comparison.json").read_text(encoding="utf-8"))
+    assert len(found["self_check"]) > 15
+    saved.reference_tracer.self_check = True
+    bpy.ops.reference_tracer.compare(directory=str(tmp_path / "button"))
+    found = json.loads((tmp_path / "button/comparison.json").read_text(encoding="utf-8"))
+    assert len(found["self_check"]) > 15
+
+
+def test_every_engine_in_one_table(saved, tmp_path, capsys):
+    out = tmp_path / "out"
+    assert commands.run(["compare", "--judge", "all", "--out", str(out)]) == 0
+    found = json.loads((out / "engines.json").read_text(encoding="utf-8"))
+    assert [row["engine"] for row in found["engines"]] == ["workbench", "cycles"]
+    assert found["verdict"] == "agree"
+    assert {row["verdict"] for row in found["engines"]} == {"agree"}
+    assert (out / "workbench/comparison.json").exists() and (out / "cycles/traced.png").exists()
+    assert "verdict: agree" in capsys.readouterr().out
+
+
+def test_an_engine_that_cannot_is_named(saved, tmp_path, capsys):
+    saved.display.shading.color_type = "RANDOM"
+    assert commands.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
+    assert "cycles     no picture: Cycles cannot draw" in capsys.readouterr().out
+    found = json.loads((tmp_path / "out/engines.json").read_text(encoding="utf-8"))
+    assert [row["verdict"] for row in found["engines"]] == ["agree", "failed"]
+
+
+def test_no_engine_at_all_is_an_error(saved, tmp_path, capsys):
+    saved.camera = None
+    assert commands.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 4
+    assert "has no camera" in capsys.readouterr().err

@@ -1,0 +1,70 @@
+"""An object that only one side shows, or another frame: traced, and named with the reason."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.compare.alternatives import Alternative, with_object, without
+from reference_tracer.compare.cause import Cause, Hidden
+from reference_tracer.compare.causes import find_causes
+from reference_tracer.compare.shown import Shown, numbered
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+
+WHY = "hidden in the viewport"
+
+
+def found(scene, picture, *alternatives):
+    return result_of(find_causes(scene, render(scene), picture, alternatives=alternatives))
+
+
+@pytest.fixture
+def named(room):
+    return replace(room, objects=("Ball", "Box", "Wall"))
+
+
+def test_an_object_that_the_picture_lacks(named):
+    lacking = without(named, "Box")
+    causes = found(named, render(lacking).color, Alternative("Box", WHY, lacking))
+    assert causes.hidden == [Hidden("Box", WHY)]
+    assert not (causes.cause == Cause.UNEXPLAINED).any()
+    assert (causes.cause == Cause.HIDDEN).sum() > 50
+    assert (causes.figure[causes.cause == Cause.HIDDEN] == 0).all()
+
+
+def test_an_object_that_only_the_picture_has(named):
+    lacking = without(named, "Box")
+    whole = with_object(lacking, named, "Box")
+    assert whole.triangle_count == named.triangle_count
+    np.testing.assert_array_equal(render(whole).color, render(named).color)
+    causes = found(lacking, render(named).color, Alternative("Box", WHY, whole))
+    assert causes.hidden == [Hidden("Box", WHY)]
+    assert not (causes.cause == Cause.UNEXPLAINED).any()
+
+
+def test_a_flag_that_explains_nothing_is_not_named(named):
+    """The ball is hidden for one side, but it is the box that the picture lacks."""
+    picture = render(without(named, "Box")).color
+    causes = found(named, picture, Alternative("Ball", WHY, without(named, "Ball")))
+    assert causes.hidden == []
+    assert (causes.cause == Cause.UNEXPLAINED).sum() > 50
+
+
+def test_an_object_that_is_known_to_be_shown(named):
+    """By whose surface the picture shows: the reason comes from the manifest."""
+    lacking = without(named, "Box")
+    names = ("Ball", "Box", "Wall")
+    frame = render(lacking)
+    owners = numbered(names, [lacking.objects[i.object] for i in lacking.instances])
+    whole = render(named)
+    owner = np.append(np.arange(3), -1).astype(np.int32)[whole.instance_index]
+    shown = Shown(whole.color, owner, owners)
+    causes = result_of(
+        find_causes(lacking, frame, shown, absent={1: Hidden("Box", "hidden in renders")})
+    )
+    assert causes.hidden == [Hidden("Box", "hidden in renders")]
+    assert (causes.cause[owner == 1] == Cause.HIDDEN).mean() > 0.9
+    causes = result_of(find_causes(lacking, frame, shown))
+    assert (causes.cause[owner == 1] == Cause.UNEXPLAINED).mean() > 0.9

@@ -1,0 +1,126 @@
+"""What the other side shows: a wrong colour is no wrong object, and the other way round."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import find_causes
+from reference_tracer.compare.identity import NOTHING, UNKNOWN
+from reference_tracer.compare.shown import Shown, numbered
+from reference_tracer.images import decoded, to_display
+from reference_tracer.manifest import Unmodelled
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+
+LIGHT = Unmodelled("scene 'Scene'", "studio light", everywhere=True, recolours=True)
+
+
+@pytest.fixture
+def room(room):
+    return replace(room, objects=("Ball", "Box", "Wall"))
+
+
+@pytest.fixture
+def seen(room):
+    """Return the room's frame, and its picture with whose surfaces it shows."""
+    frame = render(room)
+    owners = numbered(room.objects, room.objects)
+    return frame, Shown(frame.color.copy(), owners[frame.instance_index], owners)
+
+
+def causes(scene, frame, shown, *rest):
+    return result_of(find_causes(scene, frame, shown, *rest))
+
+
+def test_numbers_of_owners():
+    found = numbered(("A", "B", "C"), ("B", "B", "elsewhere", "A"))
+    assert found.tolist() == [1, 1, 3, 0, NOTHING] and found.dtype == np.int32
+
+
+def test_the_same_picture_agrees(room, seen):
+    frame, shown = seen
+    assert (causes(room, frame, shown).cause == Cause.AGREE).all()
+
+
+def test_a_wrong_object_of_the_right_colour_is_found(room, seen):
+    frame, shown = seen
+    owner = shown.owner.copy()
+    where = owner == 1
+    owner[where] = 2
+    found = causes(room, frame, replace(shown, owner=owner))
+    differ = found.cause != Cause.AGREE
+    assert (differ == where).all() and where.sum() > 50
+    assert (found.cause[where] == Cause.UNEXPLAINED).mean() > 0.8
+
+
+def test_a_wrong_colour_at_an_edge_is_no_edge(make):
+    """Within the band of another surface whose colour it takes: but it is known to be its own."""
+    scene = make.scene(
+        make.camera(20, 16), make.quad(-2, 0.1, -2, 2, -3), make.quad(-9, 9, -9, 9, -4)
+    )
+    frame = render(scene)
+    owners = numbered(("Near", "Far"), ("Near", "Far"))
+    owner = owners[frame.instance_index]
+    rim = (owner[:, :-1] == 0) & (owner[:, 1:] == 1)
+    color = frame.color.copy()
+    color[:, :-1][rim] = frame.color[:, 1:][rim]  # the neighbour's
+    assert rim.sum() == 16
+    band = 0.6  # pixels: the neighbour is within reach
+    without = causes(scene, frame, Shown(color), (), band)
+    assert (without.cause[:, :-1][rim] == Cause.NOT_DECIDABLE).all()  # beyond half a pixel
+    near = 0.45
+    edge = causes(scene, frame, Shown(color), (), near).cause[:, :-1][rim]
+    known = causes(scene, frame, Shown(color, owner, owners), (), near).cause[:, :-1][rim]
+    assert (edge == Cause.EDGE).sum() >= (known == Cause.EDGE).sum() == 0
+    assert (known == Cause.UNEXPLAINED).all()
+
+
+def test_what_is_not_known_proves_nothing(room, seen):
+    frame, shown = seen
+    unknown = replace(shown, owner=np.full_like(shown.owner, UNKNOWN))
+    assert (causes(room, frame, unknown).cause == Cause.AGREE).all()
+
+
+def test_light_excuses_shades_but_no_object(room, seen):
+    frame, shown = seen
+    lit = frame.color * np.float32((0.4, 0.5, 0.6, 1))
+    owner = shown.owner.copy()
+    box = owner == 1
+    owner[box] = 0
+    found = causes(room, frame, replace(shown, color=lit), [LIGHT])
+    surface = frame.instance_index >= 0
+    assert (found.cause[surface] == Cause.COLOR).all()
+    assert (found.cause[~surface] == Cause.AGREE).all()
+    assert found.transform
+    found = causes(room, frame, replace(shown, color=lit, owner=owner), [LIGHT])
+    assert (found.cause[box] == Cause.UNEXPLAINED).mean() > 0.8
+    assert (found.cause[surface & ~box] == Cause.COLOR).all()
+
+
+def test_light_without_identity_is_not_modelled(room):
+    frame = render(room)
+    lit = frame.color * np.float32((0.4, 0.5, 0.6, 1))
+    found = causes(room, frame, lit, [LIGHT])
+    assert (found.cause[frame.instance_index >= 0] == Cause.NOT_MODELLED).all()
+
+
+def test_bytes_may_be_half_a_level_off(room, seen):
+    frame, _ = seen
+    stored = to_display(frame.color).astype(float)
+    for off, cause in ((0.0, Cause.AGREE), (1.0, Cause.UNEXPLAINED)):
+        moved = stored.copy()
+        moved[..., :3] += off * (stored[..., 3:] > 0) * (1 - 2 * (stored[..., :3] > 200))
+        shown = Shown(decoded(moved / 255).astype(np.float32), levels=255)
+        found = causes(room, frame, shown).cause
+        assert (found[frame.instance_index >= 0] == cause).all()
+
+
+def test_an_opaque_picture_has_no_alpha_to_compare(room, seen):
+    frame, _ = seen
+    color = frame.color.copy()
+    color[..., 3] = 1
+    assert (causes(room, frame, Shown(color, opaque=True)).cause == Cause.AGREE).all()
+    assert (causes(room, frame, Shown(color)).cause == Cause.UNEXPLAINED).any()

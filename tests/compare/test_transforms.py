@@ -1,0 +1,99 @@
+"""Colours that went through a curve: it is named, and a wrong object is not excused by it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.compare.boundary import boundary
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import find_causes
+from reference_tracer.compare.shown import Shown
+from reference_tracer.images import curve, curve_undone, decoded
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+
+
+@pytest.fixture
+def frame(room):
+    return render(room)
+
+
+def changed(frame, change):
+    color = frame.color.astype(np.float64)
+    color[..., :3] = change(color[..., :3])
+    return color.astype(np.float32)
+
+
+def found(scene, frame, shown, curves=()):
+    return result_of(find_causes(scene, frame, shown, curves=curves))
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        (curve, "sRGB's curve applied once more"),
+        (curve_undone, "sRGB's curve left out"),
+        (lambda c: c ** (1 / 2.2), "a power of 1/2.2"),
+        (lambda c: c * 4, "an exposure of +2 stops"),
+        (lambda c: c**1.5, "a gamma of 0.667"),
+        (lambda c: c[..., ::-1], "red and blue swapped"),
+    ],
+)
+def test_a_transform_is_named(room, frame, change, name):
+    causes = found(room, frame, Shown(changed(frame, change)))
+    assert causes.transform == name
+    surface = frame.instance_index >= 0
+    assert set(np.unique(causes.cause[surface])) <= {Cause.COLOR, Cause.AGREE}
+    own = causes.cause == Cause.COLOR
+    assert own.sum() > 0.9 * surface.sum()
+    assert (causes.figure[own] <= causes.allowed[own]).all()
+
+
+def test_none_is_looked_for_where_none_may_be(room, frame):
+    causes = found(room, frame, Shown(changed(frame, curve)), curves=None)
+    assert causes.transform == "" and (causes.cause == Cause.UNEXPLAINED).sum() > 500
+
+
+def test_a_file_that_was_cut_off_not_rounded(room, frame):
+    stored = np.floor(255 * curve(frame.color[..., :3].astype(np.float64)))
+    color = frame.color.copy()
+    color[..., :3] = decoded(stored / 255)
+    causes = found(room, frame, Shown(color, levels=255))
+    assert causes.transform == "values cut off, not rounded"
+    assert not (causes.cause == Cause.UNEXPLAINED).any()
+
+
+def test_linear_values_in_a_png(room, frame):
+    color = frame.color.copy()
+    color[..., :3] = decoded(np.rint(255 * frame.color[..., :3].astype(np.float64)) / 255)
+    causes = found(room, frame, Shown(color, levels=255))
+    assert causes.transform.startswith("sRGB's curve left out")
+    assert not (causes.cause == Cause.UNEXPLAINED).any()
+
+
+def test_a_missing_object_shows_through_a_transform(room, frame):
+    without = replace(room, instances=[i for i in room.instances if i.object != 1])
+    box = frame.object_index == 1
+    color = render(without).color.astype(np.float64)
+    color[..., :3] = curve(color[..., :3])
+    causes = found(room, frame, Shown(color.astype(np.float32)))
+    assert causes.transform == "sRGB's curve applied once more"
+    assert (causes.cause[box] == Cause.UNEXPLAINED).mean() > 0.8
+    assert (causes.cause[(frame.object_index == 0)] == Cause.COLOR).mean() > 0.9
+
+
+def test_noise_has_no_transform(room, frame, rng):
+    color = frame.color * rng.uniform(0.2, 2, (*frame.t.shape, 1)).astype(np.float32)
+    color[..., 3] = frame.color[..., 3]
+    causes = found(room, frame, Shown(color))
+    assert causes.transform == "" and not (causes.cause == Cause.COLOR).any()
+
+
+def test_boundaries_are_counted_once(make):
+    """One pixel on either side of every edge, and the background is a surface, too."""
+    scene = make.scene(make.camera(20, 16, half=8, orthographic=True), make.quad(-4, 3, -9, 9, -3))
+    at = boundary(render(scene))
+    assert at.all(axis=0).sum() == 4 == at.any(axis=0).sum()
+    assert not boundary(render(make.scene(make.camera(9, 9)))).any()

@@ -1,0 +1,195 @@
+"""`reftrace compare SCENE --against PICTURE`: scenes and meshes that need no Blender."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer import cli, images
+from reference_tracer.scene import Region
+from reference_tracer.scene_files import save_scene
+from reference_tracer.tracer.render import render
+
+
+@pytest.fixture
+def scene(make):
+    solids = (
+        trimesh.creation.icosphere(2, radius=0.7).apply_translation((-0.6, 0.3, 0.4)),
+        trimesh.creation.box((0.8, 0.6, 1.1)).apply_translation((0.7, -0.4, -0.3)),
+    )
+    camera = make.camera(60, 45, half=0.4, eye=(3, -4, 2), target=(0, 0, 0))
+    return replace(make.scene(camera, *(make.mesh(s) for s in solids)), objects=("Ball", "Box"))
+
+
+@pytest.fixture
+def against(scene, tmp_path, capsys):
+    """Compare the scene with a picture; returns the exit code, the JSON and what was printed."""
+    save_scene(tmp_path / "scene.npz", scene)
+
+    def run(color=None, name="picture.png", source="scene.npz", save=None, options=()):
+        path = tmp_path / name
+        if save:
+            save(path)
+        elif name.endswith(".png"):
+            images.save_png(path, images.to_display(color))
+        elif color is not None:
+            images.save_exr(path, {"color": color})
+        out = tmp_path / "out"
+        arguments = ["compare", tmp_path / source, "--against", path, "--out", out, *options]
+        code = cli.main([str(a) for a in arguments])
+        found = json.loads((out / "comparison.json").read_text(encoding="utf-8"))
+        printed = capsys.readouterr()
+        return code, found, printed.out + printed.err
+
+    return run
+
+
+@pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
+def test_its_own_picture_agrees(scene, against, name):
+    code, found, text = against(render(scene).color, name)
+    assert code == 0 and found["verdict"] == "agree"
+    assert found["blender"]["source"] == "picture" and found["blender"]["picture"] == name
+    assert found["pixels"]["agree"] == found["pixels"]["total"] == 60 * 45
+    assert f"agree with the picture '{name}'" in text
+    assert [o["name"] for o in found["scene"]["objects"]] == ["Ball", "Box"]
+    assert found["scene"]["objects"][1]["triangles"] == 12
+
+
+@pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
+def test_a_missing_object_is_found(scene, against, name):
+    color = render(replace(scene, instances=scene.instances[:1])).color
+    code, found, _ = against(color, name)
+    assert code == 2 and found["pixels"]["unexplained"] > 100
+
+
+def test_a_student_who_forgot_the_curve_and_cut_off(scene, against):
+    from PIL import Image
+
+    color = render(scene).color
+    flat = np.concatenate((np.floor(255 * color[..., :3]), 255 * color[..., 3:]), axis=-1)
+
+    def save(path):
+        Image.fromarray(flat[::-1].astype(np.uint8)).save(path)
+
+    code, found, text = against(save=save)
+    assert code == 1 and found["pixels"]["unexplained"] == 0
+    assert found["transform"].startswith("sRGB's curve left out")
+    assert found["pixels"]["by_cause"]["color"] > 250
+    assert f"colours: {found['transform']}" in text
+
+
+def test_a_png_without_alpha(scene, against):
+    from PIL import Image
+
+    stored = images.to_display(render(scene).color)
+
+    def save(path):
+        Image.fromarray(stored[::-1, :, :3].copy()).save(path)
+
+    assert against(save=save)[0] == 0
+
+
+def test_half_transparent_colours_are_premultiplied_once(make, against, tmp_path):
+    from PIL import Image
+
+    scene = make.scene(
+        make.camera(20, 16), make.quad(-0.5, 0.4, -0.4, 0.4, -2), background=(0.1, 0.05, 0.2, 0.5)
+    )
+    save_scene(tmp_path / "half.npz", scene)
+    stored = images.to_display(render(scene).color)
+    assert set(np.unique(stored[..., 3])) == {128, 255}
+    back = images.load(_saved(Image, stored, tmp_path / "half.png"))
+    assert not back.opaque and back.levels == 255
+    np.testing.assert_allclose(back.color, render(scene).color, atol=2 / 255)
+    assert against(render(scene).color, "half2.png", source="half.npz")[0] == 0
+
+
+def _saved(image, stored, path):
+    image.fromarray(stored[::-1].copy()).save(path)
+    return path
+
+
+def test_a_smoothed_picture_needs_its_filter(scene, against):
+    from reference_tracer.tracer.settings import Settings
+
+    color = render(scene, Settings(samples=4)).color
+    assert against(color, "smooth.exr")[0] == 2
+    code, found, _ = against(color, "smooth.exr", options=("--filter", "1"))
+    assert code == 1 and found["pixels"]["unexplained"] == 0
+    assert found["pixels"]["by_cause"]["anti_aliasing"] > 50
+    assert found["blender"]["filter_radius"] == 1
+
+
+def test_sizes_that_do_not_match(scene, against):
+    code, found, text = against(render(scene).color[:-1])
+    assert code == 3 and found["verdict"] == "failed"
+    assert "The picture has 60 x 44 pixels, the traced one 60 x 45." in text
+
+
+def test_a_whole_picture_for_a_border(scene, against, tmp_path):
+    """What lies outside the border is not compared."""
+    camera = replace(scene.camera, region=Region(11, 6, 52, 41))
+    save_scene(tmp_path / "border.npz", replace(scene, camera=camera))
+    color = render(scene).color.copy()
+    color[:6] = 1
+    code, found, _ = against(color, source="border.npz")
+    assert code == 0 and found["pixels"]["total"] == 41 * 35
+
+
+def test_a_mesh_with_a_camera_of_the_command_line(against, tmp_path):
+    trimesh.creation.box((1, 2, 1)).export(tmp_path / "box.ply")
+    options = ("--width", "40", "--height", "30", "--eye", "4", "3", "2")
+    arguments = ["trace", tmp_path / "box.ply", "--out", tmp_path / "box.png", *options]
+    assert cli.main([str(a) for a in arguments]) == 0
+    code, found, _ = against(
+        name="box.png", source="box.ply", save=lambda path: None, options=options
+    )
+    assert code == 0 and found["scene"]["evaluation"] == "FILE"
+
+
+def test_self_check_without_blender(scene, against):
+    code, found, text = against(render(scene).color, "picture.exr", options=("--self-check",))
+    assert code == 0 and "self-check: 14 of 14" in text
+    assert {row["result"] for row in found["self_check"]} == {"caught", "cannot be seen here"}
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("none.png", None, "there is no file"),
+        ("text.png", b"no picture", "cannot"),
+        ("text.exr", b"no picture", "cannot be read"),
+        ("picture.jpg", b"", "must be .png or .exr"),
+    ],
+)
+def test_what_is_no_picture_is_said(against, tmp_path, name, content, message):
+    def save(path):
+        if content is not None:
+            path.write_bytes(content)
+
+    code, found, text = against(name=name, save=save)
+    assert code == 4 and found["verdict"] == "failed" and message in text
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--judge", "cycles"), "--judge is for Blender's picture"),
+        (("--as-is",), "--as-is is for Blender's picture"),
+        (("--filter", "-1"), "at least 0"),
+        (("--filter", "nan"), "at least 0"),
+        (("--eye", "1", "2", "3"), "has its own camera"),
+    ],
+)
+def test_options_that_do_not_fit(scene, against, options, message):
+    code, _, text = against(render(scene).color, options=options)
+    assert code == 4 and message in text
+
+
+def test_a_filter_needs_a_picture(tmp_path, capsys):
+    arguments = ["compare", str(tmp_path / "a.blend"), "--filter", "1", "--out", str(tmp_path)]
+    assert cli.main(arguments) == 4
+    assert "--filter is for a picture of --against" in capsys.readouterr().err
