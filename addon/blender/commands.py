@@ -151,8 +151,6 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
         "as_is": options.as_is or None,
         "identity": options.identity,
         "self_check": options.self_check,
-        "trade": options.trade,
-        "extremes": options.extremes,
     }
     if options.judge == "all":
         rows = result_of(compare_all(bpy.context, options.out, trace, **choices), progress)
@@ -160,7 +158,8 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
         print(*engines.lines(rows), f"verdict: {verdict}", f"written to {options.out}", sep="\n")
         return VERDICT_CODES[verdict]
     judge = options.judge.upper() if options.judge else None
-    work = compare_to_folder(bpy.context, options.out, trace, judge=judge, **choices)
+    for_page = {"trade": options.trade, "extremes": options.extremes}
+    work = compare_to_folder(bpy.context, options.out, trace, **for_page, judge=judge, **choices)
     comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")

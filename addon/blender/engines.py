@@ -12,7 +12,7 @@ import bpy
 
 from ..arguments import words
 from ..compare.engines import EngineRow
-from ..report import files
+from ..report import files, page
 from ..scene import SceneError
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
@@ -68,10 +68,14 @@ def _compared(
             rows.append(EngineRow(engine, "failed", error=gathered))
             continue
         share = 1 / len(drawn)
-        comparison = yield from scaled(gathered.steps(trace), number * share, share)
+        part = 0.9 if folder else 1.0  # of the share; the rest is what the page shows besides
+        work = gathered.steps(trace)
+        comparison = yield from scaled(work, number * share, part * share)
         rows.append(EngineRow.of(comparison))
         if folder:
-            files.write(folder / engine, comparison, images.save_png)
+            finding = page.extras(comparison, trace=trace)
+            extras = yield from scaled(finding, (number + part) * share, (1 - part) * share)
+            files.write(folder / engine, comparison, images.save_png, extras)
     if folder:
         files.write_engines(folder, rows)
     return tuple(rows)
