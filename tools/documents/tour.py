@@ -79,7 +79,10 @@ def compare():
     assert data_blocks()["objects"] == before
     screenshot("compared")
     content = result().content
-    (FOLDER / "comparison.json").write_text(json.dumps(content.to_dict()))
+    x, y = content.metrics["largest_difference"]["pixel"]
+    causes = content.causes
+    figures = {"figure": float(causes.figure[y, x]), "allowed": float(causes.allowed[y, x])}
+    (FOLDER / "comparison.json").write_text(json.dumps(content.to_dict() | {"largest": figures}))
     names = "Traced", "Blender", "Difference"
     images = {name.lower(): bpy.data.images[f"Reference Tracer {name}"] for name in names}
     np.savez(

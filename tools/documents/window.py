@@ -46,7 +46,7 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     save(near(OUT), folder / "near.png")
     found = json.loads((OUT / "comparison.json").read_text(encoding="utf-8"))
-    kept = {name: found[name] for name in ("pixels", "metrics", "verdict", "blender")}
+    kept = {name: found[name] for name in ("pixels", "metrics", "verdict", "blender", "largest")}
     (folder / "comparison.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     for shot in sorted(OUT.glob("*.png")):
         picture = Image.open(shot).convert("RGB")
