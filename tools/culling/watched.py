@@ -106,8 +106,8 @@ class Watched(sweep.Sweep):
             self.boxes.append((low, high))
         return low, high, nearest
 
-    def _not_hidden(self, boxes: Boxes, shape: NDArray, nearest: NDArray) -> NDArray[np.integer]:
-        found = super()._not_hidden(boxes, shape, nearest)
+    def _not_hidden(self, boxes: Boxes, nearest: NDArray) -> NDArray[np.integer]:
+        found = super()._not_hidden(boxes, nearest)
         self.counts.boxed += len(nearest)
         if self._closely:
             self.looks.append(Look(boxes, nearest, found, self.seen))
