@@ -16,7 +16,7 @@ from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from .boundary import boundary
-from .cause import DESCRIPTIONS, Cause, Causes
+from .cause import DESCRIPTIONS, Cause, Causes, Hidden
 from .causes import find_causes
 from .certificate import CameraCertificate
 from .counts import count_pixels
