@@ -23,7 +23,7 @@ _RUN = re.compile(
 _FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
 _LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n.*?<!-- /run -->", re.S)
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
-_BLENDERS_OWN = re.compile(r"^\d\d:\d\d\.\d+ .*\n", re.M)  # its log, with the time of day
+_BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n", re.M)  # its log
 
 
 @dataclass(frozen=True)
