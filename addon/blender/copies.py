@@ -21,9 +21,7 @@ _NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER"
 
 def drawn(tmp: Any, layer: str) -> list[Any]:
     """Return the objects of a view layer that may be drawn, or instance what is."""
-    objects = tmp.view_layers[layer].objects
-    # None stands for one that is gone, until the view layer is looked through again.
-    return [o for o in objects if o is not None and o.type not in _NOT_DRAWN]
+    return [o for o in tmp.view_layers[layer].objects if o.type not in _NOT_DRAWN]
 
 
 @contextmanager

@@ -31,11 +31,13 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
         If the colours are ones that a material cannot ask for.
     """
     if scene.display.shading.color_type == "RANDOM":
+        scene.view_layers[layer].update()  # or its list lacks the stand-ins of infinite planes
         objects = drawn(scene, layer)
         colors = np.array([random_color(o)[:3] for o in objects]).reshape(-1, 3)
         scene.display.shading.color_type = "OBJECT"
         with colored_copies(scene, layer, objects, colors), constant_colors(scene, layer):
             yield
+        scene.view_layers[layer].update()  # or its list still has the copies
         return
     scene.cycles.samples = 1
     scene.cycles.use_denoising = False
