@@ -53,7 +53,7 @@ class _Main:
         column.prop(stored, "self_check")
         layout.operator(REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
         if found := results.latest(EngineRow, context.scene):
-            rows = [("Engine", "Differ", "Object", "Unexpl.")]
+            rows = [("Engine", "Differ", "Wrong", "Open")]
             for row in found.content:
                 p = row.pixels or {"differ": "-", "unexplained": "-"}
                 wrong = "?" if row.wrong_objects is None else row.wrong_objects
