@@ -45,13 +45,17 @@ bench: .venv/.stamp ## measure speed beside embreex, Cycles and others, half an 
 		--editable '.[bench]'
 	.venv/bin/reftrace bench --out out/bench
 
-# The tutorial's pictures are of a real window; where there can be none, they stay as they are.
-docs: extension ## refresh the documents: run their commands, compute their figures, draw
-	@if reason=$$(tools/whole_blender.sh check); then \
-		$(PYTHON_IN_VENV) tools/make_docs.py; \
-	else \
+# Pictures of the page need a browser, the tutorial's a real window, too; where there can be none,
+# they stay as they are.
+docs: extension demo ## refresh the documents: run their commands, compute their figures, draw
+	@if ! reason=$$(tools/browser.sh check); then \
+		echo "NOT TAKEN: pictures of the page, of Blender's window ($$reason)"; \
+		$(PYTHON_IN_VENV) tools/make_docs.py --no-browser --no-window; \
+	elif tools/browser.sh setup && ! reason=$$(tools/whole_blender.sh check); then \
 		echo "NOT TAKEN: the tutorial's pictures of Blender's window ($$reason)"; \
 		$(PYTHON_IN_VENV) tools/make_docs.py --no-window; \
+	else \
+		$(PYTHON_IN_VENV) tools/make_docs.py; \
 	fi
 
 lint: .venv/.stamp ## check the style of all code

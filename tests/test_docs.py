@@ -24,9 +24,12 @@ def tools():
     sys.path.insert(0, TOOLS)
     try:
         import make_docs
-        from documents import figures, markers, pictures
+        from documents import derivations, figures, markers, pictures
 
-        yield {"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures}
+        yield {
+            **{"make": make_docs, "figures": figures, "markers": markers, "pictures": pictures},
+            "derivations": derivations,
+        }
     finally:
         sys.path.remove(TOOLS)
 
@@ -36,13 +39,14 @@ def texts():
 
 
 def marked():
-    return [p for p in texts() if "<!-- /" in p.read_text(encoding="utf-8")]
+    return [p for p in texts() if "<!-- " in p.read_text(encoding="utf-8")]
 
 
 @pytest.mark.parametrize("path", marked(), ids=lambda p: p.stem)
 def test_commands_and_figures(path, tools):
     """Run again, every command prints what the text says, and every figure is that."""
-    shutil.rmtree(PROJECT / "out" / "lessons", ignore_errors=True)
+    for folder in tools["make"].MADE:
+        shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     text = path.read_text(encoding="utf-8")
 
     def run(command):
@@ -50,12 +54,13 @@ def test_commands_and_figures(path, tools):
             return "\n".join(command.body.splitlines()[2:-1])  # as it is: another machine's
         return tools["make"].run(command)
 
-    again = tools["markers"].refreshed(text, run, tools["figures"].values())
+    values = tools["figures"].values() | tools["derivations"].values()
+    again = tools["markers"].refreshed(text, run, values)
     assert again.splitlines() == text.splitlines()
 
 
 def test_all_marked_documents_are_refreshed(tools):
-    assert tools["make"].documents() == marked() and len(marked()) >= 6
+    assert tools["make"].documents() == marked() and len(marked()) >= 11
 
 
 @pytest.mark.parametrize("path", texts(), ids=lambda p: p.stem)
@@ -64,10 +69,10 @@ def test_links_lead_somewhere(path):
         assert (path.parent / link).exists(), link
 
 
-def test_commands_are_run_ones():
+def test_commands_are_run_ones(tools):
     """No block with a command stands outside the markers."""
-    for path in marked():
-        rest = re.sub(r"<!-- run.*?<!-- /run -->", "", path.read_text(encoding="utf-8"), flags=re.S)
+    for path in texts():
+        rest = tools["markers"].unmarked(path.read_text(encoding="utf-8"))
         assert "```" not in rest and "\n    reftrace" not in rest, path.name
 
 
@@ -86,6 +91,7 @@ def test_pictures(tools):
 def test_pictures_are_small():
     for path in (*DOCS.glob("images/lessons/*.png"), *DOCS.glob("images/tutorial/*.png")):
         assert path.stat().st_size < 150_000, path.name
+    assert (DOCS / "images" / "page.png").stat().st_size < 400_000
 
 
 def test_the_tutorials_pictures_are_there():
@@ -129,6 +135,11 @@ def test_markers(tools):
     assert markers.refreshed(once, run, {"one": "1"}) == once
     with pytest.raises(KeyError):
         markers.refreshed(text, run, {})
+    left = "<!-- not run: it takes long -->\n```\nreftrace z\n```\n<!-- /run -->\n"
+    assert markers.refreshed(left, run, {}) == left
+    assert markers.unmarked(f"before\n{left}after\n{once}").split() == (
+        ["before", "after", "a", "<!--", "one", "-->1<!--", "/", "-->", "b"]
+    )
 
 
 def test_only_reftrace_is_run(tools):

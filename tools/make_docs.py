@@ -1,10 +1,10 @@
 """Refreshes the documents: runs every command that they name, and computes every figure.
 
-    python tools/make_docs.py [--no-window] [FILE.md ...]
+    python tools/make_docs.py [--no-browser] [--no-window] [FILE.md ...]
 
 Fills in what stands between the markers (`documents/markers.py` says which there are), draws
-docs/images/lessons, and takes the tutorial's pictures in a real Blender window (`--no-window`
-leaves that out; it needs root, and the extension in dist/).
+docs/images/lessons, takes the README's picture of out/demo/page.html in Chromium, and the
+tutorial's in a real Blender window (which needs root, Chromium, and the extension in dist/).
 """
 
 from __future__ import annotations
@@ -17,11 +17,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import figures, pictures
+from documents import derivations, figures, pictures
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
 DOCS = PROJECT / "docs"
+MADE = "docs", "lessons"  # folders below out/ for what the documents' commands make
 LINES = 100  # of one command's output, at most
 
 
@@ -44,7 +45,7 @@ def run(command: Command) -> str:
     )
     if done.returncode not in (0, 1, 2):  # agree, warnings, differences: what it found
         raise SystemExit(f"{command.text}\n{done.stdout}{done.stderr}")
-    if (lines := done.stdout.count("\n")) > LINES:
+    if command.how != "silently" and (lines := done.stdout.count("\n")) > LINES:
         raise SystemExit(f"{command.text} prints {lines} lines: no document has room for that")
     return done.stdout
 
@@ -52,15 +53,22 @@ def run(command: Command) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description="Refresh the documents.")
     parser.add_argument("files", nargs="*", type=Path, metavar="FILE.md")
+    parser.add_argument("--no-browser", action="store_true", help="no pictures of the page")
     parser.add_argument("--no-window", action="store_true", help="no pictures of Blender's window")
     options = parser.parse_args()
-    shutil.rmtree(PROJECT / "out" / "lessons", ignore_errors=True)  # what the commands make
+    for folder in MADE:
+        shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
+    if not options.no_browser:
+        from documents import browser
+
+        page = PROJECT / "out" / "demo" / "page.html"  # of `make demo`
+        browser.save(page, DOCS / "images" / "page.png", 1400, 1130)
     if not options.no_window:
         from documents import window
 
         window.write(DOCS / "images" / "tutorial")
-    values = figures.values()
+    values = figures.values() | derivations.values()
     for path in options.files or documents():
         text = path.read_text(encoding="utf-8")
         path.write_text(refreshed(text, run, values), encoding="utf-8")

@@ -8,26 +8,33 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from .temporary import collections_of
 
-def replace_objects(tmp: Any, layer: str, objects: Mapping[Any, Any], copies: list[Any]) -> None:
-    """Replace objects in a temporary scene.
+
+def replace_objects(tmp: Any, layer: str, objects: Mapping[Any, Any]) -> None:
+    """Replace objects in a temporary scene; what was hidden in its view layer stays so.
 
     Parameters
     ----------
     tmp : bpy.types.Scene
     layer : str
-        Name of its view layer: what is hidden there stays so.
+        Name of its view layer.
     objects : mapping of bpy.types.Object
         To what comes in their place; None for nothing.
-    copies : list of bpy.types.Collection
-        Where the copies go, for who removes them.
     """
-    _replace(tmp.collection, tmp.view_layers[layer].layer_collection, objects, copies)
+    view_layer = tmp.view_layers[layer]
+    hidden = [new for old, new in objects.items() if new and old.hide_get(view_layer=view_layer)]
+    _replace(tmp.collection, view_layer.layer_collection, objects, collections_of(tmp))
+    for obj in hidden:
+        obj.hide_set(True, view_layer=view_layer)
 
 
 def _replace(collection: Any, layer: Any, objects: Mapping[Any, Any], copies: list[Any]) -> None:
     for child in list(collection.children):
         if objects.keys().isdisjoint(child.all_objects):
+            continue
+        if child in copies:
+            _replace(child, layer.children[child.name], objects, copies)
             continue
         copy = child.copy()
         copies.append(copy)

@@ -27,8 +27,7 @@ from ..arguments import (
 from ..commands import explain
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
-from ..compare.comparison import Comparison, SizeError
-from ..compare.engines import EngineRow
+from ..compare.comparison import SizeError
 from ..report import files, page
 from ..scene import SceneError
 from ..study import tradeoff
@@ -38,8 +37,7 @@ from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import studies
 from .compare import compare_to_folder, export_open_file, made
-
-ENGINES = ("viewport", "workbench", "cycles")  # the first needs a window
+from .engines import compare_all
 
 _handle: Any = None
 
@@ -148,49 +146,24 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
     SceneError, SizeError, OSError, AssumptionError, MemoryError
         What :func:`compare_to_folder` raises; the folder's JSON says why.
     """
+    choices = {
+        "settings": settings_from(options, bpy.context.scene.reference_tracer.settings()),
+        "as_is": options.as_is or None,
+        "identity": options.identity,
+        "self_check": options.self_check,
+    }
     if options.judge == "all":
-        return _compare_all(options, progress, trace)
+        rows = result_of(compare_all(bpy.context, options.out, trace, **choices), progress)
+        verdict = engines.worst(rows)
+        print(*engines.lines(rows), f"verdict: {verdict}", f"written to {options.out}", sep="\n")
+        return VERDICT_CODES[verdict]
     judge = options.judge.upper() if options.judge else None
-    comparison = _compared(options, options.out, judge, progress, trace)
+    for_page = {"trade": options.trade, "extremes": options.extremes}
+    work = compare_to_folder(bpy.context, options.out, trace, **for_page, judge=judge, **choices)
+    comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")
     return VERDICT_CODES[comparison.verdict]
-
-
-def _compared(
-    options: Any, folder: str, judge: str | None, progress: Any, trace: Steps
-) -> Comparison:
-    work = compare_to_folder(
-        bpy.context,
-        folder,
-        trace,
-        settings=settings_from(options, bpy.context.scene.reference_tracer.settings()),
-        judge=judge,
-        as_is=options.as_is or None,
-        identity=options.identity,
-        self_check=options.self_check,
-        trade=options.trade,
-        extremes=options.extremes,
-    )
-    return result_of(work, progress)
-
-
-def _compare_all(options: Any, progress: Any, trace: Steps) -> int:
-    """Compare with every engine, each into a folder of its own, and print the table."""
-    rows = []
-    for engine in ENGINES[bpy.app.background :]:
-        try:
-            folder = f"{options.out}/{engine}"
-            found = _compared(options, folder, engine.upper(), progress, trace)
-            rows.append(EngineRow.of(found))
-        except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
-            rows.append(EngineRow(engine, "failed", error=words(error)))
-    if all(row.pixels is None for row in rows):
-        raise SceneError(f"no engine makes a picture of this scene: {rows[0].error}")
-    files.write_engines(bpy.path.abspath(options.out), rows)
-    print(*engines.lines(rows), f"verdict: {engines.worst(rows)}", sep="\n")
-    print(f"written to {options.out}")
-    return VERDICT_CODES[engines.worst(rows)]
 
 
 def _said(error: Exception) -> int:

@@ -30,6 +30,7 @@ from . import images
 from .alternatives import alternatives
 from .animation import values_kept
 from .camera import export_camera
+from .cycles import check_random
 from .engine import Certified, export_certified, export_for_render
 from .identity import draw_identity
 from .planes import stand_ins
@@ -115,6 +116,8 @@ def gather(
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, source, like_for_like)
         exported, manifest, certificate = _exported(tmp, layer, source)
         certificate.check()
+        if like_for_like and (source, used["color_type"]) == ("cycles", "RANDOM"):
+            check_random(exported, manifest.owners)
         if not like_for_like:
             own = [
                 replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, source, smooth)

@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
+from ..compare import engines
 from ..compare.comparison import Comparison
 from ..scene import SceneError
 from ..study import tradeoff
@@ -14,6 +15,7 @@ from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from ..tracer.progress import Work
 from . import results, scenario_scene, studies
 from .compare import compare_to_folder, gather, made
+from .engines import compare_all
 from .long_work import LongWork
 
 SWEEPS = [(s.name, s.title, s.explanation) for s in SCENARIOS]
@@ -45,6 +47,28 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         lines = results.keep_comparison(context, result).lines
         _print(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
+
+
+class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
+    """Every engine in one table."""
+
+    bl_idname = "reference_tracer.compare_all"
+    bl_label = "Compare All Engines"
+    bl_description = (
+        "Trace the scene, and compare the viewport, Workbench and Cycles with it, each in turn: "
+        "which of them shows a wrong object, where, and why"
+    )
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Have every engine draw the scene at once; return the work that is left."""
+        return compare_all(context, self.directory)
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the table."""
+        _print(*results.keep_engines(context, result).lines)
+        verdict = engines.worst(result)
+        text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
+        return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
 
 
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
@@ -170,6 +194,7 @@ def _told(lines: tuple[str, ...]) -> tuple[str, str]:
 
 CLASSES = (
     REFERENCE_TRACER_OT_compare,
+    REFERENCE_TRACER_OT_compare_all,
     REFERENCE_TRACER_OT_trade,
     REFERENCE_TRACER_OT_extremes,
     REFERENCE_TRACER_OT_extreme_scene,

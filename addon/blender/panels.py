@@ -6,10 +6,13 @@ from typing import Any
 
 import bpy
 
+from ..compare import self_check
+from ..compare.cause import DESCRIPTIONS, Cause
 from ..compare.comparison import Comparison
+from ..compare.engines import EngineRow
 from . import results
 from .engine import ENGINE
-from .operators import REFERENCE_TRACER_OT_compare
+from .operators import REFERENCE_TRACER_OT_compare, REFERENCE_TRACER_OT_compare_all
 from .page import REFERENCE_TRACER_OT_open_page
 from .panel_parts import NARROW, Properties, Sidebar, short_name, table, wrapped
 
@@ -23,6 +26,9 @@ _NOT_OURS = {
 }
 # Those of Workbench that say which colours are shown.
 _WORKBENCHS = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film"}
+
+
+_PARTS = "interior", "boundary"
 
 
 class _Main:
@@ -45,6 +51,15 @@ class _Main:
         column.prop(stored, "shading")
         column.prop(stored, "identity")
         column.prop(stored, "self_check")
+        layout.operator(REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
+        if found := results.latest(EngineRow, context.scene):
+            rows = [("Engine", "Differ", "Wrong", "Open")]
+            for row in found.content:
+                p = row.pixels or {"differ": "-", "unexplained": "-"}
+                wrong = "?" if row.wrong_objects is None else row.wrong_objects
+                shown = (p["differ"], wrong, p["unexplained"])
+                rows.append((row.engine.capitalize(), *map(str, shown)))
+            table(layout.box(), rows, NARROW)
 
 
 class _Result:
@@ -63,10 +78,11 @@ class _Result:
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
         rows = [("Agree", pixels["agree"]), ("Differ", pixels["differ"])]
         rows += [
-            (f"  {name.replace('_', ' ').capitalize()}", n)
+            (f"  {DESCRIPTIONS[Cause[name.upper()]].label.capitalize()}", n)
             for name, n in pixels["by_cause"].items()
             if n
         ]
+        rows += [(f"Differ, {part.capitalize()}", pixels[part]["differ"]) for part in _PARTS]
         rows = [(label, f"{n:,} px") for label, n in rows]
         psnr = measured["psnr"]
         x, y = measured["largest_difference"]["pixel"]
@@ -85,7 +101,7 @@ class _Result:
             name = short_name(m.method, m.precision)
             rows.append((name, f"{m.seconds:.2f}", wrong, f"{m.ambiguous:,}"))
         table(self.layout.box(), rows, NARROW)
-        for line in comparison.required:
+        for line in (*comparison.required, *self_check.table(comparison.self_check)[:1]):
             wrapped(self.layout, context, line)
         self.layout.operator(REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
 

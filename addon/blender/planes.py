@@ -71,12 +71,11 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iter
         The object that each plane is.
     """
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
-    collections: list[Any] = []
     objects: list[Any] = []
     planes: list[Plane] = []
     try:
         if marked:
-            replace_objects(tmp, layer, dict.fromkeys(marked), collections)
+            replace_objects(tmp, layer, dict.fromkeys(marked))
         for plane, owner in zip(scene.planes, owners, strict=True):
             corners = polygon(scene.camera, plane)
             if len(corners):
@@ -90,8 +89,6 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iter
         for obj in objects:
             bpy.data.materials.remove(obj.data.materials[0])
             bpy.data.meshes.remove(obj.data)  # takes the object with it
-        for collection in collections:
-            bpy.data.collections.remove(collection)
 
 
 def _stand_in(

@@ -6,8 +6,8 @@ import importlib
 
 # Names, so that a module is imported when it is registered and not before.
 MODULES = (
-    *("properties", "engine", "operators", "page", "pixel_operators", "inspector"),
-    *("panels", "inspector_panels", "study_panels", "commands"),
+    *("properties", "engine", "operators", "pixel_operators", "inspector"),
+    *("page", "panels", "inspector_panels", "study_panels", "commands"),
 )
 
 

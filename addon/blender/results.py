@@ -14,7 +14,9 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compare import engines
 from ..compare.comparison import Comparison
+from ..compare.engines import EngineRow
 from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
 from ..report import extremes as extremes_report
@@ -31,7 +33,7 @@ class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
     file: str
-    content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...]
+    content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...] | tuple[EngineRow, ...]
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
     rows: tuple[Row, ...] = ()  # of the extremes, as they were measured
@@ -47,6 +49,11 @@ def keep_comparison(context: Any, comparison: Comparison) -> Result:
     shown = images.show(images.DIFFERENCE, difference(comparison))
     images.show_in_editor(context, shown)
     return _keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
+
+
+def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
+    """Remember the table of several engines."""
+    return _keep(EngineRow, tuple(rows), engines.lines(rows), context.scene.name)
 
 
 def keep_trade(context: Any, trade: Trade) -> Result:
@@ -105,7 +112,7 @@ def latest(kind: type, scene: Any) -> Result | None:
 
     Parameters
     ----------
-    kind : {Comparison, Derivation, Trade, BreakingPoint}
+    kind : {Comparison, Derivation, EngineRow, Trade, BreakingPoint}
     scene : bpy.types.Scene
     """
     found = _latest.get(kind)

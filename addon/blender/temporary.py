@@ -15,6 +15,7 @@ import bpy
 DRAWN = "reference_tracer_drawn"  # a custom property of what the add-on itself draws in a scene
 
 _copies: dict[str, tuple[str, str | None]] = {}  # name of a temporary scene: the user's, judge
+_collections: dict[str, list[Any]] = {}  # name of a temporary scene: copies of collections in it
 
 
 @contextmanager
@@ -37,13 +38,14 @@ def temporary_scene(
     images = set(bpy.data.images)
     copy = scene.copy()
     _copies[copy.name_full] = scene.name_full, judge
+    own = _collections[copy.name_full] = []
     try:
         _isolate(copy, layer or scene.view_layers[0].name)
         yield copy
     finally:
-        del _copies[copy.name_full]
+        del _copies[copy.name_full], _collections[copy.name_full]
         # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
-        bpy.data.batch_remove([copy])
+        bpy.data.batch_remove([copy, *own])
         for image in set(bpy.data.images) - images:
             if image.type == "RENDER_RESULT":
                 bpy.data.images.remove(image)
@@ -53,6 +55,11 @@ def user_scene(scene: Any) -> Any:
     """Return the scene of the user's that a temporary one is a copy of; another is the user's."""
     name, _ = _copies.get(scene.name_full, (scene.name_full, None))
     return next(s for s in bpy.data.scenes if s.name_full == name)
+
+
+def collections_of(scene: Any) -> list[Any]:
+    """Return the list of a temporary scene's own collections, which go with it; add to it."""
+    return _collections[scene.name_full]
 
 
 def is_temporary(scene: Any) -> bool:

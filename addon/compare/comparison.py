@@ -15,7 +15,6 @@ from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
-from . import metrics
 from .boundary import boundary
 from .cause import DESCRIPTIONS, Cause, Causes, Hidden
 from .causes import find_causes
@@ -25,8 +24,10 @@ from .faults import Case
 from .identity import Identity
 from .known import Known
 from .methods import MethodRow, list_methods
-from .self_check import FaultRow, self_check, table
+from .metrics import measure
+from .self_check import FaultRow, self_check
 from .shown import Shown
+from .words import lines
 
 SCHEMA = "reference_tracer.comparison/1"
 
@@ -123,66 +124,13 @@ class Comparison:
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        p, m = self.pixels, self.metrics
-        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
-        x, y = m["largest_difference"]["pixel"]
-        out = [
-            f"{p['agree']:,} of {p['total']:,} pixels agree with {self._other()}, "
-            f"{p['differ']:,} differ",
-            *(
-                f"  {DESCRIPTIONS[Cause[name.upper()]].label}: {n:,}"
-                f"{_at(p['examples'].get(name, ()))}"
-                for name, n in p["by_cause"].items()
-                if n
-            ),
-            *self._evidence(),
-            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
-            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
-            f"traced {self.frame.statistics.triangles:,} triangles in "
-            f"{self.frame.statistics.seconds:.2f} s",
-            *(row.line() for row in self.methods),
-            *self.required,
-            *table(self.self_check),
-            f"verdict: {self.verdict}",
-        ]
-        return out
-
-    def _other(self) -> str:
-        """Name the picture that is compared."""
-        if "picture" in self.blender:
-            return f"the picture '{self.blender['picture']}'"
-        return f"Blender's {self.blender['source']} picture"
-
-    def _evidence(self) -> list[str]:
-        """Say what else was found out of the pixels that differ."""
-        p, causes = self.pixels, self.causes
-        inside, rim = p["interior"], p["boundary"]
-        out = [
-            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
-            f"{rim['total']:,} boundary pixels differ"
-        ]
-        if causes.transform:
-            out.append(f"colours: {causes.transform}")
-        out += [f"only one side shows '{h.object}': {h.reason}" for h in _once(causes.hidden)]
-        if self.identity and p["unexplained"]:
-            shows = p["unexplained_shows"]
-            out.append(
-                f"of the unexplained pixels {shows['same_object']:,} show the same object in "
-                f"another colour, {shows['other_object']:,} another object"
-            )
-        if self.certificate:
-            out.append(self.certificate.line())
-        return out
+        return lines(self)
 
 
 _DESCRIBED = {
     cause.name.lower(): {"number": int(cause)} | told._asdict()
     for cause, told in DESCRIPTIONS.items()
 }
-
-
-def _once(hidden: list[Hidden]) -> list[Hidden]:
-    return list(dict.fromkeys(hidden))
 
 
 def compare(
@@ -248,35 +196,6 @@ def _absent(manifest: Manifest, names: tuple[str, ...]) -> dict[int, Hidden]:
     """Return of the objects that may be shown why they are not traced, by their numbers."""
     why = {e.name: e.reason for e in manifest.objects if e.hidden}
     return {n: Hidden(name, why[name]) for n, name in enumerate(names) if name in why}
-
-
-def _at(pixels: list[list[int]]) -> str:
-    """Say where the first of some pixels are."""
-    return f", as at {', '.join(f'({x}, {y})' for x, y in pixels[:3])}" if pixels else ""
-
-
-def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:
-    """Measure how far two pictures of linear RGBA differ; what is not a number counts as 0.
-
-    RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
-    """
-    a, b = np.nan_to_num(traced), np.nan_to_num(picture)
-    height, squares, largest = len(a), 0.0, {"value": -1.0}
-    for start in range(0, height, metrics.ROWS):
-        rows = slice(start, min(start + metrics.ROWS, height))
-        squares += metrics.rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
-        found = metrics.largest_difference(a[rows], b[rows])
-        if found["value"] > largest["value"]:
-            largest = found | {"pixel": [found["pixel"][0], found["pixel"][1] + start]}
-        yield 0.2 * start / height
-    rmse = float(np.sqrt(squares / height))
-    similarity = yield from scaled(metrics.ssim_work(a, b), 0.2, 0.8)
-    return {
-        "rmse": rmse,
-        "psnr": metrics.psnr_of(rmse) if rmse else None,
-        "ssim": similarity,
-        "largest_difference": largest,
-    }
 
 
 def trace_and_compare(

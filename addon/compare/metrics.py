@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tracer.progress import Work, result_of
+from ..tracer.progress import Work, result_of, scaled
 
 ROWS = 32  # looked at together, so that a step of the work is short
 
@@ -85,6 +85,30 @@ def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:
         "value": float(difference[y, x, channel]),
         "pixel": [int(x), int(y)],
         "channel": int(channel),
+    }
+
+
+def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:
+    """Measure how far two pictures of linear RGBA differ; what is not a number counts as 0.
+
+    RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
+    """
+    a, b = np.nan_to_num(traced), np.nan_to_num(picture)
+    height, squares, largest = len(a), 0.0, {"value": -1.0}
+    for start in range(0, height, ROWS):
+        rows = slice(start, min(start + ROWS, height))
+        squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
+        found = largest_difference(a[rows], b[rows])
+        if found["value"] > largest["value"]:
+            largest = found | {"pixel": [found["pixel"][0], found["pixel"][1] + start]}
+        yield 0.2 * start / height
+    error = float(np.sqrt(squares / height))
+    similarity = yield from scaled(ssim_work(a, b), 0.2, 0.8)
+    return {
+        "rmse": error,
+        "psnr": psnr_of(error) if error else None,
+        "ssim": similarity,
+        "largest_difference": largest,
     }
 
 

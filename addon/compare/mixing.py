@@ -22,6 +22,7 @@ from ..tracer.progress import Work, result_of
 from ..tracer.visibility import plan
 from .again import SOUND, parts_of, set_out
 from .cause import Cause, Settler
+from .coverage import coverage
 from .shown import Shown, transformed
 
 # Rings within the radius and directions on each, where the tracer is asked; later ones only of
@@ -52,15 +53,20 @@ def look_around(scene: Scene, shown: Shown, radius: float, settle: Settler) -> W
             if wanted.any():
                 probe = result_of(Probe.of(made, tile, wanted.ravel()))
                 here = shown.at(rows).at(wanted)
-                for reach, found in _mixes(scene, probe, here, radius, rings, spokes):
+                for reach, found, seen in _mixes(scene, probe, here, radius, rings, spokes):
+                    mixed = seen  # in the end, of the last ring
                     part(set_out(found, wanted), Cause.ANTI_ALIASING, reach, radius)
                     yield number / len(parts)
+        if part.open.any():  # of `wanted`, those that the last density has not found
+            left = np.flatnonzero(~found)
+            found[left] = _through_cracks(scene, probe, here, radius, mixed, left)
+            part(set_out(found, wanted), Cause.ANTI_ALIASING, radius, radius)
 
 
 def _mixes(
     scene: Scene, probe: Probe, shown: Shown, radius: float, rings: int, spokes: int
-) -> Iterator[tuple[float, NDArray[np.bool_]]]:
-    """Yield ring by ring how far it reaches, and which of n pixels are a mix of what is seen."""
+) -> Iterator[tuple[float, NDArray[np.bool_], NDArray]]:
+    """Yield ring by ring how far it reaches, which of n pixels are a mix, and of what (k, n, c)."""
     mixed = [_seen(scene, probe, shown, 0.0, 0.0)]
     color, found = shown.color[:, : mixed[0].shape[-1]], np.zeros(len(probe.px), bool)
     for ring in range(1, rings + 1):
@@ -70,13 +76,42 @@ def _mixes(
         if ring == rings:  # what smooths edges takes in whole pixels
             offsets += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
         mixed += [_seen(scene, probe, shown, *offset) for offset in offsets]
-        rest = np.flatnonzero(~found)
-        found[rest] = is_mix(color[rest], np.stack(mixed)[:, rest], shown.sums)
-        yield reach, found
+        rest, seen = np.flatnonzero(~found), np.stack(mixed)
+        found[rest] = is_mix(color[rest], seen[:, rest], shown.sums)
+        yield reach, found, seen
+
+
+def _through_cracks(
+    scene: Scene,
+    probe: Probe,
+    shown: Shown,
+    radius: float,
+    mixed: NDArray,
+    left: NDArray[np.intp],
+) -> NDArray[np.bool_]:
+    """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
+
+    Each of the filter's samples may meet a crack of float32's, and show any triangle that comes
+    within the radius. Where all that is seen is one colour, there is no edge.
+    """
+    may = coverage(probe, np.full(len(probe.px), radius))
+    behind = _as_shown(shown, shading.colors(scene, may.hits))
+    found = np.zeros(len(left), bool)
+    for n, pixel in enumerate(left):
+        seen = np.unique(mixed[:, pixel], axis=0)
+        if len(seen) > 1:
+            near = np.unique(np.concatenate((seen, behind[may.pixel == pixel])), axis=0)
+            color = shown.color[pixel : pixel + 1, : near.shape[1]]
+            found[n] = is_mix(color, near[:, None], shown.sums)[0]
+    return found
 
 
 def _seen(scene: Scene, probe: Probe, shown: Shown, dx: float, dy: float) -> NDArray:
-    colors = shading.colors(scene, probe.trace(dx, dy))
+    return _as_shown(shown, shading.colors(scene, probe.trace(dx, dy)))
+
+
+def _as_shown(shown: Shown, colors: NDArray) -> NDArray:
+    """Return traced colours (n, 4) as the picture has them: transformed, alpha or not."""
     if shown.transform:
         colors = transformed(colors, shown.transform)
     return colors[:, : 3 if shown.opaque else 4]

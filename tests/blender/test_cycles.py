@@ -130,6 +130,10 @@ def flat_faces(scene, frame) -> np.ndarray:
         "suzanne",
         "shifted_room",
         "geometry_nodes",
+        "exercise_triangle",
+        "forest",
+        "technical_view",
+        "text_and_curves",
     ],
 )
 def test_cycles_picture_has_no_unexplained_pixel(name, opened, compare):
@@ -161,9 +165,32 @@ def test_cycles_shows_the_same_colors(color_type, build, compare):
     assert comparison.verdict == "agree"
 
 
-def test_cycles_cannot_show_random_colors_and_says_so(build, compare):
+def test_far_away_cycles_is_not_decidable(opened, compare):
+    opened("far_away", WIDTH)
+    comparison = compare(judge="CYCLES")
+    assert comparison.pixels["unexplained"] == 0 < comparison.pixels["not_decidable"]
+    assert comparison.verdict == "warnings"
+
+
+def test_cycles_shows_random_colors(build, compare):
+    """On copies, as object colours: an infinite plane's stand-in has its own."""
     build.scene(color_type="RANDOM")
     build.solids()
-    build.corner_camera()
-    with pytest.raises(ValueError, match=r"random colours.*Workbench"):
+    bpy.data.objects["Floor"].reference_tracer.infinite_plane = True
+    build.corner_camera(lens=40)
+    before = set(bpy.data.objects)
+    comparison = compare(judge="CYCLES")
+    assert comparison.verdict == "agree"
+    seen = comparison.frame.color[comparison.frame.instance_index >= 0]
+    assert len(np.unique(np.round(seen, 3), axis=0)) == 4
+    assert set(bpy.data.objects) == before
+
+
+def test_cycles_cannot_show_random_colors_of_instances_and_says_so(build, compare):
+    build.scene(color_type="RANDOM")
+    empty = build.empty("Empty")
+    empty.instance_type = "COLLECTION"
+    empty.instance_collection = build.collection("Kit", build.cube("Child", 1, link=False))
+    build.camera()
+    with pytest.raises(ValueError, match=r"random colours of instances.*'Empty'.*Workbench"):
         compare(judge="CYCLES")

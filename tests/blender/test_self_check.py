@@ -66,7 +66,10 @@ def test_every_engine_in_one_table(saved, tmp_path, capsys):
     assert "verdict: agree" in capsys.readouterr().out
 
 
-def test_an_engine_that_cannot_is_named(saved, tmp_path, capsys):
+def test_an_engine_that_cannot_is_named(saved, build, tmp_path, capsys):
+    empty = build.empty("Empty")
+    empty.instance_type = "COLLECTION"
+    empty.instance_collection = build.collection("Kit", build.cube("Child", 0.3, link=False))
     saved.display.shading.color_type = "RANDOM"
     assert commands.run(["compare", "--judge", "all", "--out", str(tmp_path / "out")]) == 1
     assert "cycles     no picture: Cycles cannot draw" in capsys.readouterr().out

@@ -1,10 +1,7 @@
-"""docs/explain.md shows what the program makes, and its pixel is the sample scene's."""
+"""What docs/explain.md says in its own words; tests/test_docs.py has what the program makes."""
 
 from __future__ import annotations
 
-import re
-import subprocess
-import sys
 from pathlib import Path
 
 from reference_tracer.explain import reproducer
@@ -12,18 +9,6 @@ from reference_tracer.explain.arithmetic import Arithmetic
 from reference_tracer.explain.derivation import derive_pixel
 
 PROJECT = Path(__file__).resolve().parents[2]
-
-
-def test_the_page_is_up_to_date(tmp_path):
-    """Else run `python tools/explain_docs.py`."""
-    sys.path.insert(0, str(PROJECT / "tools"))
-    try:
-        import explain_docs
-    finally:
-        sys.path.pop(0)
-    page = explain_docs.PAGE.read_text(encoding="utf-8")
-    assert explain_docs.refreshed(page) == page
-    assert set(re.findall(r"<!-- ([a-z-]+) -->", page)) - {"end"} == set(explain_docs.parts())
 
 
 def test_what_it_says_of_its_pixel():
@@ -43,16 +28,3 @@ def test_what_it_says_of_its_pixel():
         tuple(c) for c in first.candidate.points[:2]
     }
     assert len(edge) == 2  # p₁ and p₂
-
-
-def test_its_commands_are_there():
-    """Every `reftrace explain` of the page parses."""
-    page = (PROJECT / "docs" / "explain.md").read_text(encoding="utf-8")
-    [scene, file] = re.findall(r"^    reftrace explain (\S+)", page, re.MULTILINE)
-    assert (PROJECT / scene).is_file() and (PROJECT / file).is_file()
-    done = subprocess.run(
-        [sys.executable, "-m", "reference_tracer.cli", "explain", PROJECT / file],
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0 and "Torus, triangle 657" in done.stdout

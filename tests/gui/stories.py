@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 from story import (
     compared,
     data_blocks,
+    invoke,
     noted,
     open_tab,
     play,
@@ -125,6 +126,27 @@ def compare():
     noted["after_undo"] = [i.name for i in bpy.data.images if i.name.startswith("Reference Tracer")]
 
 
+def engines():
+    """The other button: the viewport, Workbench and Cycles in one table; nothing is changed."""
+    window().scene.render.engine = "REFERENCE_TRACER"
+    show_panel()
+    yield 1
+    before = settings(), data_blocks()
+    noted["pressed"] = list(invoke("compare_all"))
+
+    def compared_all():
+        return result("compare.engines.EngineRow") is not None
+
+    yield from until(compared_all, 120)
+    yield 1
+    after = settings(), data_blocks()
+    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
+    noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
+    noted["rows"] = [row.to_dict() for row in result("compare.engines.EngineRow").content]
+    yield from open_tab()
+    screenshot("engines")
+
+
 def compare_as_is():
     """The user's own shading: what smooths a window's edges is a preference, not the scene's."""
     window().scene.reference_tracer.shading = "AS_IS"
@@ -207,6 +229,7 @@ play(
         f12_escape,
         f12_error,
         compare,
+        engines,
         compare_as_is,
         compare_escape,
         compare_another_file,

@@ -23,6 +23,15 @@ def test_button_leaves_three_images_and_nothing_else(blender):
     assert noted["after_undo"] == []  # one step
 
 
+def test_every_engine_in_one_table(blender):
+    noted = blender.story("engines")
+    assert [row["engine"] for row in noted["rows"]] == ["viewport", "workbench", "cycles"]
+    for row in noted["rows"]:
+        assert row["verdict"] == "agree" and row["pixels"]["unexplained"] == 0
+        assert row["wrong_objects"] <= row["pixels"]["differ"] < 100
+    assert noted["changed"] == noted["new"] == {}
+
+
 def test_as_it_is_names_what_the_window_adds(blender):
     noted = blender.story("compare_as_is")
     comparison = noted["comparison"]
@@ -70,6 +79,11 @@ def test_every_sample_scene_agrees_with_the_viewport(blender):
         noted, 0
     )
     assert {c["blender"]["source"] for c in noted.values()} == {"viewport"}
+    assert all(c["certificate"]["passed"] for c in noted.values())
+    for name, comparison in noted.items():  # whose surface is shown, object by object
+        shown = comparison["identity"]["pixels"]
+        assert shown["not_known"] == 0, name
+        assert shown["other_object"] < 0.01 * comparison["pixels"]["total"], name
     assert noted["far_away"]["pixels"]["not_decidable"] > 0
 
 

@@ -176,7 +176,8 @@ def of_tour() -> dict[str, str]:
     pixels = found["pixels"]
     counts = {f"tutorial_{n}": f"{pixels[n]:,}" for n in ("total", "agree", "differ", "explained")}
     x, y = found["metrics"]["largest_difference"]["pixel"]
-    return counts | {"tutorial_pixel": f"{x}, {y}", "tutorial_verdict": found["verdict"]}
+    figures = {f"tutorial_{n}": f"{found['largest'][n]:.2g}" for n in ("figure", "allowed")}
+    return counts | figures | {"tutorial_pixel": f"{x}, {y}", "tutorial_verdict": found["verdict"]}
 
 
 WEIGHED = {f"weight_{name}": f"{weight:g}" for name, weight in WEIGHTS.items()}

@@ -3,8 +3,9 @@
     <!-- run: reftrace trace scene.blend --out out/a.png -->      a command, and what it prints
     <!-- run here: ... -->          the same, where what it prints depends on the machine
     <!-- run silently: ... -->      the command alone: what it prints is of no interest
+    <!-- not run: REASON -->        a block that stays as it is, and why
     <!-- /run -->
-    <!-- NAME -->123<!-- / -->     a figure of `figures.py`
+    <!-- NAME -->123<!-- / -->     a figure of `figures.py`, a part of `derivations.py`
 
 Seconds are left out, as they are other ones every time.
 """
@@ -15,13 +16,14 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-MARKED = "<!-- /"  # a file without this, which ends every marker, has none of them
+MARKED = "<!-- "  # a file without this has no markers
 _RUN = re.compile(
     r"<!-- run(?P<how>| here| silently): (?P<command>[^\n]+?) -->\n(?P<body>.*?)<!-- /run -->", re.S
 )
-_FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>[^<]*)<!-- / -->")
+_FIGURE = re.compile(r"<!-- (?P<name>[a-z][a-z0-9_]*) -->(?P<body>.*?)<!-- / -->", re.S)
+_LEFT = re.compile(r"<!-- not run: [^\n]+? -->\n.*?<!-- /run -->", re.S)
 _SECONDS = re.compile(r"\b\d+\.\d+ s\b")
-_BLENDERS_OWN = re.compile(r"^\d\d:\d\d\.\d+ .*\n", re.M)  # its log, with the time of day
+_BLENDERS_OWN = re.compile(r"^(\d\d:\d\d\.\d+ |Array iterator out of range).*\n", re.M)  # its log
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,11 @@ def commands(text: str) -> list[Command]:
 def figures(text: str) -> list[str]:
     """Return the names of the figures that a text has."""
     return [m["name"] for m in _FIGURE.finditer(text)]
+
+
+def unmarked(text: str) -> str:
+    """Return a text without its commands and what is said not to be run."""
+    return _LEFT.sub("", _RUN.sub("", text))
 
 
 def settled(output: str) -> str:

@@ -14,21 +14,50 @@ import numpy as np
 
 sys.path.insert(0, "/project/tests/gui")  # what the tests in the window share
 
-from story import compared, data_blocks, press_compare, result, until, window
+from story import compared, data_blocks, invoke, press_compare, result, until, window
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
+ON_THE_CUBE = 1085, 600  # a pixel in the middle of a large triangle
 
 
-def screenshot(name):
-    subprocess.run(["import", "-window", "root", str(FOLDER / f"{name}.png")], check=True)
+def screenshot(name, of=None):
+    """The whole window, or one editor in it."""
+    cut = []
+    if of:
+        top = window().height - of.y - of.height
+        cut = ["-crop", f"{of.width}x{of.height}+{of.x}+{top}", "+repage"]
+    file = str(FOLDER / f"{name}.png")
+    subprocess.run(["import", "-window", "root", *cut, file], check=True)
 
 
 def area(kind):
     return next(a for a in window().screen.areas if a.type == kind)
 
 
+def main_region(shown):
+    return next(r for r in shown.regions if r.type == "WINDOW")
+
+
+def show_tab(shown):
+    """Open our tab of an editor's sidebar."""
+    shown.spaces.active.show_region_ui = True
+    yield 0.5
+    next(r for r in shown.regions if r.type == "UI").active_panel_category = "Reference Tracer"
+    shown.tag_redraw()
+    yield 0.5
+
+
 def tour():
     """Each step's name is its picture's."""
+    yield from compare()
+    shown = area("VIEW_3D")
+    yield from page()
+    yield from look(shown)
+    yield from inspect(shown)
+    yield from ray(shown)
+
+
+def compare():
     scene = window().scene
     yield 1
     screenshot("empty")
@@ -50,22 +79,81 @@ def tour():
     assert data_blocks()["objects"] == before
     screenshot("compared")
     content = result().content
-    (FOLDER / "comparison.json").write_text(json.dumps(content.to_dict()))
+    x, y = content.metrics["largest_difference"]["pixel"]
+    causes = content.causes
+    figures = {"figure": float(causes.figure[y, x]), "allowed": float(causes.allowed[y, x])}
+    (FOLDER / "comparison.json").write_text(json.dumps(content.to_dict() | {"largest": figures}))
     names = "Traced", "Blender", "Difference"
     images = {name.lower(): bpy.data.images[f"Reference Tracer {name}"] for name in names}
     np.savez(
         FOLDER / "images.npz",
         **{k: np.array(v.pixels[:]).reshape(v.size[1], v.size[0], 4) for k, v in images.items()},
     )
-    shown = area("VIEW_3D")
-    shown.type = "IMAGE_EDITOR"
-    shown.spaces.active.image = images["traced"]
+
+
+def page():
+    """The button, but for the browser, which is not in this window."""
+    invoke("open_page", directory=str(FOLDER), open_browser=False)
+    yield from until((FOLDER / "page.html").exists)
     yield 1
-    inside = next(r for r in shown.regions if r.type == "WINDOW")
-    with bpy.context.temp_override(window=window(), area=shown, region=inside):
+
+
+def look(shown):
+    shown.type = "IMAGE_EDITOR"
+    shown.spaces.active.image = bpy.data.images["Reference Tracer Traced"]
+    yield 1
+    with bpy.context.temp_override(window=window(), area=shown, region=main_region(shown)):
         bpy.ops.image.view_all(fit_view=True)
     yield 1
     screenshot("traced")
+
+
+def inspect(shown):
+    """Come near the pixel that differs most, and click on it."""
+    x, y = result().content.metrics["largest_difference"]["pixel"]
+    space, inside = shown.spaces.active, main_region(shown)
+    space.image = bpy.data.images["Reference Tracer Difference"]
+    yield from show_tab(shown)
+    width, height = space.image.size
+
+    def place(dx, dy):
+        there = (x + 0.5 + dx) / width, (y + 0.5 + dy) / height
+        return inside.view2d.view_to_region(*there, clip=False)
+
+    (xmin, ymin), (xmax, ymax) = place(-24, -14), place(24, 14)
+    with bpy.context.temp_override(window=window(), area=shown, region=inside):
+        bpy.ops.image.view_zoom_border(xmin=xmin, xmax=xmax, ymin=ymin, ymax=ymax)
+    yield 1
+    invoke("inspect")
+    u, v = place(0, 0)
+    where = str(inside.x + u), str(window().height - 1 - inside.y - v)
+    for action in (["mousemove", *where], ["mousedown", "1"], ["mouseup", "1"]):
+        subprocess.run(["xdotool", *action], check=True)
+        yield 0.3
+    yield 1
+    assert bpy.data.texts[0].lines[0].body.startswith(f"# The ray through pixel ({x}, {y})")
+    screenshot("inspector", shown)
+    subprocess.run(["xdotool", "key", "Escape"], check=True)
+    yield 0.5
+
+
+def ray(shown):
+    """As objects, looked at from aside."""
+    from mathutils import Quaternion
+
+    shown.type = "VIEW_3D"
+    yield from show_tab(shown)
+    x, y = ON_THE_CUBE
+    with bpy.context.temp_override(window=window(), area=shown, region=main_region(shown)):
+        bpy.ops.reference_tracer.explain("EXEC_DEFAULT", True, x=x, y=y, draw_ray=True)
+    hit = next(o for o in bpy.data.objects if o.name.startswith("Hit"))
+    view = shown.spaces.active.region_3d
+    view.view_perspective = "PERSP"
+    view.view_location, view.view_distance = hit.location, 5.5
+    turned = Quaternion((0, 0, 1), 0.7) @ window().scene.camera.matrix_world.to_quaternion()
+    view.view_rotation = turned
+    yield 1
+    screenshot("ray", shown)
 
 
 def play(steps):

@@ -1,7 +1,8 @@
 """The tutorial's pictures, taken in a real Blender window: docs/images/tutorial.
 
 `tour.py` is played in the whole Blender that `tools/whole_blender.sh` makes, with the extension of
-dist/ installed by Blender itself; what it shows is cut out and made small.
+dist/ installed by Blender itself; what it shows is cut out and made small. The page that it writes
+is then opened in Chromium.
 """
 
 from __future__ import annotations
@@ -15,9 +16,11 @@ import numpy as np
 from PIL import Image, ImageDraw
 from reference_tracer.images import to_display
 
+from . import browser
+
 PROJECT = Path(__file__).resolve().parents[2]
 OUT = PROJECT / "out" / "tutorial"
-WIDTH = 1000  # pixels of a picture
+WINDOW, WIDTH = 1600, 1000  # pixels across the whole window, and what they are made
 NAMES = "traced", "blender", "difference"
 AROUND, ZOOM, GAP = (8, 7), 19, 12  # pixels around the one that is enlarged, and how much
 
@@ -43,14 +46,16 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     save(near(OUT), folder / "near.png")
     found = json.loads((OUT / "comparison.json").read_text(encoding="utf-8"))
-    kept = {name: found[name] for name in ("pixels", "metrics", "verdict", "blender")}
+    kept = {name: found[name] for name in ("pixels", "metrics", "verdict", "blender", "largest")}
     (folder / "comparison.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
     for shot in sorted(OUT.glob("*.png")):
         picture = Image.open(shot).convert("RGB")
-        if picture.width > WIDTH:
+        if picture.width == WINDOW:
             height = picture.height * WIDTH // picture.width
             picture = picture.resize((WIDTH, height), Image.Resampling.LANCZOS)
         save(picture, folder / shot.name)
+    x, y = found["metrics"]["largest_difference"]["pixel"]
+    browser.save(OUT / "page.html", folder / "page.png", 1240, 960, f"#x={x}&y={y}", "pair")
 
 
 def save(picture: Image.Image, path: Path) -> None:

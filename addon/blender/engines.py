@@ -1,0 +1,81 @@
+"""Every engine that is here against the same tracer: the viewport (in a window), Workbench, Cycles.
+
+All pictures are drawn at once; what is returned then holds nothing of Blender's.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..arguments import words
+from ..compare.engines import EngineRow
+from ..report import files, page
+from ..scene import SceneError
+from ..tracer.progress import Work, scaled
+from ..tracer.render import Steps, steps
+from . import images
+from .compare import Gathered, gather, made
+
+ENGINES = ("viewport", "workbench", "cycles")  # the first needs a window
+
+
+def compare_all(
+    context: Any, directory: str = "", trace: Steps = steps, **choices: Any
+) -> Work[tuple[EngineRow, ...]]:
+    """Have every engine draw the scene; return the work of comparing each.
+
+    Parameters
+    ----------
+    context : bpy.types.Context
+    directory : str
+        Where each comparison goes to a folder of its own, and the table; nothing is written if
+        empty.
+    trace : Steps
+    **choices
+        Of :func:`compare.gather`.
+
+    Raises
+    ------
+    SceneError
+        If no engine makes a picture.
+    OSError
+        If the folder cannot be written.
+    """
+    folder = made(directory) if directory else None
+    drawn = [(e, _drawn(context, e, choices)) for e in ENGINES[bpy.app.background :]]
+    if all(isinstance(d, str) for _, d in drawn):
+        raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
+    return _compared(drawn, folder, trace)
+
+
+def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Gathered | str:
+    """Return what is gathered for an engine, or why it makes no picture."""
+    try:
+        return gather(context, judge=engine.upper(), **choices)
+    except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
+        return words(error)
+
+
+def _compared(
+    drawn: list[tuple[str, Gathered | str]], folder: Path | None, trace: Steps
+) -> Work[tuple[EngineRow, ...]]:
+    rows = []
+    for number, (engine, gathered) in enumerate(drawn):
+        if isinstance(gathered, str):
+            rows.append(EngineRow(engine, "failed", error=gathered))
+            continue
+        share = 1 / len(drawn)
+        part = 0.9 if folder else 1.0  # of the share; the rest is what the page shows besides
+        work = gathered.steps(trace)
+        comparison = yield from scaled(work, number * share, part * share)
+        rows.append(EngineRow.of(comparison))
+        if folder:
+            finding = page.extras(comparison, trace=trace)
+            extras = yield from scaled(finding, (number + part) * share, (1 - part) * share)
+            files.write(folder / engine, comparison, images.save_png, extras)
+    if folder:
+        files.write_engines(folder, rows)
+    return tuple(rows)

@@ -1,0 +1,76 @@
+"""What `reftrace explain` says of some pixels, in parts that fit into a text: Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+from reference_tracer.explain import formulas, markdown, reproducer
+from reference_tracer.explain.derivation import derive, derive_pixel
+
+from .figures import scene
+
+PIXEL = Path(__file__).resolve().parents[2] / "docs" / "pixel.json"
+OF_LESSONS = {  # the pixels that the lessons' commands name
+    "orthographic": (200, 240),
+    "perspective": (200, 240),
+    "plane": (320, 229),
+    "triangle": (242, 102),
+}
+_SUM = "s₁ + s₂ + s₃"
+
+
+@cache
+def blocks(name: str) -> list[str]:
+    """The Markdown of a pixel: that of docs/pixel.json, or of a lesson."""
+    found = derive(scene(name), *OF_LESSONS[name]) if name else derive_pixel(reproducer.read(PIXEL))
+    return markdown.text(found).split("\n\n")
+
+
+def after(name: str, heading: str, *which: int) -> str:
+    """Return some of the blocks below a heading, by their numbers from 0."""
+    of = blocks(name)
+    first = next(k for k, block in enumerate(of) if block.startswith(heading)) + 1
+    return "\n\n".join(of[first + k] for k in which)
+
+
+def rows(table: str, labels: Sequence[str]) -> str:
+    """Return a table's head and the steps with these labels, a row for each component."""
+    head, line, *body = table.splitlines()
+    kept, taken = [head, line], False
+    for row in body:
+        first = row.split("|")[1].strip()
+        if first:
+            taken = any(first == label or first.startswith(f"{label} ") for label in labels)
+        if taken:
+            kept.append(row)
+    return "\n".join(kept)
+
+
+def formula_table() -> str:
+    """Every formula of a ray and a triangle, in the order in which it is computed."""
+    lines = ["| | formula | |", "|---|---|---|"]
+    orthographic = [f._replace(remark="orthographic") for f in formulas.RAY[True].values()]
+    of = [*formulas.CAMERA.values(), *formulas.RAY[False].values(), *orthographic]
+    of += [*formulas.TRIANGLE.values(), *formulas.COLOR.values()]
+    lines += [f"| {f.label} | {f.right} | {f.remark} |" for f in of if f.right]
+    return "\n".join(lines)
+
+
+def values() -> dict[str, str]:
+    """Return each part by its name."""
+    ray, test = "## 1. From the pixel to the ray", "### 2.1"
+    parts = {
+        "explain_formulas": formula_table(),
+        "explain_errata": "\n".join(f"{k}. {e}" for k, e in enumerate(formulas.ERRATA, 1)),
+        "explain_candidates": after("", "## 2. What the ray may meet", 0, 1),
+        "explain_test": after("", test, 0, 1, 2),
+        "explain_methods": after("", "## 3. The nearest", 0, 1, 2, 3),
+        "derived_orthographic": rows(after("orthographic", ray, 1), ("X", "Y", "u", "v", "o", "d")),
+        "derived_perspective": rows(after("perspective", ray, 1), ("X", "Y", "u", "v", "d")),
+        "derived_plane": rows(after("plane", test, 0), ("(o − p) · n", "d · n", "t", "x")),
+        "derived_triangle": rows(after("triangle", test, 0), ("x", "s₁", "s₂", "s₃", _SUM)),
+        "judged_triangle": after("triangle", test, 1),
+    }
+    return {name: f"\n\n{part}\n\n" for name, part in parts.items()}  # blocks of their own
