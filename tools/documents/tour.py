@@ -77,7 +77,10 @@ def compare():
     yield from until(compared)
     yield 1
     assert data_blocks()["objects"] == before
-    screenshot("compared")
+    view = area("VIEW_3D")
+    yield from show_tab(view)
+    screenshot("compared", view)
+    view.spaces.active.show_region_ui = False
     content = result().content
     x, y = content.metrics["largest_difference"]["pixel"]
     causes = content.causes
