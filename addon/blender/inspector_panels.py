@@ -22,6 +22,7 @@ from .pixel_operators import (
 )
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
+_DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
 
 
 class _Inspector:
@@ -90,7 +91,7 @@ def _numbers(layout: Any, test: Test) -> None:
             right, wrong, exponent = marked(value, exact)
             shown = f"{right}[{wrong}]{exponent}" if wrong else right
             _number(column, name, shown, off_text(ulps(value, exact)))
-        _number(column, "exact", "undefined" if exact is None else exact_text(exact), "")
+        _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
 
 
 def _number(layout: Any, name: str, value: str, off: str) -> None:
@@ -100,10 +101,10 @@ def _number(layout: Any, name: str, value: str, off: str) -> None:
         split.label(text=name)
         split.label(text=off)
         return
-    split = layout.split(factor=0.14)
+    split = layout.split(factor=0.17)
     split.label(text=name)
     if off:
-        split = split.split(factor=0.81)
+        split = split.split(factor=0.78)
     split.label(text=value)
     if off:
         split.label(text=off)

@@ -108,10 +108,22 @@ def lines(rows: Sequence[EngineRow]) -> list[str]:
         )
     for row in rows:
         for w in row.wrong[:3]:
-            shown = f", {row.engine} '{w['shown']}'" if "shown" in w else ""
             x, y = w["pixel"]
-            out.append(
-                f"  {row.engine} at ({x}, {y}): the tracer sees '{w['traced']}' (triangle "
-                f"{w['triangle']}){shown}: {w['cause']}: {w['why']}"
-            )
+            out.append(f"  {row.engine} at ({x}, {y}): {_sides(w)}: {w['cause']}: {w['why']}")
     return out
+
+
+def _sides(wrong: dict[str, Any]) -> str:
+    """Say what both sides show."""
+    triangle = wrong["triangle"]
+    traced = f"'{wrong['traced']}'" + (f" (triangle {triangle})" if triangle != NOTHING else "")
+    if wrong["traced"] == "nothing":
+        traced = "nothing"
+    shown = wrong.get("shown")
+    if shown in (None, "not known"):
+        return f"the tracer sees {traced}"
+    if shown == wrong["traced"]:
+        return f"both show {traced}, in other colours"
+    return f"the tracer sees {traced}, Blender " + (
+        "nothing" if shown == "nothing" else f"'{shown}'"
+    )

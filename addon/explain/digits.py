@@ -40,11 +40,11 @@ def text(value: Number) -> str:
     return short if np.isnan(value) or np.float32(float(short)) == value else repr(float(value))
 
 
-def exact_text(value: Fraction) -> str:
-    """Return an exact number as a decimal, correctly rounded to EXACT_DIGITS, "…" if inexact."""
+def exact_text(value: Fraction, count: int = EXACT_DIGITS) -> str:
+    """Return an exact number as a decimal, correctly rounded to so many digits, "…" if inexact."""
     if not value:
         return "0"
-    decimal = as_decimal(value)
+    decimal = as_decimal(value, count)
     more = "" if Fraction(decimal) == value else "…"
     sign, digits, exponent = decimal.as_tuple()
     place = len(digits) - 1 + int(exponent)
@@ -55,10 +55,10 @@ def exact_text(value: Fraction) -> str:
     return f"{'-' * sign}{shown[0]}{point}{more}e{place:+03d}"
 
 
-def as_decimal(value: Fraction) -> Decimal:
-    """Return a number correctly rounded to EXACT_DIGITS significant digits, no zeros at its end."""
+def as_decimal(value: Fraction, count: int = EXACT_DIGITS) -> Decimal:
+    """Return a number correctly rounded to so many significant digits, no zeros at its end."""
     with localcontext() as context:
-        context.prec, context.Emax, context.Emin = EXACT_DIGITS, 10**9, -(10**9)
+        context.prec, context.Emax, context.Emin = count, 10**9, -(10**9)
         return (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
 
 
