@@ -278,6 +278,18 @@ def test_memory_is_that_of_the_picture():
     assert small < 32 << 20
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
+def test_a_plain_method_that_takes_too_long_is_not_timed(tmp_path, monkeypatch):
+    monkeypatch.setattr(memory, "LONGEST", 1e-6)
+    case = Case("cube", 64, 36, "perspective")
+    found = Bench(machine(True))
+    result_of(measure.measure(Plan((case,), False, 1, 1.0, 0.1), found, tmp_path))
+    plain, certified = found.rows
+    assert plain.trace_s is plain.render_s is plain.peak_bytes is None
+    assert certified.trace_s > 0 and certified.peak_bytes > 0 and certified.ratio_to_mt is None
+    assert sum("takes more than" in note for note in found.notes) == 2
+
+
 def test_no_memory_is_known_where_a_child_fails(tmp_path):
     jobs = [memory.Job(8, 8, "perspective", "certified", "float64", False)] * 2
     assert list(memory.peaks("suzanne", tmp_path, jobs)) == [None, None]

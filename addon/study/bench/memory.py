@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import json
 import os
+import select
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -17,9 +19,11 @@ from pathlib import Path
 
 from ...scene import Scene
 from ...tracer.render import render, trace
-from ...tracer.settings import Settings
+from ...tracer.settings import Method, Settings
 from .children import package
 from .scenes import build, mesh_of
+
+LONGEST = 15.0  # seconds for a plain method's picture: 100,000 slivers would take it many minutes
 
 
 @dataclass(frozen=True)
@@ -35,7 +39,10 @@ class Job:
 
 
 def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
-    """Yield each job's peak in bytes, beside scene and libraries; None where it cannot be known."""
+    """Yield each job's peak in bytes, beside scene and libraries.
+
+    None where it cannot be known, and where a plain method takes longer than LONGEST.
+    """
     if not hasattr(os, "fork"):
         yield from (None for _ in jobs)
         return
@@ -48,6 +55,7 @@ def peaks(name: str, cache: Path, jobs: list[Job]) -> Iterator[int | None]:
     )
     try:
         request = {"name": name, "cache": str(cache), "jobs": [asdict(job) for job in jobs]}
+        request["longest"] = LONGEST
         process.stdin.write(json.dumps(request))
         process.stdin.close()
         for _ in jobs:
@@ -64,14 +72,20 @@ def _answer(request: dict) -> None:
     _return_freed()
     for job in (Job(**job) for job in request["jobs"]):
         pictures = build(small, 16, 9, job.camera), build(mesh, job.width, job.height, job.camera)
-        print(json.dumps(_of_a_fork(pictures, job)), flush=True)
+        print(json.dumps(_of_a_fork(pictures, job, request["longest"])), flush=True)
 
 
-def _of_a_fork(pictures: tuple[Scene, Scene], job: Job) -> int | None:
-    """Return by how much a fork's peak rises for the second picture, bytes; None if it fails."""
+def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int | None:
+    """Return by how much a fork's peak rises for the second picture, bytes.
+
+    None if it fails, or if it is a plain method's and takes longer than `longest` seconds.
+    """
     reads, writes = os.pipe()
     if child := os.fork():
         os.close(writes)
+        patience = longest if Method(job.method).is_plain else None
+        if not select.select([reads], [], [], patience)[0]:
+            os.kill(child, signal.SIGKILL)
         with os.fdopen(reads) as file:
             said = file.read()
         os.waitpid(child, 0)

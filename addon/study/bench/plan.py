@@ -78,7 +78,7 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
         return Plan(
             tuple(cases), True, repeats or QUICK_REPEATS, budget=5.0, slow=0.3, seconds=100.0
         )
-    return Plan(tuple(cases), False, repeats or REPEATS, budget=12.0, slow=3.0, seconds=1600.0)
+    return Plan(tuple(cases), False, repeats or REPEATS, budget=10.0, slow=3.0, seconds=1200.0)
 
 
 def _default(quick: bool) -> list[str]:
