@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from reference_tracer.study.students.student_error import KINDS
 
 PROJECT = Path(__file__).parent.parent
 DOCS = PROJECT / "docs"
@@ -113,6 +114,11 @@ def test_every_fault_is_described():
                     names.add(node.value)
     assert len(names) > 20
     assert not [name for name in names if f"`{name}`" not in grading]
+
+
+def test_every_failure_is_described():
+    grading = (DOCS / "grading.md").read_text(encoding="utf-8")
+    assert not [kind for kind in KINDS if not re.search(rf"^\|.*`{kind}`", grading, re.MULTILINE)]
 
 
 def test_markers(tools):

@@ -81,7 +81,7 @@ def test_a_class(template, solution, capsys):
     assert [line.split()[:3] for line in table] == [
         ["file", "score", "verdict"],
         ["mine.py", "0.0", "wrong"],
-        ["solution.py", "100.0", "right"],
+        ["solution.py", "100.0", "all"],
     ]
 
 

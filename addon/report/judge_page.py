@@ -18,7 +18,17 @@ from ..study.students.examples import Example
 from ..study.students.judging import Judgement
 from ..study.students.picture import Look, Mark
 from ..study.students.student_error import StudentError
-from .judge_table import MARKS, VERDICTS, explain, held_rows, percent, tallies
+from .judge_table import (
+    HEAD,
+    MARKS,
+    NO_BOUNDARY,
+    VERDICTS,
+    dashed,
+    explain,
+    held_rows,
+    row,
+    tallies,
+)
 
 Encode = Callable[[NDArray[np.uint8]], bytes]
 
@@ -27,10 +37,12 @@ MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe 
     Mark.EDGE: (70, 70, 70),
     Mark.DEPTH_TIE: (86, 180, 233),
     Mark.MISSED: (213, 60, 0),
+    Mark.FALSE_HIT_IN_FRONT: (112, 40, 122),
     Mark.FALSE_HIT: (204, 121, 167),
     Mark.WRONG_ORDER: (0, 80, 178),
     Mark.WRONG_T: (0, 158, 115),
     Mark.WRONG_BARYCENTRICS: (236, 200, 30),
+    Mark.WRONG_T_AND_BARYCENTRICS: (122, 98, 12),
 }
 _DIM = 0.35
 _WARNING = (
@@ -70,17 +82,23 @@ def _class_table(judgements: Sequence[Judgement]) -> str:
         wrong = dict.fromkeys([e.kind for _, e in j.errors] + [f.name for f in j.faults])
         link = f'<a href="#s{k}">{escape(j.name)}</a>'
         rows.append((link, f"{j.score:.1f}", _verdict(j), escape(", ".join(wrong))))
-    return _table(("file", "score", "verdict", "what is wrong"), rows)
+    return _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
 
 
 def _verdict(j: Judgement) -> str:
     return f'<span class="verdict {j.verdict}">{VERDICTS[j.verdict]}</span>'
 
 
-def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table of cells that are HTML already."""
-    top = "".join(f'<th scope="col">{h}</th>' for h in head)
-    body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>\n" for row in rows)
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[int] = (0,)) -> str:
+    """Return a table of cells that are HTML already; the columns of `words` are flush left."""
+    kind = [' class="words"' if k in words else "" for k in range(len(head))]
+    top = "".join(f'<th scope="col"{k}>{h}</th>' for k, h in zip(kind, head, strict=True))
+    body = "".join(
+        "<tr>"
+        + "".join(f"<td{k}>{cell}</td>" for k, cell in zip(kind, cells, strict=True))
+        + "</tr>\n"
+        for cells in rows
+    )
     return f'<div class="wide"><table><thead><tr>{top}</tr></thead>\n{body}</table></div>'
 
 
@@ -98,26 +116,16 @@ def _student(number: int, j: Judgement, encode: Encode) -> str:
     if j.printed:
         parts.append(f"<details><summary>It prints {j.printed:,} bytes</summary>")
         parts.append(f"<pre>{escape(j.said)}</pre></details>")
-    rows = [
-        (
-            escape(what),
-            f"{t.total:,}",
-            *(percent(v) if t.total else "–" for v in t.shares.values()),
-            f"{t.boundary_right:,} of {t.boundary:,}" if t.boundary else "–",
-            f"{t.score:.1f}" if t.total else "–",
-        )
-        for what, t in tallies(j)
-    ]
-    if rows:
-        names = "", "counted", "surface", "t", "barycentrics", "boundary", "score"
-        parts.append(_table(names, rows))
+    if counts := tallies(j):
+        parts.append(_table(HEAD, [tuple(map(escape, row(*named))) for named in counts]))
+        parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
     parts += [_scene(found, j.examples[found.subject.name], encode) for found in j.looks]
     if j.extremes:
         names = "student", "not by rounding", "textbook", "Möller–Trumbore"
         head = "the first scale at which a ray is lost", *names
         why = "Does not count: every formula in float64 gives way somewhere. A dot: it never does."
         parts.append(f"<h3>At the extremes</h3><p>{why}</p>")
-        parts.append(_table(head, [tuple(map(escape, row)) for row in held_rows(j)]))
+        parts.append(_table(head, [tuple(map(escape, cells)) for cells in held_rows(j)]))
     return "\n".join((*parts, "</section>"))
 
 

@@ -28,12 +28,17 @@ MARKS = {
     Mark.EDGE: "at an edge, within rounding",
     Mark.DEPTH_TIE: "two surfaces at one depth",
     Mark.MISSED: "missed",
+    Mark.FALSE_HIT_IN_FRONT: "hit a triangle that the ray misses, in front of what is seen",
     Mark.FALSE_HIT: "hit, but there is nothing",
     Mark.WRONG_ORDER: "not the nearest",
     Mark.WRONG_T: "wrong t",
     Mark.WRONG_BARYCENTRICS: "wrong barycentrics",
+    Mark.WRONG_T_AND_BARYCENTRICS: "wrong t and wrong barycentrics",
 }
-_HEAD = "", "counted", "surface", "t", "barycentrics", "boundary", "score"
+NO_BOUNDARY = (
+    "boundary -: no ray that counts there passes an edge, or two surfaces, within rounding"
+)
+HEAD = "", "counted", "surface", "t", "barycentrics", "boundary", "score"
 
 
 def explain(subject: Subject, example: Example) -> str:
@@ -64,9 +69,9 @@ def lines(j: Judgement) -> list[str]:
     if j.printed:
         first = j.said.strip().splitlines()[:1]
         out.append(f"  it prints ({j.printed:,} bytes): {' '.join(first)[:120]}")
-    rows = [_HEAD, *(_row(*named) for named in tallies(j))]
-    if len(rows) > 1:
-        out += ["", *columns(rows)]
+    if found := tallies(j):
+        out += ["", *columns([HEAD, *(row(*named) for named in found)])]
+        out += [NO_BOUNDARY] * dashed(found)
     out += _wrong_pixels(j)
     if j.extremes:
         out += ["", *columns([("first scale that loses a ray", *_YARDS), *held_rows(j)])]
@@ -96,7 +101,13 @@ def tallies(j: Judgement) -> list[tuple[str, Tally]]:
     return named + [(k.subject.name, k.tally) for k in j.looks]
 
 
-def _row(name: str, tally: Tally) -> tuple[str, ...]:
+def dashed(found: Sequence[tuple[str, Tally]]) -> bool:
+    """Return whether a row has no boundary, so that a reader wants to know what that means."""
+    return not all(tally.boundary for _, tally in found)
+
+
+def row(name: str, tally: Tally) -> tuple[str, ...]:
+    """Return the cells of one row below HEAD."""
     border = f"{tally.boundary_right:,} of {tally.boundary:,}" if tally.boundary else "-"
     if not tally.total:
         return name, "0", "-", "-", "-", border, "-"
@@ -113,13 +124,18 @@ def _wrong_pixels(j: Judgement) -> list[str]:
             if m != Mark.RIGHT and (n := found.counts[m.name.lower()])
         ]
         if counts:
-            out += ["", f"{found.subject.name}: {', '.join(counts)}"]
+            out += ["", f"{found.subject.name}: {'; '.join(counts)}"]
             out += [
                 f"  ({e.pixel[0]}, {e.pixel[1]}) {e.object}, {MARKS[e.mark]}: "
                 f"{explain(found.subject, e)}"
-                for e in j.examples[found.subject.name][:1]
+                for e in _one_each(j.examples[found.subject.name])
             ]
     return out
+
+
+def _one_each(examples: Sequence[Example]) -> list[Example]:
+    """Return the first example of each mark."""
+    return list({e.mark: e for e in reversed(examples)}.values())[::-1]
 
 
 def class_table(judgements: Sequence[Judgement]) -> list[str]:
@@ -127,7 +143,9 @@ def class_table(judgements: Sequence[Judgement]) -> list[str]:
     rows = [("file", "score", "verdict", "what is wrong")]
     for j in judgements:
         wrong = [error.kind for _, error in j.errors] + [f.name for f in j.faults]
-        rows.append((j.name, f"{j.score:.1f}", j.verdict, ", ".join(dict.fromkeys(wrong))))
+        rows.append(
+            (j.name, f"{j.score:.1f}", VERDICTS[j.verdict], ", ".join(dict.fromkeys(wrong)))
+        )
     return columns(rows, left=(0, 2, 3))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from html.parser import HTMLParser
 from importlib.resources import files
 
@@ -13,7 +14,7 @@ import reference_tracer.report
 from reference_tracer.images import MissingLibraryError, save_png
 from reference_tracer.report.judge import to_dict, write
 from reference_tracer.report.judge_page import MARK_COLORS, marked
-from reference_tracer.report.judge_table import class_table, lines, percent
+from reference_tracer.report.judge_table import MARKS, NO_BOUNDARY, class_table, lines, percent
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.study.students.checks import make_checks
 from reference_tracer.study.students.extremes import extreme_scenes
@@ -167,6 +168,7 @@ def test_lines(judged):
     assert "reftrace explain s.npz --pixel" in text["swapped.py"]
     assert "the textbook's erratum" in " ".join(text["swapped.py"].split())
     assert "broken.py, line 2: return '<b>' + 1" in text["broken.py"]
+    assert "raise it with --time-limit" in " ".join(text["endless <i>.py"].split())
     assert "time limit of 3 s" in " ".join(text["endless <i>.py"].split())
     assert "it prints" in text["blind.py"]
     assert max(len(line) for t in text.values() for line in t.splitlines()) <= 120
@@ -175,9 +177,47 @@ def test_lines(judged):
 def test_class_table(judged):
     table = class_table(list(judged.values()))
     assert len(table) == 1 + len(FILES)
-    assert table[1].split() == ["right.py", "100.0", "right"]
+    assert table[1].split() == ["right.py", "100.0", "all", "right"]
     assert table[2].split()[2:] == ["wrong", "s2_s3_swapped"]
     assert table[5].split()[1:] == ["0.0", "failed", "exception"]
+
+
+def test_the_page_says_the_same_in_the_same_words(written, judged):
+    text = (written / "judge.html").read_text(encoding="utf-8")
+    right = class_table([judged["right.py"], judged["swapped.py"]])[1].split("  ")[-1]
+    assert right == "all right" and f">{right}</span>" in text
+    # No pixel of this scene lies on a boundary, and both say what the dash there means.
+    assert not judged["right.py"].looks[0].subject.boundary.any()
+    assert NO_BOUNDARY in text and NO_BOUNDARY in lines(judged["right.py"])
+
+
+def test_words_are_flush_left(written):
+    text = (written / "judge.html").read_text(encoding="utf-8")
+    table = text[text.index("<thead>") : text.index("</table>")]
+    for head in ("file", "verdict", "what is wrong"):
+        assert f'<th scope="col" class="words">{head}</th>' in table
+    assert '<th scope="col">score</th>' in table
+    assert table.count('<td class="words">') == 3 * len(FILES) and "<td>100.0</td>" in table
+    css = " ".join(text[text.index("<style>") : text.index("</style>")].split())
+    assert ".words { text-align: left; }" in css
+
+
+def test_every_mark_has_its_words_and_color():
+    assert set(MARKS) == set(Mark) and len(set(MARKS.values())) == len(Mark)
+    assert set(MARK_COLORS) == set(Mark) - {Mark.RIGHT}
+    assert len(set(MARK_COLORS.values())) == len(MARK_COLORS)
+
+
+def test_an_example_of_every_mark(judged):
+    """The terminal shows one pixel of each kind, not only of the first."""
+    j = judged["swapped.py"]
+    [found] = j.looks
+    first = j.examples[found.subject.name][0]
+    other = replace(first, mark=Mark.MISSED)
+    several = replace(j, examples={found.subject.name: [first, first, other]})
+    pixels = [line for line in lines(several) if "reftrace explain" in line]
+    assert len(pixels) == 2
+    assert MARKS[first.mark] in pixels[0] and MARKS[Mark.MISSED] in pixels[1]
 
 
 def test_percent_does_not_round_to_all_or_none():

@@ -1,4 +1,4 @@
-"""The first wrong pixels of a picture, with all numbers of the ray and the triangle."""
+"""Some wrong pixels of a picture, with all numbers of the ray and the triangle."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ...tracer.hits import NOTHING
 from ...tracer.world import world_corners
 from .known import known
-from .picture import EXCUSED, Ask, Look, Mark
+from .picture import EXCUSED, FALSE_HITS, Ask, Look, Mark
 from .subject import arrays
 
 EACH = 3  # pixels of a mark
@@ -54,8 +54,14 @@ def _answer(answer: tuple[float, NDArray]) -> dict[str, Any]:
     return {"t": numbers[0], "barycentrics": numbers[1:] if numbers[0] is not None else None}
 
 
+def _spread(pixel: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return EACH of some pixels: the middles of as many equal parts, from the lowest row up."""
+    parts = min(EACH, len(pixel))
+    return pixel[(2 * np.arange(parts) + 1) * len(pixel) // (2 * max(parts, 1))]
+
+
 def find_examples(look: Look, ask: Ask) -> list[Example]:
-    """Return the first pixels of each mark that counts as wrong.
+    """Return some pixels of each mark that counts as wrong, spread over the picture.
 
     Raises
     ------
@@ -67,11 +73,11 @@ def find_examples(look: Look, ask: Ask) -> list[Example]:
         p
         for m in Mark
         if m not in (Mark.RIGHT, *EXCUSED)
-        for p in np.flatnonzero(marks == m)[:EACH].tolist()
+        for p in _spread(np.flatnonzero(marks == m)).tolist()
     ]
     if not pixel:
         return []
-    shown = marks[pixel] == Mark.FALSE_HIT
+    shown = np.isin(marks[pixel], FALSE_HITS)
     instance = np.where(shown, look.hits.instance[pixel], subject.instance[pixel])
     triangle = np.where(shown, look.hits.triangle[pixel], subject.triangle[pixel])
     keep = triangle != NOTHING  # a plane is not the student's

@@ -32,13 +32,16 @@ class Mark(IntEnum):
     EDGE = 1  # wrong, but the ray passes within float64's rounding of an edge: not counted
     DEPTH_TIE = 2  # wrong, but two surfaces are within float64's rounding of one another
     MISSED = 3  # the nearest triangle is not said to be hit
-    FALSE_HIT = 4  # a triangle is shown that the ray does not hit
-    WRONG_ORDER = 5  # both are said to be hit, and the wrong one is taken for the nearer
-    WRONG_T = 6  # the right triangle, with a t that is off by more than rounding
-    WRONG_BARYCENTRICS = 7  # the right triangle and t, and not the right barycentrics
+    FALSE_HIT_IN_FRONT = 4  # a triangle that the ray does not hit hides the surface that it does
+    FALSE_HIT = 5  # a triangle that the ray does not hit is shown where there is nothing
+    WRONG_ORDER = 6  # both are said to be hit, and the wrong one is taken for the nearer
+    WRONG_T = 7  # the right triangle and barycentrics, with a t that is off by more than rounding
+    WRONG_BARYCENTRICS = 8  # the right triangle and t, and not the right barycentrics
+    WRONG_T_AND_BARYCENTRICS = 9  # the right triangle, and neither
 
 
 EXCUSED = Mark.EDGE, Mark.DEPTH_TIE
+FALSE_HITS = Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,8 +117,13 @@ def _judged(subject: Subject, hits: Hits, false, reported, seconds: float) -> Lo
     wrong = _wrong_surface(subject, hits)
     mark = np.full(len(wrong), Mark.RIGHT, np.uint8)
     mark[wrong] = Mark.WRONG_ORDER
-    mark[wrong & ~reported & (subject.triangle != NOTHING)] = Mark.MISSED
-    mark[wrong & false] = Mark.FALSE_HIT
+    missed = ~reported & (subject.triangle != NOTHING)
+    mark[wrong & missed] = Mark.MISSED
+    # What hides nothing nearer is no reason: the pixel is wrong for what is missed in front of it.
+    false &= ~(missed & (hits.t > subject.t))
+    shows = subject.instance != NOTHING
+    mark[wrong & false & shows] = Mark.FALSE_HIT_IN_FRONT
+    mark[wrong & false & ~shows] = Mark.FALSE_HIT
     edge = subject.ambiguous | subject.near_edge
     mark[wrong & edge] = Mark.EDGE
     mark[wrong & subject.near_tie & ~edge] = Mark.DEPTH_TIE
@@ -125,6 +133,7 @@ def _judged(subject: Subject, hits: Hits, false, reported, seconds: float) -> Lo
     inside = right & ~subject.boundary
     mark[inside & ~s_right] = Mark.WRONG_BARYCENTRICS
     mark[inside & ~t_right] = Mark.WRONG_T
+    mark[inside & ~t_right & ~s_right] = Mark.WRONG_T_AND_BARYCENTRICS
     tally = Tally.of(on_triangle, wrong, subject.boundary, right, t_right, s_right)
     color = shading.colors(subject.scene, hits).reshape(subject.color.shape)
     h, w = subject.shape

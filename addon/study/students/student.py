@@ -160,7 +160,8 @@ class Student:
             code = process.wait()
             if late.is_set():
                 text = f"took longer than the time limit of {self.limits.seconds:g} s for one scene"
-                raise StudentError("time", f"{text}: does it loop over the rays?") from error
+                text += " (does it ever end? If it is only slow, raise it with --time-limit)"
+                raise StudentError("time", text) from error
             raise StudentError("ended", _how(code)) from error
         finally:
             watch.cancel()

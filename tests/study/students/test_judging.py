@@ -84,9 +84,56 @@ def test_missed_false_and_order(two):
         return np.where(p[:, 0, 2] == -5, 5.0, t), s
 
     false = result_of(look(two, everything))
-    assert set(np.unique(false.mark)) == {Mark.RIGHT, Mark.FALSE_HIT}
+    assert set(np.unique(false.mark)) == {Mark.RIGHT, Mark.FALSE_HIT_IN_FRONT}  # all is covered
     # Every candidate of the front square counts as hit, also beside the diagonal.
     assert false.tally.surface < false.tally.total and false.lost > 0
+
+
+def test_false_hits_in_front_and_on_nothing(make, right):
+    """u <= 1 and v <= 1 in place of u + v <= 1: parallelograms, over the sky and over surfaces."""
+    text = right["moller_trumbore"].replace("(u + v <= 1)", "(u <= 1) & (v <= 1)")
+    space = {}
+    exec(text, space)
+    ask = space["intersect"]
+    behind = make.quad(-2.2, 0.31, -2.3, 2.2, -6)
+    scene = make.scene(make.camera(), make.quad(-1.13, 0.93, -1.07, 1.21, -4), behind)
+    front = replace(scene.meshes[0], triangles=[[1, 2, 0]], slots=None)
+    scene = replace(scene, meshes=(front, *scene.meshes[1:]))
+    subject = result_of(prepare("one", scene, pixels=None))
+    found = result_of(look(subject, ask))
+    shows = np.isfinite(subject.t).reshape(subject.shape)
+    over, empty = found.mark == Mark.FALSE_HIT_IN_FRONT, found.mark == Mark.FALSE_HIT
+    assert over.any() and empty.any()
+    assert shows[over].all() and not shows[empty].any()
+    examples = find_examples(found, ask)
+    assert {e.mark for e in examples} == {Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT}
+    for e in examples:
+        assert e.object == "Quad" and not np.isfinite(e.true[0]) and np.isfinite(e.answer[0])
+    for mark in (Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT):
+        rows = np.flatnonzero((found.mark == mark).any(axis=1))
+        shown = [e.pixel[1] for e in examples if e.mark == mark]
+        assert len(shown) == 3 and max(shown) - min(shown) >= (rows[-1] - rows[0]) / 3
+
+
+def test_a_false_hit_behind_what_is_missed_is_a_miss(two):
+    """The front square is not seen; what is then seen, wrongly, lies behind it."""
+
+    def ask(o, d, p):
+        return np.where(p[:, 0, 2] == -5, np.inf, 9.0), TEXTBOOK(o, d, p)[1]
+
+    found = result_of(look(two, ask))
+    assert (found.mark.ravel()[two.instance == 0] == Mark.MISSED).all()
+
+
+def test_both_values_wrong(two):
+    def ask(*q):
+        t, s = TEXTBOOK(*q)
+        return t + 0.01, s[:, [0, 2, 1]]
+
+    found = result_of(look(two, ask))
+    on = two.triangle != -1
+    assert (found.mark.ravel()[on] == Mark.WRONG_T_AND_BARYCENTRICS).mean() > 0.98
+    assert found.tally.t == 0
 
 
 def test_wrong_values(two):
