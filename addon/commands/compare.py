@@ -56,7 +56,8 @@ def add(commands: Commands) -> None:
         "--against",
         type=Path,
         metavar="PICTURE",
-        help="a .png (8 bits, sRGB) or .exr (linear) of the same camera and size",
+        help="a .png (8 bits, sRGB) or .exr (linear) of the same camera and size; a background of "
+        "its own, of one colour or transparent, is named and not held against it",
     )
     group.add_argument(
         "--filter",

@@ -12,9 +12,11 @@ from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.certainty import Certainty
 from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
+from .background import Background, find_background
 from .boundary import boundary
 from .cause import DESCRIPTIONS, Cause, Causes, Hidden
 from .causes import find_causes
@@ -65,6 +67,7 @@ class Comparison:
     identity: Identity | None = None  # which object each side shows
     certificate: CameraCertificate | None = None
     self_check: tuple[FaultRow, ...] = ()  # known faults, and whether they were found
+    background: Background | None = None  # where the picture has one that the scene has not
 
     @property
     def verdict(self) -> str:
@@ -80,6 +83,7 @@ class Comparison:
             self.manifest.unmodelled,
             *(o.left_out for o in self.manifest.objects),
             *(row.missed for row in self.self_check),
+            self.background and not self.background.transparent,
         )
         return "warnings" if any(doubtful) else "agree"
 
@@ -114,6 +118,7 @@ class Comparison:
             "pixels": self.pixels,
             "causes": _DESCRIBED,
             "transform": self.causes.transform,
+            "background": self.background and self.background.to_dict(),
             "hidden": [h._asdict() for h in self.causes.hidden],
             "identity": self.identity and self.identity.to_dict(),
             "certificate": self.certificate and self.certificate.to_dict(),
@@ -218,6 +223,14 @@ def trace_and_compare(
     for share in trace(scene, settings, frame):
         yield tracing * share
     rows = yield from scaled(list_methods(scene, settings, frame, trace), tracing, methods)
+    check_sizes(shown.color, frame.color)
+    background = None
+    if known and known.curves is not None and not frame.cancelled:
+        background = find_background(frame, shown, known.curves)
+    if background:
+        scene, known = background.under(scene), background.behind(known)
+        shown = replace(shown, background=scene.background)
+        frame = _before(scene, settings, frame, trace)
     comparing = compare(scene, manifest, settings, frame, shown, blender, known)
     found = yield from scaled(comparing, tracing + methods, rest)
     faults: tuple[FaultRow, ...] = ()
@@ -232,4 +245,16 @@ def trace_and_compare(
             known.next_frame,
         )
         faults = yield from scaled(self_check(case, trace), 1 - checking, checking)
-    return replace(found, methods=rows, self_check=faults)
+    return replace(found, methods=rows, self_check=faults, background=background)
+
+
+def _before(scene: Scene, settings: Settings, frame: Frame, trace: Steps) -> Frame:
+    """Return a traced frame before another background, the scene's; of one sample, not again."""
+    color = frame.color.copy()
+    color[frame.instance_index == NOTHING] = scene.background
+    if settings.samples > 1:
+        again = Frame.empty(scene)
+        for _ in trace(scene, settings, again):
+            pass
+        color = again.color
+    return replace(frame, scene=scene, color=color)

@@ -20,9 +20,9 @@ def count_pixels(
     """Count pixels by what is said of them, and those at boundaries and inside apart.
 
     total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
-    `examples` are some pixels of each cause, [x, y] of the region from its lower left. Where it is
-    known whose surfaces are shown, `unexplained_shows` says whether what is unexplained is a wrong
-    colour (the same object) or a wrong object.
+    `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
+    lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
+    unexplained is a wrong colour (the same object) or a wrong object.
     """
     cause = causes.cause
     out = _counts(cause)
@@ -53,6 +53,7 @@ def _counts(cause: NDArray[np.uint8]) -> dict[str, Any]:
 
 
 def _positions(where: NDArray[np.bool_]) -> list[list[int]]:
-    """Return the first pixels of some as [x, y], x from the left and y from the bottom."""
-    width = where.shape[1]
-    return [[int(i % width), int(i // width)] for i in np.flatnonzero(where)[:EXAMPLES]]
+    """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
+    found = np.flatnonzero(where)
+    chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)
+    return [[int(i % where.shape[1]), int(i // where.shape[1])] for i in found[chosen]]

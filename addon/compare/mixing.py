@@ -23,7 +23,7 @@ from ..tracer.visibility import plan
 from .again import SOUND, parts_of, set_out
 from .cause import Cause, Settler
 from .coverage import coverage
-from .shown import Shown, transformed
+from .shown import Shown
 
 # Rings within the radius and directions on each, where the tracer is asked; later ones only of
 # what is left: a sliver passes between the samples.
@@ -112,9 +112,7 @@ def _seen(scene: Scene, probe: Probe, shown: Shown, dx: float, dy: float) -> NDA
 
 def _as_shown(shown: Shown, colors: NDArray) -> NDArray:
     """Return traced colours (n, 4) as the picture has them: transformed, alpha or not."""
-    if shown.transform:
-        colors = transformed(colors, shown.transform)
-    return colors[:, : 3 if shown.opaque else 4]
+    return shown.made_of(colors)[:, : 3 if shown.opaque else 4]
 
 
 def is_mix(color: NDArray, mixed: NDArray, sums: int = 0) -> NDArray[np.bool_]:

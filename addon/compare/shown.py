@@ -45,6 +45,8 @@ class Shown:
         Its colours are of a light that the tracer does not have: they prove nothing.
     transform : callable, optional
         What turns traced colours into its own.
+    background : (4,) float32, optional
+        Its own background, linear RGBA: as it is shown, whatever the transform.
     """
 
     color: NDArray[np.float32]
@@ -56,6 +58,7 @@ class Shown:
     opaque: bool = False
     lit: bool = False
     transform: Transform | None = None
+    background: NDArray[np.float32] | None = None
 
     def at(self, where: NDArray | slice) -> Shown:
         """Return some of the pixels: rows by a slice, or those where a mask is True."""
@@ -83,7 +86,7 @@ class Shown:
         self, colors: NDArray, interpolated: NDArray[np.bool_] | bool = False
     ) -> NDArray[np.bool_]:
         """Return where the colour is another than (..., 4) traced ones."""
-        traced = colors if self.transform is None else transformed(colors, self.transform)
+        traced = self.made_of(colors)
         last = 3 if self.opaque else 4
         return differing(
             traced[..., :last],
@@ -99,13 +102,22 @@ class Shown:
 
         Of the channel that is nearest to being too far.
         """
-        traced = colors if self.transform is None else transformed(colors, self.transform)
+        traced = self.made_of(colors)
         last = 3 if self.opaque else 4
         apart, allowed = difference(
             traced[..., :last], self.color[..., :last], False, self.levels, self.sums, self.dither
         )
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         return tuple(np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
+
+    def made_of(self, colors: NDArray) -> NDArray:
+        """Return traced colours (..., 4) as this picture has them."""
+        if self.transform is None:
+            return colors
+        made = transformed(colors, self.transform)
+        if self.background is None:
+            return made
+        return np.where((colors == self.background).all(axis=-1, keepdims=True), colors, made)
 
     def through(self, transform: Transform) -> Shown:
         """Return the same, seen as made by a transform."""

@@ -51,6 +51,8 @@ def _evidence(comparison: Comparison) -> list[str]:
         f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
         f"{rim['total']:,} boundary pixels differ"
     ]
+    if comparison.background:
+        out.append(comparison.background.line())
     if causes.transform:
         out.append(f"colours: {causes.transform}")
     hidden = dict.fromkeys(causes.hidden)

@@ -67,6 +67,16 @@ def test_counts_add_up(scene):
         assert n == (found.causes.cause == Cause[name.upper()]).sum()
 
 
+def test_examples_are_spread(scene):
+    picture = render(scene).color.copy()
+    picture[2:14, 3:19] = (1, 0, 1, 1)
+    found = compared(scene, picture)
+    examples = found.pixels["examples"]["unexplained"]
+    rows, columns = np.nonzero(found.causes.cause == Cause.UNEXPLAINED)
+    assert len(examples) == 10 and len({y for _, y in examples}) > 8
+    assert examples[0] == [columns[0], rows[0]] and examples[-1] == [columns[-1], rows[-1]]
+
+
 def test_equal_pictures_agree(scene):
     found = compared(scene, render(scene).color)
     assert found.verdict == "agree" and EXIT_CODES[found.verdict] == 0
@@ -143,6 +153,7 @@ def test_json_has_what_is_promised(scene):
         "verdict",
         "causes",
         "transform",
+        "background",
         "hidden",
         "identity",
         "certificate",

@@ -73,6 +73,41 @@ def test_linear_values_in_a_png(room, frame):
     assert not (causes.cause == Cause.UNEXPLAINED).any()
 
 
+@pytest.mark.parametrize("power", [1 / 2.2, 2.2, 1.31])
+def test_a_gamma_of_coded_values(room, frame, power):
+    """As image programs apply it to an 8-bit file."""
+    once = np.rint(255 * curve(frame.color[..., :3].astype(np.float64))) / 255
+    color = frame.color.copy()
+    color[..., :3] = decoded(np.rint(255 * once**power) / 255)
+    causes = found(room, frame, Shown(color, levels=255))
+    name = causes.transform
+    assert name.startswith("a gamma of ") and name.endswith(" applied to coded (sRGB) values")
+    assert float(name.split()[3]) == pytest.approx(1 / power, rel=0.02)
+    assert not (causes.cause == Cause.UNEXPLAINED).any()
+
+
+def test_a_large_area_alone_fits_no_curve(room, frame):
+    """The background and the largest object are darker by a power, the others by another."""
+    largest = np.bincount(frame.instance_index[frame.instance_index >= 0]).argmax()
+    room = replace(room, background=(0.3, 0.3, 0.3, 1))
+    frame = render(room)
+    dark = (frame.instance_index < 0) | (frame.instance_index == largest)
+    power = np.where(dark, 2.18, 1.6 + 0.3 * frame.instance_index)
+    color = frame.color.copy()
+    color[..., :3] **= power[..., None]
+    causes = found(room, frame, Shown(color))
+    assert causes.transform == "" and not (causes.cause == Cause.COLOR).any()
+
+
+def test_one_grey_surface_proves_no_fit(make):
+    scene = make.scene(make.camera(20, 16), make.quad(-9, 9, -9, 9, -3))
+    grey = replace(scene.instances[0], colors=((0.5, 0.5, 0.5, 1),))
+    scene = replace(scene, instances=(grey,))
+    frame = render(scene)
+    causes = found(scene, frame, Shown(changed(frame, lambda c: c * 0.7)))
+    assert causes.transform == "" and (causes.cause == Cause.UNEXPLAINED).all()
+
+
 def test_a_missing_object_shows_through_a_transform(room, frame):
     without = replace(room, instances=[i for i in room.instances if i.object != 1])
     box = frame.object_index == 1

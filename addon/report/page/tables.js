@@ -114,6 +114,9 @@ function metricsCard() {
       ],
     ]),
     element("p", { class: "muted" }, "Of linear RGBA, over all pixels."),
+    page.comparison.background
+      ? element("p", {}, `Note: ${page.comparison.background.text}.`)
+      : null,
     page.comparison.transform ? element("p", {}, `Colours: ${page.comparison.transform}.`) : null,
   );
 }

@@ -1,0 +1,137 @@
+"""`reftrace compare --against` a picture on a background of its own."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer import images
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.comparison import compare, trace_and_compare
+from reference_tracer.compare.known import Known
+from reference_tracer.compare.shown import Shown
+from reference_tracer.manifest import Manifest
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+WORLD = (0.05, 0.06, 0.07, 1)
+PLAIN = Manifest("a.npz", "Scene", "", 0, "FILE", "Camera")
+ABOUT = {"version": None, "source": "picture", "picture": "a.png", "settings": {}}
+FOREIGN = Known(curves=())
+
+
+@pytest.fixture
+def scene(make):
+    solids = (
+        trimesh.creation.icosphere(2, radius=0.7).apply_translation((-0.6, 0.3, 0.4)),
+        trimesh.creation.box((0.8, 0.6, 1.1)).apply_translation((0.7, -0.4, -0.3)),
+    )
+    camera = make.camera(120, 90, half=0.6, eye=(3, -4, 2), target=(0, 0, 0))
+    return make.scene(camera, *(make.mesh(s) for s in solids), background=WORLD)
+
+
+def on(scene, background):
+    """Return the scene's picture on another background."""
+    return render(replace(scene, background=background)).color
+
+
+def stored(color, opaque=False):
+    """Return a picture as an 8-bit PNG has it."""
+    color = images.decoded(images.to_display(color) / 255).astype(np.float32)
+    return Shown(color, levels=255, opaque=opaque)
+
+
+def judged(scene, shown, known=FOREIGN, settings=None):
+    settings = settings or Settings()
+    return result_of(trace_and_compare(scene, PLAIN, settings, shown, ABOUT, known=known))
+
+
+@pytest.mark.parametrize(
+    ("background", "name", "opaque", "verdict"),
+    [
+        ((0, 0, 0, 0), "transparent", False, "agree"),
+        ((0, 0, 0, 1), "black", True, "warnings"),
+        ((1, 1, 1, 1), "white", True, "warnings"),
+        ((0.2, 0.5, 0.1, 1), "(0.486, 0.737, 0.349) of sRGB", True, "warnings"),
+    ],
+)
+def test_its_background_is_named(scene, background, name, opaque, verdict):
+    found = judged(scene, stored(on(scene, background), opaque))
+    assert found.pixels["unexplained"] == 0 and found.pixels["agree"] == 120 * 90
+    said = found.to_dict()["background"]
+    assert said["text"].startswith(f"the picture's background is {name} where the scene's is (")
+    assert said["text"].endswith("compared with the picture's")
+    np.testing.assert_allclose(said["picture"], background, atol=0.01)
+    np.testing.assert_allclose(said["scene"], WORLD, atol=1e-6)
+    assert said["text"] in found.lines() and found.verdict == verdict
+
+
+@pytest.mark.parametrize("size", [(1, 1), (20, 15)])
+@pytest.mark.parametrize("background", [(0, 0, 0, 0), (0, 0, 0, 1), WORLD])
+def test_damage_in_it_is_found(scene, background, size):
+    color = on(scene, background).copy()
+    patch = np.zeros(color.shape[:2], bool)
+    patch[3 : 3 + size[1], 4 : 4 + size[0]] = True
+    assert (render(scene).instance_index[patch] < 0).all()
+    color[patch] = (1, 0, 0, 1)
+    found = judged(scene, stored(color))
+    assert np.array_equal(found.causes.cause == Cause.UNEXPLAINED, patch)
+    assert found.verdict == "differences"
+
+
+def test_a_missing_object_is_found_on_it(scene):
+    color = on(replace(scene, instances=scene.instances[:1]), (0, 0, 0, 0))
+    found = judged(scene, stored(color))
+    assert found.background is not None and found.pixels["unexplained"] > 250
+
+
+def test_the_scenes_own_is_not_named(scene):
+    assert judged(scene, stored(render(scene).color)).background is None
+
+
+def test_several_colours_are_no_background(scene):
+    color = render(scene).color.copy()
+    nothing = render(scene).instance_index < 0
+    color[nothing, 0] = np.linspace(0.2, 1, nothing.sum())
+    found = judged(scene, stored(color))
+    assert found.background is None and found.pixels["unexplained"] > 0.9 * nothing.sum()
+
+
+def test_blenders_own_picture_must_have_the_scenes(scene):
+    found = judged(scene, Shown(on(scene, (0, 0, 0, 0))), Known())
+    assert found.background is None and found.verdict == "differences"
+
+
+def test_a_transform_of_the_scenes_own_is_named_as_that(scene):
+    color = render(scene).color.copy()
+    color[..., :3] = images.curve(color[..., :3])
+    found = judged(scene, Shown(color))
+    assert found.background is None and found.pixels["unexplained"] == 0
+    assert found.causes.transform == "sRGB's curve applied once more"
+
+
+@pytest.mark.parametrize("background", [(0, 0, 0, 0), (0.3, 0.1, 0.2, 1)])
+def test_a_transform_and_another_background(scene, background):
+    color = render(scene).color.copy()
+    color[..., :3] = images.curve(color[..., :3])
+    color[render(scene).instance_index < 0] = background
+    found = judged(scene, Shown(color))
+    assert found.background is not None and found.pixels["unexplained"] == 0
+    assert found.causes.transform == "sRGB's curve applied once more"
+
+
+def test_several_samples_are_mixed_with_it(scene):
+    settings = Settings(samples=4)
+    color = render(replace(scene, background=(0, 0, 0, 0)), settings).color
+    found = judged(scene, Shown(color), settings=settings)
+    assert found.background is not None and found.pixels["agree"] == 120 * 90
+
+
+def test_comparing_alone_leaves_it(scene):
+    frame = render(scene)
+    picture = Shown(on(scene, (0, 0, 0, 0)))
+    found = result_of(compare(scene, PLAIN, Settings(), frame, picture, {}, FOREIGN))
+    assert found.background is None
