@@ -156,6 +156,8 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
         rows = result_of(compare_all(bpy.context, options.out, trace, **choices), progress)
         verdict = engines.worst(rows)
         print(*engines.lines(rows), f"verdict: {verdict}", f"written to {options.out}", sep="\n")
+        pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
+        print("open", *pages, "in a browser")
         return VERDICT_CODES[verdict]
     judge = options.judge.upper() if options.judge else None
     for_page = {"trade": options.trade, "extremes": options.extremes}

@@ -14,6 +14,7 @@ from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
 
 SCHEMA = "reference_tracer.engines/1"
+_NAMED = 3  # pixels of each engine
 
 
 @dataclass(frozen=True)
@@ -107,9 +108,12 @@ def lines(rows: Sequence[EngineRow]) -> list[str]:
             f"{p['boundary']['differ']:>7,} {other:>7} {p['unexplained']:>8,}  {row.verdict}"
         )
     for row in rows:
-        for w in row.wrong[:3]:
+        for w in row.wrong[:_NAMED]:
             x, y = w["pixel"]
             out.append(f"  {row.engine} at ({x}, {y}): {_sides(w)}: {w['cause']}: {w['why']}")
+        more = row.pixels["differ"] - _NAMED if row.pixels else 0
+        if more > 0:
+            out.append(f"  {row.engine}: and {more:,} more, on its page")
     return out
 
 
