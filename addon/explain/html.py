@@ -7,6 +7,7 @@ once.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import singledispatch
 from html import escape
 
@@ -30,7 +31,8 @@ STYLE = """
 .derivation table { border-collapse: collapse; font-size: .92em; }
 .derivation th, .derivation td { text-align: left; padding: .18em .9em .18em 0;
   vertical-align: baseline; white-space: nowrap; }
-.derivation td:last-child { white-space: normal; overflow-wrap: anywhere; min-width: 12ch; }
+.derivation td:last-child, .derivation-text td { white-space: normal; overflow-wrap: anywhere; }
+.derivation td.derivation-number:last-child { min-width: 12ch; }
 .derivation summary { cursor: pointer; }
 .derivation summary h3 { display: inline-block; margin-bottom: .4em; }
 .derivation-contents ol { margin: 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap;
@@ -140,7 +142,7 @@ def _(block: Swatch) -> str:
 
 @_block.register
 def _(block: Table) -> str:
-    return _table(block.head, (_cells(row) for row in block.rows))
+    return _table(block.head, (_cells(row) for row in block.rows), "derivation-text")
 
 
 def _cells(row: tuple[str, ...]) -> str:
@@ -150,15 +152,14 @@ def _cells(row: tuple[str, ...]) -> str:
 @_block.register
 def _(block: Numbers) -> str:
     head = "", "", "float32", "off", "float64", "off", "exact"
-    return _table(head, (_number(row) for row in block.rows))
+    return _table(head, (_number(row) for row in block.rows), "derivation-numbers")
 
 
-def _table(head: tuple[str, ...], rows) -> str:
+def _table(head: tuple[str, ...], rows: Iterable[str], kind: str) -> str:
     names = "".join(f"<th>{escape(name)}</th>" for name in head)
     return (
-        f'<div class="derivation-scroll"><table><thead><tr>{names}</tr></thead>\n<tbody>\n'
-        + "\n".join(rows)
-        + "\n</tbody></table></div>"
+        f'<div class="derivation-scroll"><table class="{kind}"><thead><tr>{names}</tr></thead>'
+        "\n<tbody>\n" + "\n".join(rows) + "\n</tbody></table></div>"
     )
 
 
