@@ -12,10 +12,15 @@ from .formulas import Formula, component_labels
 
 @dataclass(frozen=True)
 class Heading:
-    """A title, of level 1 to 3."""
+    """A title, of level 1 to 3.
+
+    `name` is what a link can lead to; `folded`: what is below it may be read later.
+    """
 
     level: int
     text: str
+    name: str = ""
+    folded: bool = False
 
 
 @dataclass(frozen=True)

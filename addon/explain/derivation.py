@@ -64,6 +64,10 @@ class Test:
     quantities: tuple[Quantity, ...]
     judgements: Mapping[Arithmetic, Judgement]
 
+    def number(self, key: str, kind: Arithmetic) -> Number:
+        """Return a step's value, of a vector the first component."""
+        return next(q.values[kind][0] for q in self.quantities if q.key == key)
+
 
 @dataclass(frozen=True, eq=False)
 class Derivation:
@@ -179,15 +183,11 @@ def _test(pixel: Pixel, ray: Columns, candidate: Candidate) -> Test:
 def _nearest(tests: tuple[Test, ...], kind: Arithmetic) -> int | None:
     """Return the accepted test with the least t, of equals that of the lowest name."""
     accepted = [
-        (_value(test, "t", kind), test.candidate.name, k)
+        (test.number("t", kind), test.candidate.name, k)
         for k, test in enumerate(tests)
         if test.judgements[kind].accepted
     ]
     return min(accepted)[2] if accepted else None
-
-
-def _value(test: Test, key: str, kind: Arithmetic) -> Number:
-    return next(q.values[kind][0] for q in test.quantities if q.key == key)
 
 
 def _color(
@@ -205,7 +205,7 @@ def _color(
         return (), color
     columns = {}
     for kind in Arithmetic:
-        weights = [_value(seen, f"s{k}", kind) for k in (1, 2, 3)]
+        weights = [seen.number(f"s{k}", kind) for k in (1, 2, 3)]
         corners = [kind.vector(c[:3]) for c in colors]
         columns[kind] = textbook.color_steps(weights, corners)
     return _quantities(columns, COLOR), color

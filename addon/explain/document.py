@@ -6,6 +6,7 @@ In comes a `Derivation`; out goes a list of blocks, which hold text and no marku
 from __future__ import annotations
 
 from ..images import to_display
+from ..tracer.certainty import Certainty
 from .answers import SENTENCES as CERTAINTIES
 from .arithmetic import FLOATS, Arithmetic
 from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
@@ -31,7 +32,11 @@ def blocks(derivation: Derivation) -> list[Block]:
         *_opening(derivation),
         *_camera(derivation),
         *_candidates(derivation),
-        *(block for k, test in enumerate(derivation.tests, 1) for block in _test(k, test)),
+        *(
+            block
+            for k, test in enumerate(derivation.tests, 1)
+            for block in _test(k, test, test.candidate is derivation.seen)
+        ),
         *_nearest(derivation),
         *_color(derivation),
         *_certain(derivation),
@@ -50,6 +55,7 @@ def _opening(derivation: Derivation) -> list[Block]:
     return [
         Heading(1, f"The ray through pixel ({pixel.x}, {pixel.y}){of}"),
         Paragraph(answer_sentence(derivation), "answer"),
+        *_textbook_t(derivation),
         Paragraph(
             f"Camera “{camera.name}”: {kind}, {camera.width} × {camera.height} pixels, it shows "
             f"depths from {text_float(camera.clip_start)} m to {text_float(camera.clip_end)} m. "
@@ -60,11 +66,22 @@ def _opening(derivation: Derivation) -> list[Block]:
 
 
 def answer_sentence(derivation: Derivation) -> str:
-    """Return what is seen, in a sentence."""
+    """Return what is seen, in a sentence, and where its t comes from."""
     seen = derivation.seen
     if seen is None:
         return "The ray meets nothing within the clip range: the pixel shows the background."
-    return f"The pixel sees {seen.title}, at t = {text_float(derivation.certified.t)} m."
+    proven = derivation.certified.certainty is not Certainty.NOT_CERTIFIED
+    origin = "proven: the exact value, rounded once" if proven else "not proven"
+    return f"The pixel sees {seen.title}, at t = {text_float(derivation.certified.t)} m ({origin})."
+
+
+def _textbook_t(derivation: Derivation) -> list[Block]:
+    """Say the other t of what is seen: the one that the tables come to."""
+    for test in derivation.tests:
+        if test.candidate is derivation.seen:
+            t = text(test.number("t", Arithmetic.FLOAT64))
+            return [Paragraph(f"By the textbook’s formula in float64, t = {t} m.", "note")]
+    return []
 
 
 def text_float(value: float) -> str:
@@ -74,7 +91,7 @@ def text_float(value: float) -> str:
 
 def _camera(derivation: Derivation) -> list[Block]:
     return [
-        Heading(2, "1. From the pixel to the ray"),
+        Heading(2, "1. From the pixel to the ray", "1"),
         Paragraph(
             "The camera looks through its view window, which the pixels divide evenly. The ray "
             "through the middle of a pixel is x = o + t d."
@@ -107,7 +124,7 @@ def _candidates(derivation: Derivation) -> list[Block]:
     if pixel.refused:
         lines.append(f"{pixel.refused:,} triangles have a corner that is not finite: left out.")
     out: list[Block] = [
-        Heading(2, "2. What the ray may meet"),
+        Heading(2, "2. What the ray may meet", "2"),
         Paragraph(" ".join(lines)),
     ]
     if not tests:
@@ -126,12 +143,12 @@ def _summary(number: int, test: Test) -> tuple[str, ...]:
     return f"2.{number}", test.candidate.title, *cells, *("hit" if s else "no" for s in said)
 
 
-def _test(number: int, test: Test) -> list[Block]:
+def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
     c = test.candidate
     mesh = "" if c.is_plane else f" (mesh “{c.mesh}”, instance {c.instance}, slot {c.slot})"
     rows = tuple(_judged(kind, test.judgements[kind]) for kind in Arithmetic)
     out: list[Block] = [
-        Heading(3, f"2.{number} {c.title}{mesh}"),
+        Heading(3, f"2.{number} {c.title}{mesh}", f"2-{number}", not is_seen),
         numbers(test.quantities),
         Table(("", "verdict", "why", "as printed"), rows),
     ]
@@ -160,8 +177,7 @@ def _nearest(derivation: Derivation) -> list[Block]:
             rows.append((kind.value, "nothing", "–"))
             continue
         test = derivation.tests[k]
-        t = next(q for q in test.quantities if q.key == "t").values[kind][0]
-        rows.append((kind.value, test.candidate.title, text(t)))
+        rows.append((kind.value, test.candidate.title, text(test.number("t", kind))))
     methods = tuple(
         (
             a.method.value,
@@ -173,7 +189,7 @@ def _nearest(derivation: Derivation) -> list[Block]:
         for a in derivation.answers
     )
     return [
-        Heading(2, "3. The nearest"),
+        Heading(2, "3. The nearest", "3"),
         Paragraph("Of all that is accepted, the least t is seen: the textbook's answer."),
         Table(("", "sees", "t"), tuple(rows)),
         Paragraph("What the tracer's methods see of these, beside what is proven:"),
@@ -201,14 +217,14 @@ def _color(derivation: Derivation) -> list[Block]:
     shown = to_display([[derivation.color]])[0, 0, :3]
     srgb = "#" + "".join(f"{v:02x}" for v in shown)
     text_ = f"linear RGBA ({rgba}); on a screen (sRGB) {srgb}"
-    return [Heading(2, "4. Its colour"), Paragraph(said), *steps, Swatch(srgb, text_)]
+    return [Heading(2, "4. Its colour", "4"), Paragraph(said), *steps, Swatch(srgb, text_)]
 
 
 def _certain(derivation: Derivation) -> list[Block]:
     certified = derivation.certified
     said = CERTAINTIES[certified.certainty]
     out: list[Block] = [
-        Heading(2, "5. How certain this is"),
+        Heading(2, "5. How certain this is", "5"),
         Paragraph(f"{answer_sentence(derivation)} This is {said}.", "answer"),
     ]
     if certified.ties:

@@ -7,6 +7,7 @@ once.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import singledispatch
 from html import escape
 
@@ -24,33 +25,46 @@ STYLE = """
 .derivation h3 { margin-top: 1.8em; }
 .derivation p { max-width: 46em; }
 .derivation-answer { font-weight: 600; border-left: .25em solid var(--accent); padding-left: .8em; }
-.derivation-warning { font-weight: 600; color: var(--accent); }
+.derivation-warning { font-weight: 600; color: var(--bad, var(--accent)); }
 .derivation-note { color: var(--muted); font-size: .92em; }
 .derivation-scroll { overflow-x: auto; margin: 1em 0; }
 .derivation table { border-collapse: collapse; font-size: .92em; }
 .derivation th, .derivation td { text-align: left; padding: .18em .9em .18em 0;
   vertical-align: baseline; white-space: nowrap; }
+.derivation td:last-child, .derivation-text td { white-space: normal; overflow-wrap: anywhere; }
+.derivation td.derivation-number:last-child { min-width: 12ch; }
+.derivation summary { cursor: pointer; }
+.derivation summary h3 { display: inline-block; margin-bottom: .4em; }
+.derivation-contents ol { margin: 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap;
+  gap: .2em 1.4em; }
+.derivation-contents a { color: var(--accent); }
 .derivation thead th { color: var(--muted); font-weight: 400;
   border-bottom: 1px solid var(--muted); }
-.derivation tbody th { font-weight: 400; padding-right: 1.6em; }
+.derivation tbody th { font-weight: 400; padding-right: 1em; white-space: normal; }
 .derivation-first th, .derivation-first td { padding-top: .55em; }
 .derivation-number { font-family: ui-monospace, Consolas, "DejaVu Sans Mono", monospace;
   font-variant-numeric: tabular-nums; font-size: .94em; }
 .derivation td.derivation-off { color: var(--muted); font-size: .85em; text-align: right;
-  padding-right: 2em; }
-.derivation-remark { color: var(--muted); font-size: .85em; margin-left: 1em; }
-.derivation-wrong { color: var(--paper); background: var(--accent); border-radius: .15em;
-  padding: 0 .1em; }
+  padding-right: 1.2em; }
+.derivation-remark { color: var(--muted); font-size: .85em; display: block; }
+.derivation-wrong { color: var(--paper); background: var(--bad, var(--accent));
+  border-radius: .15em; padding: 0 .1em; }
 .derivation-vector { font-weight: bold; font-style: normal; }
 .derivation-swatch { display: inline-block; width: 2.6em; height: 1.4em; vertical-align: middle;
   margin-right: .8em; border: 1px solid var(--muted); border-radius: .2em; }
+@media print {
+  .derivation details::details-content { content-visibility: visible; height: auto; }
+  .derivation-contents { display: none; }
+  .derivation-scroll { overflow: visible; }
+}
 """
 
 _PAGE_STYLE = """
 :root { color-scheme: light dark; --ink: #1b1b1f; --paper: #fdfdfb; --muted: #6a6a70;
-  --accent: #b3261e; }
+  --accent: #1d5a96; --bad: #a8201a; }
 @media (prefers-color-scheme: dark) {
-  :root { --ink: #e8e6e1; --paper: #17181b; --muted: #9a9aa2; --accent: #ff8f7f; }
+  :root { --ink: #e8e6e1; --paper: #17181b; --muted: #9a9aa2;
+    --accent: #86bdf4; --bad: #ff9d94; }
 }
 body { background: var(--paper); font: 17px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif;
   margin: 0 auto; padding: 2em 1.5em 6em; max-width: 78em; }
@@ -60,7 +74,8 @@ body { background: var(--paper); font: 17px/1.5 system-ui, "Segoe UI", "DejaVu S
 
 def fragment(derivation: Derivation) -> str:
     """Return a <section> for a page that has STYLE in it."""
-    inner = "\n".join(_block(block) for block in blocks(derivation))
+    parts = _parts(blocks(derivation))
+    inner = "\n".join([_part(parts[0]), _contents(parts), *map(_part, parts[1:])])
     return f'<section class="derivation">\n{inner}\n</section>\n'
 
 
@@ -75,6 +90,33 @@ def page(derivation: Derivation) -> str:
     )
 
 
+def _parts(flat: list[Block]) -> list[list[Block]]:
+    """Return a heading and what is below it, each."""
+    parts: list[list[Block]] = []
+    for block in flat:
+        if isinstance(block, Heading):
+            parts.append([])
+        parts[-1].append(block)
+    return parts
+
+
+def _part(part: list[Block]) -> str:
+    """Return a part; of a candidate's what is below its name can be folded."""
+    head, *below = map(_block, part)
+    if part[0].level == 3:
+        opened = "" if part[0].folded else " open"
+        head = f"<details{opened}><summary>{head}</summary>"
+        below.append("</details>")
+    return "\n".join([head, *below])
+
+
+def _contents(parts: list[list[Block]]) -> str:
+    """Return links to the parts, and to the one candidate that is not folded."""
+    heads = [head for head, *_ in parts if head.name and not head.folded]
+    links = (f'<li><a href="#derivation-{h.name}">{escape(h.text)}</a></li>' for h in heads)
+    return f'<nav class="derivation-contents" aria-label="Contents"><ol>{"".join(links)}</ol></nav>'
+
+
 @singledispatch
 def _block(block: Block) -> str:
     raise TypeError(type(block).__name__)
@@ -82,7 +124,8 @@ def _block(block: Block) -> str:
 
 @_block.register
 def _(block: Heading) -> str:
-    return f"<h{block.level}>{escape(block.text)}</h{block.level}>"
+    name = f' id="derivation-{block.name}"' if block.name else ""
+    return f"<h{block.level}{name}>{escape(block.text)}</h{block.level}>"
 
 
 @_block.register
@@ -99,7 +142,7 @@ def _(block: Swatch) -> str:
 
 @_block.register
 def _(block: Table) -> str:
-    return _table(block.head, (_cells(row) for row in block.rows))
+    return _table(block.head, (_cells(row) for row in block.rows), "derivation-text")
 
 
 def _cells(row: tuple[str, ...]) -> str:
@@ -109,15 +152,14 @@ def _cells(row: tuple[str, ...]) -> str:
 @_block.register
 def _(block: Numbers) -> str:
     head = "", "", "float32", "off", "float64", "off", "exact"
-    return _table(head, (_number(row) for row in block.rows))
+    return _table(head, (_number(row) for row in block.rows), "derivation-numbers")
 
 
-def _table(head: tuple[str, ...], rows) -> str:
+def _table(head: tuple[str, ...], rows: Iterable[str], kind: str) -> str:
     names = "".join(f"<th>{escape(name)}</th>" for name in head)
     return (
-        f'<div class="derivation-scroll"><table><thead><tr>{names}</tr></thead>\n<tbody>\n'
-        + "\n".join(rows)
-        + "\n</tbody></table></div>"
+        f'<div class="derivation-scroll"><table class="{kind}"><thead><tr>{names}</tr></thead>'
+        "\n<tbody>\n" + "\n".join(rows) + "\n</tbody></table></div>"
     )
 
 

@@ -8,11 +8,15 @@ from xml.etree import ElementTree
 
 import pytest
 from reference_tracer.explain import formulas, html, markdown
+from reference_tracer.explain.arithmetic import Arithmetic
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.formulas import Formula
 from reference_tracer.explain.mathml import math
 
+from ..report.browser import chromium
 from .printed import tables
+
+__all__ = ["chromium"]  # a fixture
 
 MATH = formulas.CAMERA | formulas.PLANE | formulas.TRIANGLE | formulas.COLOR
 VOID = {"meta"}
@@ -24,12 +28,17 @@ class Reader(HTMLParser):
     def __init__(self):
         super().__init__()
         self.open, self.tags, self.classes, self.cells, self.text = [], set(), set(), [], []
+        self.ids, self.links, self.folds = [], [], []
 
     def handle_starttag(self, tag, attributes):
         self.tags.add(tag)
         attributes = dict(attributes)
         self.classes |= set((attributes.get("class") or "").split())
-        assert not {"src", "href", "onclick"} & set(attributes)
+        assert not {"src", "onclick"} & set(attributes)
+        assert attributes.get("href", "#").startswith("#")  # within the page
+        self.ids.append(attributes.get("id"))
+        self.links.append(attributes.get("href", "")[1:])
+        self.folds += [attributes] * (tag == "details")
         if tag not in VOID:
             self.open.append((tag, attributes.get("class")))
         if (tag, attributes.get("class")) == ("td", "derivation-number"):
@@ -72,6 +81,48 @@ def test_fragment_leaves_colours_to_its_page(derivation):
     assert html.page(derivation).count(text) == 1
     for name in ("--ink", "--muted", "--accent", "--paper"):
         assert f"var({name})" in html.STYLE and f"{name}:" not in html.STYLE
+
+
+def test_only_the_seen_candidate_is_unfolded(derivation):
+    reader = read(html.page(derivation))
+    names = [test.candidate.name for test in derivation.tests]
+    unfolded = [name == derivation.certified.seen for name in names]
+    assert sum(unfolded) == 1 < len(names)
+    assert ["open" in attributes for attributes in reader.folds] == unfolded
+    assert "::details-content" in html.STYLE  # opened on paper
+
+
+def test_contents_lead_to_headings(derivation):
+    reader = read(html.page(derivation))
+    links = [name for name in reader.links if name]
+    assert len(links) == 6 and set(links) <= set(reader.ids)  # five parts and what is seen
+    seen = [t.candidate.name for t in derivation.tests].index(derivation.certified.seen) + 1
+    assert f"derivation-2-{seen}" in links
+
+
+def test_each_t_says_what_it_is(derivation):
+    text = html.page(derivation)
+    assert "(proven: the exact value, rounded once)" in text
+    seen = next(t for t in derivation.tests if t.candidate is derivation.seen)
+    t = next(q for q in seen.quantities if q.key == "t").values[Arithmetic.FLOAT64][0]
+    assert f"By the textbook’s formula in float64, t = {float(t)!r} m." in text
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [500, 1200])
+def test_no_table_is_cut_off(derivation, chromium, width):
+    tab = chromium.new_page(viewport={"width": width, "height": 800})
+    tab.set_content(html.page(derivation))
+    boxes = "all => all.map(e => [e.scrollWidth, e.clientWidth])"
+    assert tab.evaluate("() => document.documentElement.scrollWidth") <= width
+    if width == 1200:  # on a small one they scroll
+        for inner, outer in tab.locator(".derivation-scroll").evaluate_all(boxes):
+            assert inner <= outer
+    tab.emulate_media(media="print")
+    hidden = tab.locator("details:not([open]) table").first
+    assert hidden.evaluate("e => e.checkVisibility({ contentVisibilityAuto: true })")
+    assert hidden.bounding_box()["height"] > 100
+    tab.close()
 
 
 def test_the_numbers_are_those_of_the_markdown(derivation):

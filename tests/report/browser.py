@@ -81,19 +81,19 @@ def place_of(tab, x, y):
     return box["x"] + px, box["y"] + py
 
 
-def color_at(tab, x, y):
-    """What the stage shows near the middle of a pixel, (r, g, b)."""
+def color_at(tab, x, y, pane=0, u=0.5, v=0.2):
+    """What a pane shows of a pixel, at a share of its width and height, (r, g, b)."""
     settled(tab)
     return tuple(
         tab.evaluate(
-            """([x, y]) => {
-              const [px, py] = toPane(panes()[0], x + 0.5, y + 0.5), ratio = devicePixelRatio;
+            """([x, y, pane, u, v]) => {
+              const [px, py] = toPane(panes()[pane], x + u, y + v), ratio = devicePixelRatio;
               const one = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
-              const from = [px * ratio, (py + 0.3 * scaleNow()) * ratio];
+              const from = [px * ratio, py * ratio];
               one.drawImage(document.getElementById("canvas"), ...from, 1, 1, 0, 0, 1, 1);
               return [...one.getImageData(0, 0, 1, 1).data];
             }""",
-            [x, y],
+            [x, y, pane, u, v],
         )[:3]
     )
 

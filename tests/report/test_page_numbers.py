@@ -91,7 +91,7 @@ def test_the_traced_t_is_there_to_the_last_bit(show, room, compared, orthographi
 
 def test_the_derivation_shows_its_numbers(show, differing):
     tab = show(differing, "#x=40&y=30")  # an example: derived exactly, too
-    assert tab.locator("#fragment details").count() == 1
+    assert tab.locator("#fragment > details").count() == 1
     assert "exact" in tab.locator("#fragment").inner_html()
     y, x = np.argwhere(differing.frame.triangle_index > 9)[0].tolist()
     tab.evaluate("([x, y]) => select(x, y)", [x, y])
@@ -101,6 +101,9 @@ def test_the_derivation_shows_its_numbers(show, differing):
     for value in (*result["ray"]["direction"], *result["n"], result["t"]):
         assert repr(value).replace("-", "−") in text
     assert "float32" in text and "hit" in text and "errata" in text
+    proven = tab.locator("#facts").inner_text()
+    assert "proven: the exact value, rounded once" in proven
+    assert "textbook’s formula in float64" in text and "same bits as the tracer's" not in text
     rows = tab.locator("#derivation table").first.locator("tbody tr")
     assert rows.count() > 1 and "it is what is seen" in rows.first.inner_text()
     rows.nth(1).locator("button").click()

@@ -17,6 +17,7 @@ def test_it_opens_and_says_the_verdict_at_a_glance(show, differing):
     assert "Differences" in tab.locator("#verdict").inner_text()
     assert "1,720 of 1,728" in tab.locator("#headline").inner_text()
     assert tab.locator(".tile.bad dd").inner_text() == "2"
+    assert "of 8 that differ" in tab.locator(".tile").nth(1).inner_text()
     assert tab.title() == "Scene – Reference Tracer"
     assert "a.blend" in tab.locator("#subtitle").inner_text()
 
@@ -193,3 +194,29 @@ def test_a_permalink_opens_at_its_pixel(show, differing):
     assert tab.locator("#y").input_value() == "5"
     tab = show(differing, "#x=9999&y=-5")
     assert (state(tab, "x"), state(tab, "y")) == (47, 0)
+    said = tab.locator("#status").inner_text()
+    assert "(9999, −5)" in said and "(47, 0)" in said
+    tab.evaluate("() => select(3, 3)")
+    assert not tab.locator("#status").is_visible()
+    tab.locator("#x").fill("99")
+    tab.locator("#x").press("Enter")
+    assert "(99, 3)" in tab.locator("#status").inner_text()
+
+
+def test_a_visited_pixel_shows_both_pictures_free_of_slider_and_mark(show, differing):
+    tab = show(differing, "#x=40&y=30")
+    x, y = 40, 30
+    mine, theirs = shown(differing.frame.color[y, x]), shown(differing.picture[y, x])
+    assert state(tab, "mode") == "pair" and not tab.locator("#split").is_visible()
+    assert mine != theirs
+    for pane, expected in enumerate((mine, theirs)):
+        for u in (0.2, 0.5, 0.8):
+            for v in (0.2, 0.5, 0.8):
+                assert color_at(tab, x, y, pane, u, v) == expected
+    choose(tab, "slider")  # back, at the same place: the line keeps clear of the pixel
+    line = tab.locator("#split").bounding_box()["x"]
+    scale = tab.evaluate("() => scaleNow()")
+    assert abs(line - place_of(tab, x, y)[0]) > scale / 2
+    choose(tab, "swap")
+    tab.keyboard.press("n")
+    assert state(tab, "mode") == "swap"  # what shows both is left as it is

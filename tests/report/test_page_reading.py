@@ -125,11 +125,26 @@ def test_studies_are_shown_with_their_plots(show, differing):
     held = json.loads(document.json_text(content(differing, trade, rows)))
     tab = show(differing, held=held)
     text = tab.locator("#tables").inner_text()
-    assert trade.advice in text and "where methods break" in text
+    assert trade.advice not in text and "where methods break" in text  # the plot has it
     images = tab.locator("#tables img")
+    assert trade.advice in images.first.get_attribute("alt")
     assert images.count() >= 3
     sizes = images.evaluate_all("all => all.map(i => i.complete && i.naturalWidth)")
     assert min(sizes) > 1000
+
+
+def test_advice_without_a_plot_is_text(show, differing):
+    trade = result_of(tradeoff.measure(differing.scene, 24, 1, "a.blend"))
+    held = json.loads(document.json_text(content(differing, trade)))
+    held["trade"]["plots"] = []
+    assert trade.advice in show(differing, held=held).locator("#tables").inner_text()
+
+
+def test_the_causes_are_seen_without_scrolling(show, differing):
+    tab = show(differing, viewport={"width": 1366, "height": 768})
+    box = tab.locator("#legend").bounding_box()
+    assert box["y"] + box["height"] <= 768
+    assert tab.locator("#stage").bounding_box()["height"] > 300
 
 
 def test_long_tables_are_cut_and_say_so(show, differing):

@@ -89,7 +89,7 @@ function candidatesTable(x, y, candidates, surface) {
     ];
   });
   return table(
-    "What this ray may meet: the surfaces seen in this pixel and the eight around it (float64)",
+    "What this ray may meet: the surfaces seen in this pixel and the eight around it: t by the textbook’s formula in float64",
     ["Surface", "t", "s₁", "s₂", "s₃", "Textbook"],
     rows,
     [1, 2, 3, 4],
@@ -153,7 +153,7 @@ function errata(surface) {
       { class: "muted" },
       "Digits of float32 ",
       element("mark", { class: "off" }, "marked like this"),
-      " part from float64 by more than one rounding. Every number is computed in this page, with the same bits as the tracer's.",
+      " part from float64 by more than one rounding. This page computes every number by the textbook’s formula, in the tracer’s order of operations: in float64 and in float32 they have the bits of its method Textbook. A proven t, as beside the pictures, is not this one: it is the exact value, rounded once.",
     ),
   );
 }

@@ -33,6 +33,20 @@ function keepShape() {
   stage.style.setProperty("--shape", `${WIDTH} / ${HEIGHT}`);
 }
 
+/** The line below the pixel's numbers; empty, it is not there. */
+function say(text) {
+  byId("status").textContent = text;
+  byId("status").hidden = !text;
+}
+
+/** Look at a pixel that somebody named, and say so where there is no such pixel. */
+function goTo(look, x, y) {
+  look(x, y);
+  const pair = (u, v) => `(${general(u, 9)}, ${general(v, 9)})`;
+  const there = x === state.x && y === state.y;
+  say(there ? "" : `No pixel ${pair(x, y)} in this picture; shown is ${pair(state.x, state.y)}.`);
+}
+
 function connect() {
   byId("mode").addEventListener("change", (event) =>
     change({ mode: event.target.value, swapped: false }),
@@ -50,7 +64,7 @@ function connect() {
   for (const name of ["x", "y"]) {
     byId(name).max = (name === "x" ? WIDTH : HEIGHT) - 1;
     byId(name).addEventListener("change", () => {
-      select(Number(byId("x").value), Number(byId("y").value));
+      goTo(select, Number(byId("x").value), Number(byId("y").value));
       drawPixel(); // also where the number was out of range and the pixel is the same
       follow();
     });
@@ -60,18 +74,21 @@ function connect() {
     redraw,
   );
   onChange(["left", "right", "mode", "marks"], keepControls);
-  onChange(["mode"], () => setView(state.view.x, state.view.y, scaleNow()));
+  onChange(["mode"], () => {
+    setView(state.view.x, state.view.y, scaleNow());
+    keepClear();
+  });
+  onChange(["x", "y"], () => say(""));
   new ResizeObserver(redraw).observe(stage);
   dark.addEventListener("change", redraw);
-  window.addEventListener("hashchange", () => linked() && visit(...linked()));
+  window.addEventListener("hashchange", () => linked() && goTo(visit, ...linked()));
 }
 
 /** Look at what the address names, else the first example, else the middle of the picture. */
 function begin() {
   const [first] = shownExamples();
   const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
-  if (linked()) visit(x, y);
-  else select(x, y);
+  goTo(linked() ? visit : select, x, y);
   for (const show of [
     drawSummary,
     drawTables,

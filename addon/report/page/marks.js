@@ -26,6 +26,7 @@ function markedPlaces(pane, near) {
     const x = index[k] % WIDTH;
     const y = Math.floor(index[k] / WIDTH);
     if (x < x0 || x >= x1 || y < y0 || y >= y1 || !isShown(cause[k])) continue;
+    if (near && x === state.x && y === state.y) continue; // its frame marks it: its colour is seen
     const place = toPane(pane, x + 0.5, y + 0.5);
     const cell = (Math.floor(place[1] / CELL) * 8192 + Math.floor(place[0] / CELL)) * 32 + cause[k];
     if (!near && taken.has(cell)) continue;
@@ -48,7 +49,7 @@ function drawCursor(context, pane) {
     context.lineWidth = width;
     context.beginPath();
     if (s >= 6) {
-      context.rect(left - 1, top - 1, s + 2, s + 2);
+      context.rect(left - 2, top - 2, s + 4, s + 4); // around it, not on it
     } else {
       const [x, y] = [left + s / 2, top + s / 2];
       for (const [u, v] of [

@@ -84,7 +84,7 @@ function loupe(id, x, y) {
   ]) {
     context.strokeStyle = color;
     context.lineWidth = width;
-    context.strokeRect(AROUND * n, AROUND * n, n, n);
+    context.strokeRect(AROUND * n - 3, AROUND * n - 3, n + 6, n + 6);
   }
   return element("figure", {}, shown, element("figcaption", {}, layers.get(id).label));
 }
@@ -178,6 +178,12 @@ function triangleOn(id, pixel) {
   return surface.plane ? "infinite plane" : count(surface.triangle);
 }
 
+/** Where the traced t comes from: only a certified one is the exact value. */
+function originOf(pixel) {
+  if (pixels.certainty[pixel]) return "proven: the exact value, rounded once";
+  return `by ${words(page.comparison.tracer.method)} in floating point, not proven`;
+}
+
 /** Certainty, t and barycentrics, each with what it is. */
 function factsOf(x, y, pixel) {
   const certainty = page.certainties[pixels.certainty[pixel]];
@@ -185,7 +191,7 @@ function factsOf(x, y, pixel) {
   const facts = [["Certainty", [element("strong", {}, certainty.name), `: ${certainty.sentence}`]]];
   const t = tracedT(pixel);
   if (surface && t !== null)
-    facts.push(["t", [element("span", { id: "t" }, shortest(t)), " m along the view axis"]]);
+    facts.push(["t", [element("span", { id: "t" }, shortest(t)), ` m (${originOf(pixel)})`]]);
   if (surface && !surface.plane) {
     const { s } = derive(x, y, surface, "float64");
     facts.push(["s₁ s₂ s₃", [lines(s.map((v) => shortest(v)))]]);

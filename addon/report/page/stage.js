@@ -95,6 +95,16 @@ function follow() {
   }
 }
 
+/** Move the slider's line off the pixel that is looked at, to its right. */
+function keepClear() {
+  const [pane] = panes();
+  const s = scaleNow();
+  const [left] = toPane(pane, state.x, state.y);
+  const border = pane.x + pane.width * state.split;
+  if (state.mode === "slider" && border > left - GRID && border < left + s + GRID)
+    change({ split: clamp((left + s + GRID - pane.x) / pane.width, 0, 1) });
+}
+
 let waiting = false;
 /** Draw at the next frame, however often it is asked for until then. */
 function redraw() {

@@ -68,8 +68,9 @@ function goToExample(step) {
   visit(x, y);
 }
 
-/** Look at a pixel from near. */
+/** Look at a pixel from near, so that it is seen in both pictures. */
 function visit(x, y) {
   select(x, y);
+  if (state.mode === "slider") change({ mode: "pair" });
   change({ view: { x: state.x + 0.5, y: state.y + 0.5, scale: Math.max(state.view.scale, 20) } });
 }

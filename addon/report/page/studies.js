@@ -73,10 +73,12 @@ function tradeCard() {
   return wide(
     card(
       "The trade: speed against accuracy",
-      element("p", { class: "advice" }, trade.advice),
+      trade.plots.length ? null : element("p", { class: "advice" }, trade.advice), // plots have it
       ...plots(
         trade,
-        () => "Time against wrong pixels, and time against coverage error, of every method",
+        () =>
+          "Time against wrong pixels, and time against coverage error, of every method. " +
+          trade.advice,
       ),
       element(
         "details",

@@ -59,7 +59,7 @@ function tiles(score) {
   const proven = certainty.bound + certainty.exact;
   const found = [
     ["Agree", score.agree, percent(score.agree, score.total)],
-    ["Explained", score.explained, "of those that differ"],
+    ["Explained", score.explained, `of ${count(score.differ)} that differ`],
     [
       "Unexplained",
       score.unexplained,
