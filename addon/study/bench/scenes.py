@@ -19,7 +19,7 @@ from .meshes import Triangles
 Vector = tuple[float, float, float]
 PERSPECTIVE, ORTHOGRAPHIC = CAMERAS = "perspective", "orthographic"
 EVERYDAY, ADVERSARIAL, SCALING = "everyday", "adversarial", "scaling"
-SUZANNE_FILE = "suzanne.npz"
+SUZANNE_FILE = "monkey.npz"  # not a name that somebody exports a scene to
 
 
 @dataclass(frozen=True)
