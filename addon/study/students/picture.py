@@ -18,11 +18,9 @@ from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
 from ...tracer.visibility import within_clip
 from ...tracer.world import world_corners
-from .known import Floats, known
+from .known import Ask, known
 from .subject import Subject, arrays
 from .tally import Tally
-
-Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 
 
 class Mark(IntEnum):
