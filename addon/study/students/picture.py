@@ -79,7 +79,6 @@ def look(subject: Subject, ask: Ask, clock: Callable[[], float] = float) -> Work
     """
     began, count = clock(), len(subject.t)
     reported = np.zeros(count, bool)  # the true triangle is said to be hit
-    false = np.zeros(count, bool)  # set below for what is shown
     found = []
     for done, (some, truth, *question) in enumerate(subject.questions()):
         t, s = ask(*question)
