@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
-from .. import images
 from ..arguments import (
     AGREE,
     DIFFERENCES,
@@ -111,7 +110,7 @@ def run(options: argparse.Namespace) -> int:
         if len(judgements) > 1:
             print("\n".join(judge_table.class_table(judgements)))
         if options.out:
-            write_study(options.out, lambda: report.write(options.out, judgements, images.save_png))
+            write_study(options.out, lambda: report.write(options.out, judgements))
     return max(CODES[j.verdict] for j in judgements)
 
 

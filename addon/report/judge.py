@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,6 @@ from ..study.students.judging import Judgement
 from ..study.students.picture import Look
 from ..study.students.student_error import StudentError
 from ..study.students.tally import WEIGHTS, Tally
-from .files import SavePng
 from .folders import replacing
 from .judge_page import page
 from .judge_table import explain
@@ -111,27 +110,15 @@ def _scene(j: Judgement, found: Look) -> dict[str, Any]:
     }
 
 
-def write(directory: str | Path, judgements: Sequence[Judgement], save_png: SavePng) -> None:
+def write(directory: str | Path, judgements: Sequence[Judgement]) -> None:
     """Write `judge.json` and `judge.html`, both or none.
 
     Raises
     ------
-    MissingLibraryError
-        If there can be no pictures. The JSON is there all the same.
     OSError
         If the folder cannot be written.
     """
     text = json.dumps(to_dict(judgements), indent=2, allow_nan=False) + "\n"
     with replacing(Path(directory), (PAGE, JSON)) as new:
         (new / JSON).write_text(text, encoding="utf-8")
-        (new / PAGE).write_text(page(judgements, _encoder(new, save_png)), encoding="utf-8")
-
-
-def _encoder(folder: Path, save_png: SavePng) -> Callable[[Any], bytes]:
-    """Return what makes PNG bytes of (h, w, 4) uint8 pictures."""
-
-    def encode(picture: Any) -> bytes:
-        save_png(folder / "picture.png", picture)
-        return (folder / "picture.png").read_bytes()
-
-    return encode
+        (new / PAGE).write_text(page(judgements), encoding="utf-8")

@@ -5,8 +5,7 @@ Whatever comes from a student's file or a scene is escaped.
 
 from __future__ import annotations
 
-import base64
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
@@ -29,8 +28,7 @@ from .judge_table import (
     row,
     tallies,
 )
-
-Encode = Callable[[NDArray[np.uint8]], bytes]
+from .page.packing import data_uri
 
 _STYLE = Path(__file__).with_name("judge_page.css")
 MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe and Ito)
@@ -52,15 +50,8 @@ _WARNING = (
 )
 
 
-def page(judgements: Sequence[Judgement], encode: Encode) -> str:
-    """Return the page.
-
-    Parameters
-    ----------
-    judgements : sequence of Judgement
-    encode : callable
-        Makes PNG bytes of an (h, w, 4) uint8 picture, row 0 at the bottom.
-    """
+def page(judgements: Sequence[Judgement]) -> str:
+    """Return the page."""
     head = f"<title>Judged: {escape(', '.join(j.name for j in judgements))}</title>"
     parts = [
         "<!doctype html>",
@@ -72,7 +63,7 @@ def page(judgements: Sequence[Judgement], encode: Encode) -> str:
     ]
     if len(judgements) > 1:
         parts.append(_class_table(judgements))
-    parts += [_student(k, j, encode) for k, j in enumerate(judgements)]
+    parts += [_student(k, j) for k, j in enumerate(judgements)]
     return "\n".join((*parts, "</main></body></html>", ""))
 
 
@@ -102,7 +93,7 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[i
     return f'<div class="wide"><table><thead><tr>{top}</tr></thead>\n{body}</table></div>'
 
 
-def _student(number: int, j: Judgement, encode: Encode) -> str:
+def _student(number: int, j: Judgement) -> str:
     name = escape(j.name)
     parts = [f'<section id="s{number}"><h2>{name}</h2>']
     parts.append(f'<p><span class="score">{j.score:.1f}</span> of 100 {_verdict(j)}</p>')
@@ -119,7 +110,7 @@ def _student(number: int, j: Judgement, encode: Encode) -> str:
     if counts := tallies(j):
         parts.append(_table(HEAD, [tuple(map(escape, row(*named))) for named in counts]))
         parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
-    parts += [_scene(found, j.examples[found.subject.name], encode) for found in j.looks]
+    parts += [_scene(found, j.examples[found.subject.name]) for found in j.looks]
     if j.extremes:
         names = "student", "not by rounding", "textbook", "Möller–Trumbore"
         head = "the first scale at which a ray is lost", *names
@@ -138,7 +129,7 @@ def _error(where: str, error: StudentError) -> str:
     )
 
 
-def _scene(found: Look, examples: Sequence[Example], encode: Encode) -> str:
+def _scene(found: Look, examples: Sequence[Example]) -> str:
     subject = found.subject
     pictures = (
         ("the student’s", to_display(found.color)),
@@ -146,7 +137,7 @@ def _scene(found: Look, examples: Sequence[Example], encode: Encode) -> str:
         ("wrong pixels", marked(found)),
     )
     figures = "".join(
-        f'<figure><img alt="{escape(subject.name)}: {title}" src="{_uri(encode(picture))}">'
+        f'<figure><img alt="{escape(subject.name)}: {title}" src="{data_uri(picture)}">'
         f"<figcaption>{title}</figcaption></figure>"
         for title, picture in pictures
     )
@@ -162,10 +153,6 @@ def _scene(found: Look, examples: Sequence[Example], encode: Encode) -> str:
     parts.append(f"<p>{w} × {h} pixels{every}. {legend or 'All are right.'}</p>")
     parts += [_example(subject, e) for e in examples]
     return "\n".join(parts)
-
-
-def _uri(png: bytes) -> str:
-    return f"data:image/png;base64,{base64.b64encode(png).decode()}"
 
 
 def marked(found: Look) -> NDArray[np.uint8]:
