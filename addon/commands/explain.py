@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
-from ..arguments import Parser, add_camera, printable, refuse
+from ..arguments import CAMERA_OPTIONS, Parser, add_camera, printable, refuse
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather
 from ..explain.derivation import derive_pixel
@@ -61,9 +61,8 @@ def run(options: argparse.Namespace) -> int:
     """Derive, and print or write it."""
     check_options(options)
     if options.scene.suffix.lower() == ".json":
-        own = "width", "height", "eye", "target", "angle", "ortho_scale"
         why = f"is not for '{options.scene}', which is one pixel by itself"
-        refuse(options, ("pixel", "limit", *own), why)
+        refuse(options, ("pixel", "limit", *CAMERA_OPTIONS), why)
         return finish(options, reproducer.read(options.scene))
     with _told_aside():
         scene, _ = load(options)
