@@ -5,16 +5,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pytest
+from PIL import Image
+from reference_tracer.scene_files import save_scene
 
 PROJECT = Path(__file__).parent.parent
 
 
 def test_draw_culling(make, tmp_path: Path):
-    pytest.importorskip("matplotlib")
-    image = pytest.importorskip("PIL.Image")
-    from reference_tracer.scene_files import save_scene
-
     # Two squares whose edges run through the centres of pixels, one behind the other.
     camera = make.camera(16, 16, half=8, orthographic=True)
     quads = make.quad(-4.5, 4.5, -4.5, 4.5, -5), make.quad(-4.5, 4.5, -4.5, 4.5, -6)
@@ -48,5 +45,5 @@ def test_draw_culling(make, tmp_path: Path):
     for name in "culling", "slabs":
         target = tmp_path / f"{name}.png"
         assert target.stat().st_size <= 300_000
-        picture = np.asarray(image.open(target).convert("RGB"))
+        picture = np.asarray(Image.open(target).convert("RGB"))
         assert picture.shape[1] == 1920 and picture.std() > 20

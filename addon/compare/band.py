@@ -11,6 +11,8 @@ from ..tracer.progress import Work, result_of
 from ..tracer.visibility import NOTHING
 from .bounds import SNAPPING, pixel_error, view_error
 
+_ROWS = 64  # looked at together, at least, so that a step is short in large pictures
+
 
 def sample_band(scene: Scene, frame: Frame) -> NDArray[np.float64]:
     """Return how far from each pixel's centre Blender's sample may lie, (h, w) pixels.
@@ -31,14 +33,30 @@ def sample_bands(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDAr
         view = view_error(scene, hits, frame.positions(rows)[seen])
         own[rows].reshape(-1)[seen] = pixel_error(scene.camera, hits.t, view)
         yield number / len(all_rows)
+    return (yield from spread(own))
+
+
+def spread(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
+    """Return SNAPPING, or what is larger of those whose surface may move as far as the pixel.
+
+    `own` (h, w) is how far, in pixels; it counts in a square that reaches as far as the power of
+    two above it.
+    """
     band = np.full(own.shape, SNAPPING)
-    reach, most = 1, max(own.shape)
+    reach, height, most = 1, len(own), max(own.shape)
     while True:
-        # Those that reach so far, but not to half of it: they were looked at before.
-        ring = (own > reach / 2 if reach > 1 else own > 0) & ((own <= reach) | (reach >= most))
-        if ring.any():
-            np.maximum(band, _largest_within(np.where(ring, own, 0.0), reach), out=band)
-        yield 1.0
+        together = max(_ROWS, 2 * reach)
+        for y in range(0, height, together):
+            first = max(0, y - reach)
+            around = own[first : y + together + reach]
+            # Those that reach so far, but not to half of it: they were looked at before.
+            ring = around > (reach / 2 if reach > 1 else 0)
+            ring &= (around <= reach) | (reach >= most)
+            if ring.any():
+                largest = _largest_within(np.where(ring, around, 0.0), reach)[y - first :]
+                here = band[y : y + together]
+                np.maximum(here, largest[: len(here)], out=here)
+            yield 1.0
         if reach >= most:
             return band
         reach *= 2

@@ -93,10 +93,11 @@ def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[d
 
     RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
     """
-    a, b = np.nan_to_num(traced), np.nan_to_num(picture)
+    a, b = np.empty_like(traced), np.empty_like(picture)
     height, squares, largest = len(a), 0.0, {"value": -1.0}
     for start in range(0, height, ROWS):
         rows = slice(start, min(start + ROWS, height))
+        a[rows], b[rows] = np.nan_to_num(traced[rows]), np.nan_to_num(picture[rows])
         squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
         found = largest_difference(a[rows], b[rows])
         if found["value"] > largest["value"]:

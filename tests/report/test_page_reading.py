@@ -14,7 +14,7 @@ from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 
-from .browser import place_of
+from .browser import place_of, settled
 
 pytestmark = pytest.mark.browser
 
@@ -73,6 +73,24 @@ def test_light_and_dark_are_readable(show, differing, scheme):
     assert (luminance(tab.evaluate(COLORS)["paper"]) > 0.5) == (scheme == "dark")
     tab.locator("#theme").click()
     assert tab.evaluate(COLORS) == held
+
+
+def test_the_system_is_followed_until_one_chooses(show, differing):
+    tab = show(differing, color_scheme="light")
+    light = tab.evaluate(COLORS)
+    tab.emulate_media(color_scheme="dark")
+    settled(tab)
+    dark = tab.evaluate(COLORS)
+    assert luminance(dark["paper"]) < 0.5
+    tab.emulate_media(media="print")
+    assert tab.evaluate(COLORS) == light  # paper is white
+    tab.emulate_media(media="screen")
+    assert tab.evaluate(COLORS) == dark
+    tab.keyboard.press("t")
+    for scheme in ("light", "dark"):
+        tab.emulate_media(color_scheme=scheme)
+        settled(tab)
+        assert tab.evaluate(COLORS) == light, scheme
 
 
 def test_large_type_and_help(show, differing):

@@ -66,16 +66,6 @@ document.addEventListener("keydown", (event) => {
   found[2]();
 });
 
-const dark = matchMedia("(prefers-color-scheme: dark)");
-
-/** Set light or dark in place of the system's choice. */
-function toggleTheme() {
-  const root = document.documentElement;
-  root.dataset.theme =
-    (root.dataset.theme ?? (dark.matches ? "dark" : "light")) === "dark" ? "light" : "dark";
-  redraw();
-}
-
 function toggleLarge() {
   const large = document.documentElement.classList.toggle("large");
   byId("large").setAttribute("aria-pressed", String(large));

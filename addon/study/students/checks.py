@@ -34,6 +34,9 @@ class Group(IntEnum):
     EMPTY = 8  # the triangle has no area: what is said of it is not held against anyone
 
 
+ORDINARY = Group.FRONT, Group.BACK, Group.WHOLE  # hits with nothing difficult about them
+
+
 @dataclass(frozen=True, eq=False)
 class Checks:
     """All pairs, (n, ...), with their groups and what is true of them."""

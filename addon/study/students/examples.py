@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ...tracer.hits import NOTHING
 from ...tracer.world import world_corners
-from .known import known
-from .picture import EXCUSED, FALSE_HITS, Ask, Look, Mark
+from .known import Ask, known
+from .picture import EXCUSED, FALSE_HITS, Look, Mark
 from .subject import arrays
 
 EACH = 3  # pixels of a mark

@@ -19,8 +19,8 @@ from ...tracer.settings import Method
 from ...tracer.triangle import METHODS
 from ..scenarios.scenario import QUICK_HEIGHT, QUICK_WIDTH, Scenario
 from ..scenarios.sweeps import SCENARIOS
-from .known import Floats
-from .picture import EXCUSED, Ask, Mark, look
+from .known import Ask, Floats
+from .picture import EXCUSED, Mark, look
 from .subject import Subject, prepare
 
 _FINE = {m.name.lower() for m in (Mark.RIGHT, *EXCUSED)}

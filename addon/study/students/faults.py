@@ -7,7 +7,6 @@ explains is said to be unrecognised.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -16,10 +15,8 @@ import numpy as np
 from .answers import Answers, Mask
 from .checks import Checks, Group
 from .hit_faults import HIT_TESTS
-from .known import Floats
+from .known import Ask
 from .value_faults import S_TESTS, T_TESTS
-
-Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 
 ALONE = 3, 1  # sizes of the calls in which some pairs are asked about again
 # Relative: libraries sum in another order when there are fewer rows, in float32, too. What mixes up

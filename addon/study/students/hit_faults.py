@@ -9,10 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from .answers import FEW, MOST, Answers, Found
-from .checks import Group
+from .checks import ORDINARY, Group
 from .value_faults import FLOAT32, LOSSY, is_single
 
-ORDINARY = Group.FRONT, Group.BACK, Group.WHOLE
 RANDOM = 0.1, 0.9  # share of ordinary hits that an equality of floats loses
 
 

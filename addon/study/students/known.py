@@ -21,6 +21,7 @@ What is nearer to an edge than ds is *in doubt*: float64 may say either.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,8 @@ ROUNDINGS = 16  # K
 LEAST = 2.0**-960  # of n . n: below it, products have lost digits at float64's lower end
 
 Floats = NDArray[np.float64]
+# A student's function: origins, directions, triangles -> t, barycentrics.
+Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,11 +18,9 @@ from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
 from ...tracer.visibility import within_clip
 from ...tracer.world import world_corners
-from .known import Floats, known
+from .known import Ask, known
 from .subject import Subject, arrays
 from .tally import Tally
-
-Ask = Callable[[Floats, Floats, Floats], tuple[Floats, Floats]]
 
 
 class Mark(IntEnum):
@@ -81,7 +79,6 @@ def look(subject: Subject, ask: Ask, clock: Callable[[], float] = float) -> Work
     """
     began, count = clock(), len(subject.t)
     reported = np.zeros(count, bool)  # the true triangle is said to be hit
-    false = np.zeros(count, bool)  # set below for what is shown
     found = []
     for done, (some, truth, *question) in enumerate(subject.questions()):
         t, s = ask(*question)

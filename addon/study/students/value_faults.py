@@ -10,7 +10,7 @@ from itertools import permutations
 import numpy as np
 
 from .answers import MOST, Answers, Found, Mask
-from .checks import Group
+from .checks import ORDINARY
 from .known import Floats
 
 FLOAT32 = 2.0**-24  # its rounding unit
@@ -21,7 +21,7 @@ NAMES = "s1", "s2", "s3"
 
 def _fits(a: Answers, wrong: Mask, as_fault: Mask) -> bool:
     """Whether a fault explains nearly all of the wrong answers of ordinary pairs."""
-    ordinary = wrong & a.checks.of(Group.FRONT, Group.BACK, Group.WHOLE)
+    ordinary = wrong & a.checks.of(*ORDINARY)
     return bool(ordinary.any() and as_fault[ordinary].mean() > MOST)
 
 
