@@ -20,6 +20,7 @@ EXIT_CODES = """exit codes:
   3  the sizes of the pictures do not match
   4  the input is wrong, or cannot be read
   130  interrupted by Ctrl-C"""
+CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale"  # see add_camera
 _PLAIN = ", ".join(m for m in Method if m.is_plain)
 
 
@@ -270,7 +271,7 @@ def camera_from(options: argparse.Namespace, width: int, height: int) -> Camera 
 def camera_options(options: argparse.Namespace) -> tuple[str, ...]:
     """Return the camera's options that were given, as they are typed."""
     out: list[str] = []
-    for name in ("width", "height", "eye", "target", "angle", "ortho_scale"):
+    for name in CAMERA_OPTIONS:
         value = getattr(options, name, None)
         if value is not None:
             values = value if isinstance(value, list) else [value]

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from . import interrupts
-from .arguments import camera_from, refuse
+from .arguments import CAMERA_OPTIONS, camera_from, refuse
 from .scene import Scene, SceneError
 from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, scene_of_meshes
 from .tracer.settings import Settings
@@ -34,7 +34,7 @@ def load(options: argparse.Namespace) -> tuple[Scene, Settings]:
         raise SceneError(f"there is no file '{path}'")
     suffix = path.suffix.lower()
     if suffix not in MESH_SUFFIXES:
-        own = {"width", "height", "eye", "target", "angle", "ortho_scale"} - set(options.heard)
+        own = set(CAMERA_OPTIONS) - set(options.heard)
         why = f"is for meshes: '{path}' has its own camera"
         if "width" in options.heard:
             why += "; --width sets the size of its picture, and the height follows"

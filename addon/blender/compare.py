@@ -114,7 +114,7 @@ def gather(
         used = prepare(tmp, like_for_like)
         used["shading_of"] = "3D view" if view_shading else "scene"
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, source, like_for_like)
-        exported, manifest, certificate = _exported(tmp, layer, source)
+        exported, manifest, certificate = export_for_judge(tmp, layer, source)
         certificate.check()
         if like_for_like and (source, used["color_type"]) == ("cycles", "RANDOM"):
             check_random(exported, manifest.owners)
@@ -150,7 +150,7 @@ def gather(
     return Gathered(exported, manifest, settings, shown, blender, known)
 
 
-def _exported(tmp: Any, layer: str, source: str) -> Certified:
+def export_for_judge(tmp: Any, layer: str, source: str) -> Certified:
     """Return what a judge is to be compared with, and the certificate of its camera."""
     if source != "viewport":
         return export_for_render(tmp)
@@ -163,7 +163,7 @@ def _a_frame_later(tmp: Any, layer: str, source: str) -> Scene:
     now = tmp.frame_current
     with values_kept():
         tmp.frame_set(now + 1)
-        later, _, _ = _exported(tmp, layer, source)
+        later, _, _ = export_for_judge(tmp, layer, source)
         tmp.frame_set(now)
     return later
 

@@ -12,8 +12,7 @@ from ..explain.derivation import Derivation, derive
 from ..scene import Scene
 from . import results
 from .camera import export_camera
-from .engine import export_for_render
-from .export import export
+from .compare import export_for_judge
 from .temporary import temporary_scene
 from .viewport import choose_source, prepare
 
@@ -55,7 +54,4 @@ def exported(context: Any, as_rendered: bool = False) -> Scene:
     source = "workbench" if as_rendered else choose_source(stored.judge)
     with temporary_scene(scene, layer, source) as tmp:
         prepare(tmp, stored.shading == "LIKE_FOR_LIKE" and not as_rendered)
-        if source != "viewport":
-            return export_for_render(tmp)[0]
-        with context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
-            return export(bpy.context.evaluated_depsgraph_get())[0]
+        return export_for_judge(tmp, layer, source)[0]

@@ -83,9 +83,7 @@ def _writer(filepath: str) -> Any:
 
 
 def _write(filepath: str, text: str) -> None:
-    path = Path(bpy.path.abspath(filepath))
-    with folders.made_for_file(path), folders.replacing_file(path) as new:
-        new.write_text(text, encoding="utf-8", errors="backslashreplace")
+    folders.write_text(Path(bpy.path.abspath(filepath)), text)
 
 
 class _OfLatest:

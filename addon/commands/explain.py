@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
-from ..arguments import Parser, add_camera, printable, refuse
+from ..arguments import CAMERA_OPTIONS, Parser, add_camera, printable, refuse
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather
 from ..explain.derivation import derive_pixel
@@ -61,9 +61,8 @@ def run(options: argparse.Namespace) -> int:
     """Derive, and print or write it."""
     check_options(options)
     if options.scene.suffix.lower() == ".json":
-        own = "width", "height", "eye", "target", "angle", "ortho_scale"
         why = f"is not for '{options.scene}', which is one pixel by itself"
-        refuse(options, ("pixel", "limit", *own), why)
+        refuse(options, ("pixel", "limit", *CAMERA_OPTIONS), why)
         return finish(options, reproducer.read(options.scene))
     with _told_aside():
         scene, _ = load(options)
@@ -112,16 +111,10 @@ def finish(options: argparse.Namespace, pixel: Pixel) -> int:
     """Derive a pixel, and print or write what the options want of it; return the exit code."""
     derivation = derive_pixel(pixel)
     if options.reproducer:
-        _write(options.reproducer, reproducer.text(pixel))
+        folders.write_text(options.reproducer, reproducer.text(pixel))
     if not options.out:
         print(printable(WRITERS[".md"](derivation)), end="")
         return 0
-    _write(options.out, WRITERS[options.out.suffix.lower()](derivation))
+    folders.write_text(options.out, WRITERS[options.out.suffix.lower()](derivation))
     print(printable(f"{answer_sentence(derivation)} {options.out}"))
     return 0
-
-
-def _write(path: Path, text: str) -> None:
-    with folders.made_for_file(path), folders.replacing_file(path) as new:
-        # A name that a file holds may be no Unicode; JSON spells it as this does.
-        new.write_text(text, encoding="utf-8", errors="backslashreplace")

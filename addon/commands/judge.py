@@ -183,7 +183,6 @@ def _write_template(path: Path) -> int:
     if path.exists():
         raise SceneError(f"'{path}' is there already: it is not overwritten")
     template = Path(students.__file__).with_name("template.py")
-    with folders.made_for_file(path), folders.replacing_file(path) as new:
-        new.write_text(template.read_text(encoding="utf-8"), encoding="utf-8")
+    folders.write_text(path, template.read_text(encoding="utf-8"))
     print(f"{path}: fill in the function, then: reftrace judge {path}", file=sys.stdout)
     return AGREE

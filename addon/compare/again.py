@@ -62,13 +62,14 @@ def look_again(
         wanted, part = settle.open[rows].copy(), settle.rows(rows)
         done, size = number / len(parts), 1 / len(parts)
         probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.5 * size)
-        centre = probe.trace()
-        for _ in _edges(scene, probe, wanted, shown.at(rows), band[rows], centre, part):
+        centre, here = probe.trace(), shown.at(rows).at(wanted)
+        lost = ~here.differ(scene, centre)  # by the picture's method: the centre itself shows it
+        for _ in _edges(scene, probe, wanted, here, band[rows], centre, lost, part):
             yield done + 0.6 * size
-        for _ in _depth_ties(scene, probe, wanted, shown.at(rows), centre, part):
+        for _ in _depth_ties(scene, probe, wanted, here, centre, lost, part):
             yield done + 0.9 * size
         if part.open.any():
-            _coverings(scene, probe, wanted, shown.at(rows), band[rows], centre, part)
+            _coverings(scene, probe, wanted, here, band[rows], lost, part)
 
 
 def parts_of(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
@@ -84,15 +85,14 @@ def parts_of(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
 
 
 def _edges(
-    scene, probe: Probe, wanted, shown: Shown, band, centre: Hits, settle: Settler
+    scene, probe: Probe, wanted, shown: Shown, band, centre: Hits, lost, settle: Settler
 ) -> Iterator[None]:
     """See whether within the band around a pixel's centre there is what Blender shows.
 
     Where it is seen in the centre itself, the picture's method lost it: on an edge within the band,
     where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
     """
-    width, shown = band[wanted], shown.at(wanted)
-    lost = ~shown.differ(scene, centre)
+    width = band[wanted]
     for x, y in OFFSETS:
         hits = probe.trace(x * width, y * width)
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
@@ -103,12 +103,9 @@ def _edges(
             return
 
 
-def _coverings(
-    scene, probe: Probe, wanted, shown: Shown, band, centre: Hits, settle: Settler
-) -> None:
+def _coverings(scene, probe: Probe, wanted, shown: Shown, band, lost, settle: Settler) -> None:
     """Find what no sample does: a triangle that comes that near, before any surely covered one."""
-    width, shown = band[wanted], shown.at(wanted)
-    lost = ~shown.differ(scene, centre)
+    width = band[wanted]
     may = coverage(probe, width)
     behind = may.behind + resolution(scene, probe, may.sure)[may.pixel]
     visible = (may.hits.t <= behind) & ~lost[may.pixel]
@@ -122,7 +119,7 @@ def _coverings(
 
 
 def _depth_ties(
-    scene, probe: Probe, wanted, shown: Shown, first: Hits, settle: Settler
+    scene, probe: Probe, wanted, shown: Shown, first: Hits, lost, settle: Settler
 ) -> Iterator[None]:
     """See whether Blender shows what lies behind, nearer than its depth buffer can tell apart.
 
@@ -130,8 +127,7 @@ def _depth_ties(
     each must be found among the surfaces that tie.
     """
     allowed = np.where(first.instance != NOTHING, resolution(scene, probe, first), -1.0)
-    hits, shown = first, shown.at(wanted)
-    lost = ~shown.differ(scene, first)
+    hits = first
     color, owner = shown.same_color(scene, first) & ~lost, ~shown.other_object(first.instance)
     for _ in range(LAYERS):
         hits = probe.trace(after=hits)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Scene
 from ..tracer.probe import Probe
-from ..tracer.progress import Work
+from ..tracer.progress import Work, scaled
 from ..tracer.visibility import NOTHING, Hits, plan
 from .again import LAYERS, SOUND, parts_of, set_out
 from .bounds import depth_resolution, view_error
@@ -35,10 +35,10 @@ def look_beyond(scene: Scene, shown: Shown, settle: Settler) -> Work[None]:
     parts = list(parts_of(scene, settle.open))
     for number, tile in enumerate(parts):
         rows = slice(tile.y0 - region.y0, tile.y1 - region.y0)
-        wanted = settle.open[rows].copy()
-        probe = yield from _silent(Probe.of(made, tile, wanted.ravel()))
+        wanted, done = settle.open[rows].copy(), number / len(parts)
+        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.0)
         _clipped(scene, probe, wanted, shown.at(rows).at(wanted), settle.rows(rows))
-        yield number / len(parts)
+        yield done
 
 
 def _clipped(
@@ -94,13 +94,3 @@ def _widened(camera: Camera) -> Camera:
     if not camera.orthographic:
         start = max(start, camera.clip_start / 2)
     return replace(camera, clip_start=start, clip_end=camera.clip_end + off[1])
-
-
-def _silent(work: Work[Probe]) -> Work[Probe]:
-    """Do work that is a small part of a step."""
-    while True:
-        try:
-            next(work)
-        except StopIteration as stop:
-            return stop.value
-        yield 0.0

@@ -95,7 +95,7 @@ def _through_cracks(
     within the radius. Where all that is seen is one colour, there is no edge.
     """
     may = coverage(probe, np.full(len(probe.px), radius))
-    behind = _as_shown(shown, shading.colors(scene, may.hits))
+    behind = shown.made_of(shading.colors(scene, may.hits))
     found = np.zeros(len(left), bool)
     for n, pixel in enumerate(left):
         seen = np.unique(mixed[:, pixel], axis=0)
@@ -107,12 +107,7 @@ def _through_cracks(
 
 
 def _seen(scene: Scene, probe: Probe, shown: Shown, dx: float, dy: float) -> NDArray:
-    return _as_shown(shown, shading.colors(scene, probe.trace(dx, dy)))
-
-
-def _as_shown(shown: Shown, colors: NDArray) -> NDArray:
-    """Return traced colours (n, 4) as the picture has them: transformed, alpha or not."""
-    return shown.made_of(colors)[:, : 3 if shown.opaque else 4]
+    return shown.made_of(shading.colors(scene, probe.trace(dx, dy)))
 
 
 def is_mix(color: NDArray, mixed: NDArray, sums: int = 0) -> NDArray[np.bool_]:

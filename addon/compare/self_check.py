@@ -38,10 +38,10 @@ class FaultRow:
 
     name: str
     text: str
-    changed: int
-    differ: int
-    looked_at: int
-    unexplained: int
+    changed: int = 0
+    differ: int = 0
+    looked_at: int = 0
+    unexplained: int = 0
     within_rounding: bool = False
     note: str = ""
 
@@ -79,16 +79,16 @@ def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
     try:
         wrong = fault.make(case)
     except SceneError as error:  # nothing can be traced with it: nobody would miss that
-        return FaultRow(fault.name, fault.text, 0, 0, 0, 0, note=f"refused: {error}")
+        return FaultRow(fault.name, fault.text, note=f"refused: {error}")
     if wrong is None:
-        return FaultRow(fault.name, fault.text, 0, 0, 0, 0, note="there is nothing to get wrong")
+        return FaultRow(fault.name, fault.text, note="there is nothing to get wrong")
     frame = case.frame
     if wrong.scene is not case.scene:
         frame = Frame.empty(wrong.scene)
         yield from scaled(trace(wrong.scene, Settings(), frame), 0.0, 0.3)
     changed = int(_changed(case, wrong, frame).sum())
     if not changed:
-        return FaultRow(fault.name, fault.text, 0, 0, 0, 0)
+        return FaultRow(fault.name, fault.text)
     finding = find_causes(
         wrong.scene,
         frame,

@@ -86,32 +86,29 @@ class Shown:
         self, colors: NDArray, interpolated: NDArray[np.bool_] | bool = False
     ) -> NDArray[np.bool_]:
         """Return where the colour is another than (..., 4) traced ones."""
-        traced = self.made_of(colors)
-        last = 3 if self.opaque else 4
-        return differing(
-            traced[..., :last],
-            self.color[..., :last],
-            interpolated,
-            self.levels,
-            self.sums,
-            self.dither,
-        )
+        traced, own = self._sides(colors)
+        return differing(traced, own, interpolated, self.levels, self.sums, self.dither)
 
     def difference(self, colors: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return how far (..., 4) traced colours are from these, and how far they may be, (...).
 
         Of the channel that is nearest to being too far.
         """
-        traced = self.made_of(colors)
-        last = 3 if self.opaque else 4
-        apart, allowed = difference(
-            traced[..., :last], self.color[..., :last], False, self.levels, self.sums, self.dither
-        )
+        traced, own = self._sides(colors)
+        apart, allowed = difference(traced, own, False, self.levels, self.sums, self.dither)
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         return tuple(np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
 
+    def _sides(self, colors: NDArray) -> tuple[NDArray, NDArray]:
+        """Return traced colours (..., 4) and these, in the channels that are compared."""
+        traced = self.made_of(colors)
+        return traced, self.color[..., : traced.shape[-1]]
+
     def made_of(self, colors: NDArray) -> NDArray:
-        """Return traced colours (..., 4) as this picture has them."""
+        """Return traced colours (..., 4) as this picture has them, (..., 3) if it is opaque."""
+        return self._transformed(colors)[..., : 3 if self.opaque else 4]
+
+    def _transformed(self, colors: NDArray) -> NDArray:
         if self.transform is None:
             return colors
         made = transformed(colors, self.transform)
@@ -153,10 +150,14 @@ class Shown:
 
 def transformed(colors: NDArray, transform: Transform) -> NDArray[np.float64]:
     """Return premultiplied RGBA (..., 4) with its straight RGB transformed."""
+    alpha = np.asarray(colors[..., 3:], np.float64)
+    return np.concatenate((transform(straight(colors)) * alpha, alpha), axis=-1)
+
+
+def straight(colors: NDArray) -> NDArray[np.float64]:
+    """Return the straight RGB (..., 3) of premultiplied RGBA (..., 4)."""
     colors = np.asarray(colors, np.float64)
-    alpha = colors[..., 3:]
-    straight = colors[..., :3] / np.where(alpha > 0, alpha, 1)
-    return np.concatenate((transform(straight) * alpha, alpha), axis=-1)
+    return colors[..., :3] / np.where(colors[..., 3:] > 0, colors[..., 3:], 1)
 
 
 def numbered(names: Sequence[str], owners: Sequence[str]) -> NDArray[np.int32]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..images import curve, curve_undone
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from .shown import Shown, Transform
+from .shown import Shown, Transform, straight
 
 MOST = (
     0.5  # of the differing surfaces' colours, and of their pixels, that a known curve makes agree
@@ -90,12 +90,7 @@ def _one_each(
     order = np.argsort(group, kind="stable")
     parts = np.split(shown[order], np.cumsum(np.bincount(group))[:-1])
     median = np.array([np.median(part, axis=0) for part in parts])
-    return _straight(colors[first]), _straight(median)
-
-
-def _straight(color: NDArray) -> NDArray[np.float64]:
-    color = np.asarray(color, np.float64)
-    return color[:, :3] / np.where(color[:, 3:] > 0, color[:, 3:], 1)
+    return straight(colors[first]), straight(median)
 
 
 def _agreeing(agree: NDArray[np.bool_], group: NDArray[np.integer]) -> float:

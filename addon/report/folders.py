@@ -113,3 +113,17 @@ def made_for_file(path: Path) -> Iterator[None]:
         raise OSError(f"cannot write '{path}': it is a folder")
     with made(path.parent):
         yield
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file that is whole or not there, and its folder.
+
+    A name that a scene holds may be no Unicode: it is written as JSON spells it.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written.
+    """
+    with made_for_file(path), replacing_file(path) as new:
+        new.write_text(text, encoding="utf-8", errors="backslashreplace")
