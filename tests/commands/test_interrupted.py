@@ -1,0 +1,98 @@
+"""Commands that are interrupted, or run out of memory, leave nothing half done."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+from contextlib import contextmanager, suppress
+
+import pytest
+from reference_tracer import images, interrupts
+from reference_tracer.arguments import AGREE, INPUT_ERROR, INTERRUPTED
+from reference_tracer.cli import main
+from reference_tracer.commands import trace as trace_command
+from reference_tracer.study import extremes, tradeoff
+from reference_tracer.tracer.progress import result_of
+
+from .parts import trace
+
+
+def test_interrupted_processes(ball, tmp_path, monkeypatch, capsys):
+    @contextmanager
+    def bar():
+        yield lambda share: share > 0 and signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(trace_command, "progress_bar", bar)
+    before = set(multiprocessing.active_children())
+    options = ["--processes", "2", "--samples", "8"]
+    assert trace(ball, tmp_path / "new" / "b.png", *options) == INTERRUPTED
+    assert capsys.readouterr().err == "reftrace: interrupted\n"
+    assert not (tmp_path / "new").exists()
+    assert set(multiprocessing.active_children()) <= before
+
+
+def refuse_memory(*args, **options):
+    raise MemoryError("Unable to allocate 1 TiB")
+
+
+def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(trace_command, "render_with", refuse_memory)
+    assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
+    assert not (tmp_path / "new").exists()
+
+
+def swallow(*args, **options):
+    """Be interrupted where nobody hears it, as in a callback of Blender's."""
+    with suppress(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+    yield 0.5
+    pytest.fail("the work went on")
+
+
+@pytest.fixture
+def interrupted_work(monkeypatch):
+    monkeypatch.setattr(extremes, "measure", swallow)
+    monkeypatch.setattr(tradeoff, "measure", swallow)
+    monkeypatch.setattr(
+        trace_command, "render_with", lambda *given: result_of(swallow(), given[-1])
+    )
+
+
+@pytest.mark.usefixtures("interrupted_work")
+@pytest.mark.parametrize("command", ["trace", "trade", "extremes"])
+def test_interrupted(command, ball, tmp_path, capsys):
+    before = sorted(tmp_path.rglob("*"))
+    out = tmp_path / "new" / ("x.png" if command == "trace" else "out")
+    scene = [] if command == "extremes" else [str(ball)]
+    assert main([command, *scene, "--out", str(out)]) == INTERRUPTED == 130
+    assert capsys.readouterr().err.strip().splitlines()[-1] == "reftrace: interrupted"
+    assert sorted(tmp_path.rglob("*")) == before
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def test_interrupted_while_writing(ball, tmp_path, monkeypatch):
+    """The older picture is whole."""
+    assert trace(ball, tmp_path / "b.png") == AGREE
+    before = {p: p.read_bytes() for p in tmp_path.iterdir()}
+
+    def half(path, picture):
+        path.write_bytes(b"half")
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(images, "save_png", half)
+    assert trace(ball, tmp_path / "b.png", "--method", "textbook_literal") == INTERRUPTED
+    assert {p: p.read_bytes() for p in tmp_path.iterdir()} == before
+
+
+def test_what_is_held_comes_at_its_end():
+    steps = []
+    with pytest.raises(KeyboardInterrupt), interrupts.heard():
+        with interrupts.held():
+            signal.raise_signal(signal.SIGINT)
+            steps.append("inside")
+        steps.append("after")
+    assert steps == ["inside"]
+    with interrupts.heard():
+        interrupts.check()  # of an earlier one nothing is left

@@ -1,0 +1,148 @@
+"""`reftrace trace` on files that need no Blender."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+from reference_tracer.arguments import AGREE, INPUT_ERROR
+from reference_tracer.cli import main
+from reference_tracer.scene_files import save_scene
+from reference_tracer.tracer import certainty
+
+from .parts import channels, trace
+
+
+def test_mesh_to_png(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "new" / "ball.png") == AGREE
+    picture = np.asarray(Image.open(tmp_path / "new" / "ball.png"))
+    assert picture.shape == (16, 24, 4)
+    assert picture[8, 12, 3] == 255 and picture[0, 0, 3] == 0
+    assert "24 x 16 pixels, 320 triangles" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("suffix", ["obj", "stl", "glb"])
+def test_other_meshes(suffix, tmp_path):
+    trimesh.creation.box().export(tmp_path / f"box.{suffix}")
+    assert trace(tmp_path / f"box.{suffix}", tmp_path / "box.png") == AGREE
+    assert np.asarray(Image.open(tmp_path / "box.png"))[8, 12, 3] == 255
+
+
+def test_eye_target_angle(ball, tmp_path):
+    """Seen from 2 radii, a sphere fills the cone of 30 degrees around the axis."""
+    half = np.degrees(np.arctan(np.tan(np.radians(30)) * 1.25))
+    assert (
+        trace(ball, tmp_path / "b.exr", "--eye", "0", "-2", "0", "--angle", str(2 * half)) == AGREE
+    )
+    depth = channels(tmp_path / "b.exr")["depth.V"]
+    assert depth[7:9, 11:13].min() == pytest.approx(1, abs=0.03)
+    rows = np.flatnonzero(np.isfinite(depth).any(axis=1))
+    assert (rows.min(), rows.max()) in ((1, 14), (2, 13))  # 16 rows / 1.25, less the corners cut
+
+
+def test_target_and_up(ball, tmp_path):
+    """Looking past the ball to its right and above, one sees it at the left and below."""
+    assert (
+        trace(ball, tmp_path / "b.exr", "--eye", "0", "-5", "0", "--target", "1", "0", "0.7")
+        == AGREE
+    )
+    y, x = np.nonzero(np.isfinite(channels(tmp_path / "b.exr")["depth.V"]))
+    assert x.mean() < 11 and y.mean() < 7
+
+
+def test_ortho_scale(ball, tmp_path):
+    assert trace(ball, tmp_path / "b.exr", "--eye", "0", "0", "5", "--ortho-scale", "4") == AGREE
+    found = channels(tmp_path / "b.exr")
+    seen = np.isfinite(found["depth.V"])
+    assert seen.any(axis=0).sum() == seen.any(axis=1).sum() == 8  # the height, 4 m, is 16 pixels
+    assert found["position.Z"][seen] == pytest.approx(5 - found["depth.V"][seen], abs=1e-5)
+
+
+def test_exr_holds_the_passes(ball, tmp_path):
+    assert (
+        trace(ball, tmp_path / "b.exr", "--method", "moller_trumbore", "--precision", "float32")
+        == 0
+    )
+    found = channels(tmp_path / "b.exr")
+    seen = found["object_index.V"] == 0
+    assert seen.any() and not seen.all()
+    assert (found["triangle_index.V"][seen] >= 0).all() and (
+        found["triangle_index.V"][~seen] == -1
+    ).all()
+    weights = sum(found[f"barycentrics.{x}"] for x in "XYZ")
+    assert weights[seen] == pytest.approx(1, abs=1e-5)
+    assert np.isinf(found["depth.V"][~seen]).all()
+
+
+def test_npz_keeps_its_camera(make, tmp_path):
+    scene = make.scene(make.camera(10, 6), make.quad(-9, 0, -9, 9, -2))
+    save_scene(tmp_path / "s.npz", scene)
+    assert main(["trace", str(tmp_path / "s.npz"), "--out", str(tmp_path / "s.png")]) == AGREE
+    alpha = np.asarray(Image.open(tmp_path / "s.png"))[..., 3]
+    assert alpha.shape == (6, 10)
+    assert (alpha[:, :5] == 255).all() and (alpha[:, 5:] == 0).all()
+
+
+def test_samples_are_shown(ball, tmp_path):
+    assert trace(ball, tmp_path / "b.png", "--samples", "3") == AGREE
+    alpha = np.asarray(Image.open(tmp_path / "b.png"))[..., 3]
+    assert set(np.unique(alpha)) - {0, 255}
+
+
+@pytest.mark.parametrize("method", ["auto", "textbook"])
+def test_processes_make_the_same_picture(method, ball, tmp_path, capsys):
+    for count in ("1", "2"):
+        options = ["--method", method, "--processes", count]
+        assert trace(ball, tmp_path / f"{count}.exr", *options) == AGREE
+    one, two = (channels(tmp_path / f"{count}.exr") for count in "12")
+    assert one.keys() == two.keys()
+    assert all(np.array_equal(one[name], two[name]) for name in one)
+    said = capsys.readouterr().out.splitlines()
+    assert said[0].split(" pixels, ")[0] == said[len(said) // 2].split(" pixels, ")[0] == "24 x 16"
+
+
+@pytest.mark.parametrize("method, came_to", [("auto", "certified"), ("certified", "certified")])
+def test_certified_says_what_the_scene_required(method, came_to, ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.exr", "--method", method) == AGREE
+    said = capsys.readouterr().out.splitlines()
+    assert f"({came_to}, float64)" in said[0]
+    assert len(said) > 1 and "pairs" in said[1]
+    found = channels(tmp_path / "b.exr")["certainty.V"]
+    assert (found > 0).all()
+
+
+def test_plain_methods_require_nothing(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.exr", "--method", "watertight") == AGREE
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 1 and "(watertight, float64)" in said[0]
+
+
+@pytest.mark.parametrize("method", ["certified", "auto"])
+def test_certified_in_float32_is_refused(method, ball, tmp_path, capsys):
+    options = ["--method", method, "--precision", "float32"]
+    assert trace(ball, tmp_path / "b.png", *options) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert "float64 only" in said and "watertight" in said and "Traceback" not in said
+    assert not (tmp_path / "b.png").exists()
+
+
+@pytest.fixture
+def broken_arithmetic(monkeypatch):
+    monkeypatch.setattr(certainty, "broken_assumptions", lambda: ["subnormal results"])
+
+
+@pytest.mark.usefixtures("broken_arithmetic")
+def test_a_machine_that_cannot_certify_says_so(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.png", "--method", "certified") == INPUT_ERROR
+    assert main(["trade", str(ball)]) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert said.count("subnormal results") == 2 and "Traceback" not in said
+    assert not (tmp_path / "b.png").exists()
+
+
+@pytest.mark.usefixtures("broken_arithmetic")
+def test_auto_falls_back_and_says_so(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "b.png") == AGREE
+    said = capsys.readouterr().out
+    assert "(watertight, float64)" in said and "subnormal results" in said
