@@ -55,17 +55,6 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_processes(parser: argparse.ArgumentParser) -> None:
-    """Add how many processes trace; not for Blender, where it is one."""
-    parser.add_argument(
-        "--processes",
-        type=int,
-        default=1,
-        metavar="N",
-        help="trace with N processes, one a core: the same picture, sooner (default 1)",
-    )
-
-
 def add_judge(parser: argparse.ArgumentParser) -> None:
     """Add which of Blender's pictures to compare with, and how it is shaded."""
     group = parser.add_argument_group("Blender's picture (by default as the scene says)")
@@ -118,7 +107,7 @@ def check(options: argparse.Namespace) -> None:
     SceneError
         If a number is out of range, or a method does not come in the precision.
     """
-    for name in ("width", "height", "rays", "processes"):
+    for name in ("width", "height", "rays"):
         value = getattr(options, name, None)
         if value is not None and value < 1:
             raise SceneError(f"--{name} is {value}; it must be at least 1")

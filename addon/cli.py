@@ -11,13 +11,12 @@ from .commands import bench, compare, explain, export, extremes, judge, trace, t
 from .compare.comparison import SizeError
 from .scene import SceneError
 from .tracer.certainty import AssumptionError
-from .tracer.processes import WorkerError
 
 COMMANDS = (compare, trace, explain, judge, trade, extremes, bench, export)
 
 _EXPECTED = (  # what a user can do something about
     *(SceneError, SizeError, OSError, MemoryError),
-    *(images.MissingLibraryError, AssumptionError, WorkerError),
+    *(images.MissingLibraryError, AssumptionError),
 )
 
 

@@ -33,7 +33,6 @@ from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.certainty import AssumptionError
 from ..tracer.progress import result_of
-from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import studies
 from .compare import compare_to_folder, export_open_file, made
@@ -133,7 +132,7 @@ def _check_open() -> None:
         raise SceneError("no file is open (is its name right?): name a .blend before --command")
 
 
-def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) -> int:
+def compare_open_file(options: Any, progress: Any = None) -> int:
     """Compare the scene of the open file as the options say, print what came of it.
 
     Returns
@@ -153,7 +152,7 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
         "self_check": options.self_check,
     }
     if options.judge == "all":
-        rows = result_of(compare_all(bpy.context, options.out, trace, **choices), progress)
+        rows = result_of(compare_all(bpy.context, options.out, **choices), progress)
         verdict = engines.worst(rows)
         print(*engines.lines(rows), f"verdict: {verdict}", f"written to {options.out}", sep="\n")
         pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
@@ -161,7 +160,7 @@ def compare_open_file(options: Any, progress: Any = None, trace: Steps = steps) 
         return VERDICT_CODES[verdict]
     judge = options.judge.upper() if options.judge else None
     for_page = {"trade": options.trade, "extremes": options.extremes}
-    work = compare_to_folder(bpy.context, options.out, trace, **for_page, judge=judge, **choices)
+    work = compare_to_folder(bpy.context, options.out, **for_page, judge=judge, **choices)
     comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")

@@ -24,7 +24,6 @@ from ..report import files, folders, page
 from ..scene import Scene
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, scaled
-from ..tracer.render import Steps, steps
 from ..tracer.settings import Settings
 from . import images
 from .alternatives import alternatives
@@ -64,12 +63,12 @@ class Gathered:
         """The picture's colours, (h, w, 4) linear RGBA."""
         return self.shown.color
 
-    def steps(self, trace: Steps = steps) -> Work[Comparison]:
+    def steps(self) -> Work[Comparison]:
         """Do the work that is left; yields the share of it that is done."""
         manifest = yield from diagnosed(self.scene, self.manifest)
         return (
             yield from trace_and_compare(
-                self.scene, manifest, self.settings, self.shown, self.blender, trace, self.known
+                self.scene, manifest, self.settings, self.shown, self.blender, self.known
             )
         )
 
@@ -171,7 +170,6 @@ def _a_frame_later(tmp: Any, layer: str, source: str) -> Scene:
 def compare_to_folder(
     context: Any,
     directory: str,
-    trace: Steps = steps,
     trade: bool = False,
     extremes: bool = False,
     **choices: Any,
@@ -183,8 +181,8 @@ def compare_to_folder(
     """
     folder = made(directory)  # now, not after all the work
     with _failure_written(folder):
-        work = gather(context, **choices).steps(trace)
-        return _written(folder, work, trade, extremes, trace)
+        work = gather(context, **choices).steps()
+        return _written(folder, work, trade, extremes)
 
 
 def made(directory: str) -> Path:
@@ -200,13 +198,11 @@ def made(directory: str) -> Path:
     return folder
 
 
-def _written(
-    folder: Path, work: Work[Comparison], trade: bool, extremes: bool, trace: Steps
-) -> Work[Comparison]:
+def _written(folder: Path, work: Work[Comparison], trade: bool, extremes: bool) -> Work[Comparison]:
     share = 0.2 if trade or extremes else 0.8  # of the comparison
     with _failure_written(folder):
         comparison = yield from scaled(work, 0.0, share)
-        finding = page.extras(comparison, trade, extremes, trace)
+        finding = page.extras(comparison, trade, extremes)
         extras = yield from scaled(finding, share, 1 - share)
         files.write(folder, comparison, images.save_png, extras)
     yield 1.0

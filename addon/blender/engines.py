@@ -15,16 +15,13 @@ from ..compare.engines import EngineRow
 from ..report import files, page
 from ..scene import SceneError
 from ..tracer.progress import Work, scaled
-from ..tracer.render import Steps, steps
 from . import images
 from .compare import Gathered, gather, made
 
 ENGINES = ("viewport", "workbench", "cycles")  # the first needs a window
 
 
-def compare_all(
-    context: Any, directory: str = "", trace: Steps = steps, **choices: Any
-) -> Work[tuple[EngineRow, ...]]:
+def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
     """Have every engine draw the scene; return the work of comparing each.
 
     Parameters
@@ -33,7 +30,6 @@ def compare_all(
     directory : str
         Where each comparison goes to a folder of its own, and the table; nothing is written if
         empty.
-    trace : Steps
     **choices
         Of :func:`compare.gather`.
 
@@ -48,7 +44,7 @@ def compare_all(
     drawn = [(e, _drawn(context, e, choices)) for e in ENGINES[bpy.app.background :]]
     if all(isinstance(d, str) for _, d in drawn):
         raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
-    return _compared(drawn, folder, trace)
+    return _compared(drawn, folder)
 
 
 def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Gathered | str:
@@ -60,7 +56,7 @@ def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Gathered | str
 
 
 def _compared(
-    drawn: list[tuple[str, Gathered | str]], folder: Path | None, trace: Steps
+    drawn: list[tuple[str, Gathered | str]], folder: Path | None
 ) -> Work[tuple[EngineRow, ...]]:
     rows = []
     for number, (engine, gathered) in enumerate(drawn):
@@ -69,11 +65,11 @@ def _compared(
             continue
         share = 1 / len(drawn)
         part = 0.9 if folder else 1.0  # of the share; the rest is what the page shows besides
-        work = gathered.steps(trace)
+        work = gathered.steps()
         comparison = yield from scaled(work, number * share, part * share)
         rows.append(EngineRow.of(comparison))
         if folder:
-            finding = page.extras(comparison, trace=trace)
+            finding = page.extras(comparison)
             extras = yield from scaled(finding, (number + part) * share, (1 - part) * share)
             files.write(folder / engine, comparison, images.save_png, extras)
     if folder:

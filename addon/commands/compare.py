@@ -15,7 +15,6 @@ from ..arguments import (
     add_camera,
     add_judge,
     add_page,
-    add_processes,
     add_settings,
     refuse,
     settings_from,
@@ -29,9 +28,7 @@ from ..report import files, folders, page
 from ..report.progress_bar import progress_bar
 from ..scene import Camera, Scene, SceneError
 from ..scene_files import diagnosed
-from ..tracer.processes import tracing
 from ..tracer.progress import Work, result_of
-from ..tracer.render import Steps
 from .parts import Commands, command
 
 
@@ -48,7 +45,6 @@ def add(commands: Commands) -> None:
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)
-    add_processes(parser)
     add_judge(parser)
     add_page(parser)
     group = parser.add_argument_group("another picture, in place of Blender's")
@@ -99,8 +95,8 @@ def _with_blender(options: argparse.Namespace) -> int:
     with open_blend(options.scene):
         from ..blender.commands import compare_open_file
 
-        with tracing(options.processes) as trace, progress_bar() as progress:
-            return compare_open_file(options, progress, trace)
+        with progress_bar() as progress:
+            return compare_open_file(options, progress)
 
 
 def _against(options: argparse.Namespace) -> int:
@@ -121,12 +117,12 @@ def _against(options: argparse.Namespace) -> int:
         "filter_radius": options.filter or 0.0,
         "settings": {},
     }
-    with tracing(options.processes) as trace, progress_bar() as progress:
+    with progress_bar() as progress:
         if options.scene.suffix.lower() == ".blend":
-            comparison = result_of(_blend(options, picture, about, trace), progress)
+            comparison = result_of(_blend(options, picture, about), progress)
         else:
-            comparison = result_of(_file(options, picture, about, trace), progress)
-        finding = page.extras(comparison, options.trade, options.extremes, trace)
+            comparison = result_of(_file(options, picture, about), progress)
+        finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
     files.write(options.out, comparison, images.save_png, extras)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
@@ -135,7 +131,7 @@ def _against(options: argparse.Namespace) -> int:
 
 
 def _blend(
-    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any], trace: Steps
+    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any]
 ) -> Work[Comparison]:
     with open_blend(options.scene) as blender:
         from ..blender.camera import export_camera
@@ -146,11 +142,11 @@ def _blend(
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = settings_from(options, context.scene.reference_tracer.settings())
         gathered = gather_against(context, shown, about, settings, bool(options.self_check))
-        return (yield from gathered.steps(trace))
+        return (yield from gathered.steps())
 
 
 def _file(
-    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any], trace: Steps
+    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any]
 ) -> Work[Comparison]:
     scene, stored = load(options)
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
@@ -161,7 +157,6 @@ def _file(
             settings_from(options, stored),
             _shown(options, picture, scene.camera),
             about,
-            trace,
             Known(curves=(), self_check=bool(options.self_check)),
         )
     )

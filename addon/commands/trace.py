@@ -6,12 +6,12 @@ import argparse
 from pathlib import Path
 
 from .. import images
-from ..arguments import add_camera, add_processes, add_settings, settings_from
+from ..arguments import add_camera, add_settings, settings_from
 from ..opening import SOURCES, load
 from ..report import folders
 from ..report.progress_bar import progress_bar
 from ..scene import SceneError
-from ..tracer.processes import render_with
+from ..tracer.render import render
 from .parts import Commands, command
 
 _PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
@@ -29,7 +29,6 @@ def add(commands: Commands) -> None:
     )
     parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
     add_settings(parser)
-    add_processes(parser)
     add_camera(parser)
 
 
@@ -42,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
         scene, stored = load(options)
         settings = settings_from(options, stored)
         with progress_bar() as progress:
-            frame = render_with(scene, settings, options.processes, progress)
+            frame = render(scene, settings, progress)
         with folders.replacing_file(options.out) as new:
             if suffix == ".png":
                 images.save_png(new, images.to_display(frame.color))

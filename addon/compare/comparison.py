@@ -14,7 +14,7 @@ from ..tracer.certainty import Certainty
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
-from ..tracer.render import Steps, steps
+from ..tracer.render import steps
 from ..tracer.settings import Settings
 from .background import Background, find_background
 from .boundary import boundary
@@ -209,7 +209,6 @@ def trace_and_compare(
     settings: Settings,
     picture: NDArray[np.float32] | Shown,
     blender: dict[str, Any],
-    trace: Steps = steps,
     known: Known | None = None,
 ) -> Work[Comparison]:
     """Trace a scene and compare it with Blender's picture, in small steps.
@@ -220,9 +219,9 @@ def trace_and_compare(
     checking = _CHECKING if known and known.self_check else 0.0
     tracing, methods, rest = ((1 - checking) * s for s in (_TRACING, _METHODS, _COMPARING))
     frame = Frame.empty(scene)
-    for share in trace(scene, settings, frame):
+    for share in steps(scene, settings, frame):
         yield tracing * share
-    rows = yield from scaled(list_methods(scene, settings, frame, trace), tracing, methods)
+    rows = yield from scaled(list_methods(scene, settings, frame), tracing, methods)
     check_sizes(shown.color, frame.color)
     background = None
     if known and known.curves is not None and not frame.cancelled:
@@ -230,7 +229,7 @@ def trace_and_compare(
     if background:
         scene, known = background.under(scene), background.behind(known)
         shown = replace(shown, background=scene.background)
-        frame = _before(scene, settings, frame, trace)
+        frame = _before(scene, settings, frame)
     comparing = compare(scene, manifest, settings, frame, shown, blender, known)
     found = yield from scaled(comparing, tracing + methods, rest)
     faults: tuple[FaultRow, ...] = ()
@@ -244,17 +243,17 @@ def trace_and_compare(
             blender.get("filter_radius", 0.0),
             known.next_frame,
         )
-        faults = yield from scaled(self_check(case, trace), 1 - checking, checking)
+        faults = yield from scaled(self_check(case), 1 - checking, checking)
     return replace(found, methods=rows, self_check=faults, background=background)
 
 
-def _before(scene: Scene, settings: Settings, frame: Frame, trace: Steps) -> Frame:
+def _before(scene: Scene, settings: Settings, frame: Frame) -> Frame:
     """Return a traced frame before another background, the scene's; of one sample, not again."""
     color = frame.color.copy()
     color[frame.instance_index == NOTHING] = scene.background
     if settings.samples > 1:
         again = Frame.empty(scene)
-        for _ in trace(scene, settings, again):
+        for _ in steps(scene, settings, again):
             pass
         color = again.color
     return replace(frame, scene=scene, color=color)

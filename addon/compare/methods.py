@@ -10,7 +10,7 @@ from ..scene import Scene
 from ..tracer.certainty import Certainty, broken_assumptions
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import Steps, steps
+from ..tracer.render import steps
 from ..tracer.settings import Method, Precision, Settings
 
 
@@ -37,9 +37,7 @@ class MethodRow:
         return f"  {self.method} {self.precision}: {self.seconds:.2f} s{found}{open_}"
 
 
-def list_methods(
-    scene: Scene, settings: Settings, frame: Frame, trace: Steps = steps
-) -> Work[tuple[MethodRow, ...]]:
+def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[MethodRow, ...]]:
     """Trace a scene by the textbook and certified, too; yields the share of the work done.
 
     Parameters
@@ -48,8 +46,6 @@ def list_methods(
     settings : Settings
         What `frame` was traced with.
     frame : Frame
-    trace : Steps, optional
-        What traces.
 
     Returns
     -------
@@ -63,7 +59,7 @@ def list_methods(
     missing = [w for w in wanted if w not in frames]
     for number, (method, precision) in enumerate(missing):
         traced = frames[method, precision] = Frame.empty(scene)
-        tracing = trace(scene, Settings(method, precision), traced)
+        tracing = steps(scene, Settings(method, precision), traced)
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
     truth = frames[certified] if certified else None
     order: Sequence = [*wanted, *(f for f in frames if f not in wanted)]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import Steps, steps
+from ..tracer.render import steps
 from ..tracer.settings import Settings
 from .cause import Cause, differing
 from .causes import find_causes
@@ -64,18 +64,16 @@ class FaultRow:
         return asdict(self) | {"result": self.result}
 
 
-def self_check(
-    case: Case, trace: Steps = steps, faults: Sequence[Fault] = FAULTS
-) -> Work[tuple[FaultRow, ...]]:
+def self_check(case: Case, faults: Sequence[Fault] = FAULTS) -> Work[tuple[FaultRow, ...]]:
     """Make every fault and judge it; yields the share of the work done."""
     rows = []
     for number, fault in enumerate(faults):
         part = 1 / len(faults)
-        rows.append((yield from scaled(_judged(case, fault, trace), number * part, part)))
+        rows.append((yield from scaled(_judged(case, fault), number * part, part)))
     return tuple(rows)
 
 
-def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
+def _judged(case: Case, fault: Fault) -> Work[FaultRow]:
     try:
         wrong = fault.make(case)
     except SceneError as error:  # nothing can be traced with it: nobody would miss that
@@ -85,7 +83,7 @@ def _judged(case: Case, fault: Fault, trace: Steps) -> Work[FaultRow]:
     frame = case.frame
     if wrong.scene is not case.scene:
         frame = Frame.empty(wrong.scene)
-        yield from scaled(trace(wrong.scene, Settings(), frame), 0.0, 0.3)
+        yield from scaled(steps(wrong.scene, Settings(), frame), 0.0, 0.3)
     changed = int(_changed(case, wrong, frame).sum())
     if not changed:
         return FaultRow(fault.name, fault.text)

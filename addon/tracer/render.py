@@ -33,9 +33,6 @@ SLOW_PIXELS = 1 << 18  # of a band where pixels take long
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, what is kept, hits
 WHOLE = 0.999  # of the progress, until the picture is whole
 
-# What `steps` is, and so is what traces by other means.
-Steps = Callable[[Scene, Settings, Frame], Iterator[float]]
-
 
 def render(
     scene: Scene,

@@ -54,23 +54,6 @@ def test_compare(small, tmp_path):
     ]
 
 
-def test_compare_with_processes(small, tmp_path):
-    """The same comparison, though Blender is loaded where they are started."""
-    found = []
-    for count in (1, 2):
-        done = reftrace("compare", small, "--out", tmp_path / str(count), "--processes", count)
-        assert done.returncode == 0, done.stderr
-        comparison = json.loads(
-            (tmp_path / str(count) / "comparison.json").read_text(encoding="utf-8")
-        )
-        with np.load(tmp_path / str(count) / "frame.npz") as stored:
-            found.append((comparison["pixels"], comparison["metrics"], dict(stored)))
-    assert found[0][:2] == found[1][:2]
-    assert found[0][2].keys() == found[1][2].keys()
-    for name, values in found[0][2].items():
-        assert values.tobytes() == found[1][2][name].tobytes(), name
-
-
 def test_compare_warns_by_its_exit_code(tmp_path):
     done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", cwd=tmp_path)
     assert done.returncode == 1, done.stderr

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import signal
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 
 import pytest
 from reference_tracer import images, interrupts
@@ -17,26 +16,12 @@ from reference_tracer.tracer.progress import result_of
 from .parts import trace
 
 
-def test_interrupted_processes(ball, tmp_path, monkeypatch, capsys):
-    @contextmanager
-    def bar():
-        yield lambda share: share > 0 and signal.raise_signal(signal.SIGINT)
-
-    monkeypatch.setattr(trace_command, "progress_bar", bar)
-    before = set(multiprocessing.active_children())
-    options = ["--processes", "2", "--samples", "8"]
-    assert trace(ball, tmp_path / "new" / "b.png", *options) == INTERRUPTED
-    assert capsys.readouterr().err == "reftrace: interrupted\n"
-    assert not (tmp_path / "new").exists()
-    assert set(multiprocessing.active_children()) <= before
-
-
 def refuse_memory(*args, **options):
     raise MemoryError("Unable to allocate 1 TiB")
 
 
 def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(trace_command, "render_with", refuse_memory)
+    monkeypatch.setattr(trace_command, "render", refuse_memory)
     assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
@@ -55,9 +40,7 @@ def swallow(*args, **options):
 def interrupted_work(monkeypatch):
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
-    monkeypatch.setattr(
-        trace_command, "render_with", lambda *given: result_of(swallow(), given[-1])
-    )
+    monkeypatch.setattr(trace_command, "render", lambda *given: result_of(swallow(), given[-1]))
 
 
 @pytest.mark.usefixtures("interrupted_work")

@@ -31,7 +31,6 @@ BAD = {
     ),
     "width 0": (["ball.ply", "--width", "0"], "--width is 0; it must be at least 1"),
     "height below 0": (["ball.ply", "--height", "-5"], "--height is -5; it must be at least 1"),
-    "no process": (["ball.ply", "--processes", "0"], "--processes is 0; it must be at least 1"),
     "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
     "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
     "float32 of auto": (["none.ply", "--precision", "float32"], "reftrace: name a --method with"),

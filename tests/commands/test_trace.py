@@ -90,18 +90,6 @@ def test_samples_are_shown(ball, tmp_path):
     assert set(np.unique(alpha)) - {0, 255}
 
 
-@pytest.mark.parametrize("method", ["auto", "textbook"])
-def test_processes_make_the_same_picture(method, ball, tmp_path, capsys):
-    for count in ("1", "2"):
-        options = ["--method", method, "--processes", count]
-        assert trace(ball, tmp_path / f"{count}.exr", *options) == AGREE
-    one, two = (channels(tmp_path / f"{count}.exr") for count in "12")
-    assert one.keys() == two.keys()
-    assert all(np.array_equal(one[name], two[name]) for name in one)
-    said = capsys.readouterr().out.splitlines()
-    assert said[0].split(" pixels, ")[0] == said[len(said) // 2].split(" pixels, ")[0] == "24 x 16"
-
-
 @pytest.mark.parametrize("method, came_to", [("auto", "certified"), ("certified", "certified")])
 def test_certified_says_what_the_scene_required(method, came_to, ball, tmp_path, capsys):
     assert trace(ball, tmp_path / "b.exr", "--method", method) == AGREE

@@ -15,7 +15,7 @@ from ...study import extremes, tradeoff
 from ...study.trade import Trade
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
-from ...tracer.render import Steps, steps
+from ...tracer.render import steps
 from ...tracer.settings import Method, Precision, Settings
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
@@ -40,7 +40,6 @@ def extras(
     comparison: Comparison,
     measure_trade: bool = False,
     measure_extremes: bool = False,
-    trace: Steps = steps,
 ) -> Work[Extras]:
     """Find out what a page shows beside a comparison; yields the share of the work done."""
     left_out: list[str] = []
@@ -53,7 +52,7 @@ def extras(
         done += share
         return found
 
-    literal = yield from part(_literal(comparison, left_out, trace), _LITERAL)
+    literal = yield from part(_literal(comparison, left_out), _LITERAL)
     derivations = yield from part(_derivations(comparison, left_out), _DERIVED)
     trade = rows = None
     if measure_trade:
@@ -64,7 +63,7 @@ def extras(
     return Extras(trade, rows, literal, derivations, tuple(left_out))
 
 
-def _literal(comparison: Comparison, left_out: list[str], trace: Steps) -> Work[Frame | None]:
+def _literal(comparison: Comparison, left_out: list[str]) -> Work[Frame | None]:
     """Trace the scene by the textbook taken literally, unless that takes long."""
     row = next((r for r in comparison.methods if r.method == Method.TEXTBOOK.value), None)
     if row and row.seconds > LITERAL_SECONDS:
@@ -75,7 +74,7 @@ def _literal(comparison: Comparison, left_out: list[str], trace: Steps) -> Work[
         return None
     frame = Frame.empty(comparison.scene)
     settings = Settings(Method.TEXTBOOK_LITERAL, Precision.FLOAT64)
-    yield from trace(comparison.scene, settings, frame)
+    yield from steps(comparison.scene, settings, frame)
     return frame
 
 
