@@ -1,5 +1,10 @@
 # Only what pyproject.toml can't say: find the packages in a folder that bears another name.
 from setuptools import find_packages, setup
 
-subpackages = [f"reference_tracer.{name}" for name in find_packages("addon")]
-setup(packages=["reference_tracer", *subpackages])
+PACKAGES = {  # by the folder that each stands in
+    "addon": "reference_tracer",
+    "grading": "reference_tracer_grading",
+    "benchmarks": "reference_tracer_benchmarks",
+}
+found = [f"{name}.{sub}" for folder, name in PACKAGES.items() for sub in find_packages(folder)]
+setup(packages=[*PACKAGES.values(), *found])

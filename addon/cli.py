@@ -4,15 +4,27 @@ from __future__ import annotations
 
 import sys
 import traceback
+from importlib.metadata import entry_points
 
 from . import __version__, images, interrupts
 from .arguments import EXIT_CODES, INPUT_ERROR, INTERRUPTED, SIZES_DIFFER, Parser, check, words
-from .commands import bench, compare, explain, export, extremes, judge, trace, trade
+from .commands import compare, explain, export, extremes, trace, trade
+from .commands.parts import Commands
 from .compare.comparison import SizeError
 from .scene import SceneError
-from .tracer.certainty import AssumptionError
+from .tracer.certified.certainty import AssumptionError
 
-COMMANDS = (compare, trace, explain, judge, trade, extremes, bench, export)
+# In the order of the help. The modules of those that are None are packages of their own.
+COMMANDS = {
+    "compare": compare,
+    "trace": trace,
+    "explain": explain,
+    "judge": None,
+    "trade": trade,
+    "extremes": extremes,
+    "bench": None,
+    "export": export,
+}
 
 _EXPECTED = (  # what a user can do something about
     *(SceneError, SizeError, OSError, MemoryError),
@@ -52,9 +64,29 @@ def _parser() -> Parser:
     )
     parser.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
-    for command in COMMANDS:
-        command.add(commands)
+    installed = {found.name: found for found in entry_points(group="reference_tracer.commands")}
+    for name, module in COMMANDS.items():
+        if module:
+            module.add(commands)
+        elif name in installed:
+            installed[name].load().add(commands)
+        else:
+            _add_missing(commands, name)
     return parser
+
+
+def _add_missing(commands: Commands, name: str) -> None:
+    """Add a command that says how to get it."""
+
+    def run(_: object) -> int:
+        raise SceneError(
+            f"the command {name} is not part of the add-on: pip install --editable . in a clone of "
+            "the project installs it"
+        )
+
+    parser = commands.add_parser(name, help="(not installed here)", add_help=False)
+    parser.add_argument("rest", nargs="...")
+    parser.set_defaults(run=run)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer.study.students.student_error import KINDS
+from reference_tracer_grading.student_error import KINDS
 
 PROJECT = Path(__file__).parent.parent
 DOCS = PROJECT / "docs"

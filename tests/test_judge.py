@@ -9,10 +9,10 @@ import pytest
 import trimesh
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
-from reference_tracer.tracer.visibility import film_positions
 
 from .judge import EDGE, INSIDE, NONE, NOTHING, OUTSIDE, integers, judge, judge_pairs, sights
 

@@ -7,10 +7,7 @@ import json
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
-from reference_tracer.scene_files import (
-    load_scene,
-    save_scene,
-)
+from reference_tracer.scene_files import load_scene, save_scene
 
 
 @pytest.fixture

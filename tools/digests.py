@@ -16,7 +16,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-
 from reference_tracer.opening import open_blend
 from reference_tracer.scene import Camera, Region, Scene, ViewWindow
 from reference_tracer.tracer.render import render
@@ -108,7 +107,9 @@ def pictures() -> dict[str, dict[str, str]]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, help="write the digests here")
-    parser.add_argument("--against", type=Path, help="compare with digests that were written before")
+    parser.add_argument(
+        "--against", type=Path, help="compare with what was written before"
+    )
     options = parser.parse_args()
     now = pictures()
     if options.out:

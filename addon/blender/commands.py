@@ -31,7 +31,7 @@ from ..compare.comparison import SizeError
 from ..report import files, page
 from ..scene import SceneError
 from ..study import tradeoff
-from ..tracer.certainty import AssumptionError
+from ..tracer.certified.certainty import AssumptionError
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
 from . import studies

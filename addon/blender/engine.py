@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..compare.certificate import CameraCertificate
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
-from ..tracer.certainty import AssumptionError
+from ..tracer.certified.certainty import AssumptionError
 from ..tracer.frame import Frame
 from ..tracer.render import steps
 from .animation import values_kept

@@ -16,7 +16,7 @@ from bpy.props import StringProperty
 
 from ..arguments import words
 from ..scene import SceneError
-from ..tracer.certainty import AssumptionError
+from ..tracer.certified.certainty import AssumptionError
 from ..tracer.progress import Work, result_of
 
 STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s

@@ -11,14 +11,7 @@ from typing import Any
 import numpy as np
 
 from .. import images
-from ..arguments import (
-    add_camera,
-    add_judge,
-    add_page,
-    add_settings,
-    refuse,
-    settings_from,
-)
+from ..arguments import add_camera, add_judge, add_page, add_settings, refuse, settings_from
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.known import Known
 from ..compare.shown import Shown

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Region, Scene
+from ..tracer.nearest import NOTHING, Hits, plan
 from ..tracer.probe import Probe
 from ..tracer.progress import Work, scaled
 from ..tracer.render import tiles
 from ..tracer.settings import Method, Precision, Settings
-from ..tracer.visibility import NOTHING, Hits, plan
 from .bounds import depth_resolution, view_error
 from .cause import Cause, Settler
 from .coverage import coverage

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
+from ..tracer.nearest import Hits
 from ..tracer.vector import transform_points
-from ..tracer.visibility import Hits
 
 U = 2.0**-24
 SNAPPING = 1 / 256  # pixels: rasterisers keep eight bits of a vertex' position below the pixel

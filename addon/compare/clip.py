@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Scene
+from ..tracer.nearest import NOTHING, Hits, plan
 from ..tracer.probe import Probe
 from ..tracer.progress import Work, scaled
-from ..tracer.visibility import NOTHING, Hits, plan
 from .again import LAYERS, SOUND, parts_of, set_out
 from .bounds import depth_resolution, view_error
 from .cause import Cause, Settler

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..manifest import Manifest
 from ..scene import Scene
-from ..tracer.certainty import Certainty
+from ..tracer.certified.certainty import Certainty
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled

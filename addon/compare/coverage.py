@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from ..tracer import plane, shading
 from ..tracer.camera import camera_rays, film_of
+from ..tracer.nearest import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
 from ..tracer.probe import Probe
 from ..tracer.triangle import METHODS
-from ..tracer.visibility import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
 # rim; in a large triangle less, so that it stays within the band.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..scene import Scene
-from ..tracer.certainty import Certainty, broken_assumptions
+from ..tracer.certified.certainty import Certainty, broken_assumptions
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps

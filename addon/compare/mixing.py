@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from ..tracer import shading
+from ..tracer.nearest import plan
 from ..tracer.probe import Probe
 from ..tracer.progress import Work, result_of
-from ..tracer.visibility import plan
 from .again import SOUND, parts_of, set_out
 from .cause import Cause, Settler
 from .coverage import coverage

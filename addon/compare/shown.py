@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from ..tracer import shading
-from ..tracer.visibility import Hits
+from ..tracer.nearest import Hits
 from .cause import difference, differing
 from .identity import NOTHING, UNKNOWN
 

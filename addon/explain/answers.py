@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tracer.certainty import Certainty, broken_assumptions
+from ..tracer.certified.certainty import Certainty, broken_assumptions
 from ..tracer.hits import Hits, Name
 from ..tracer.settings import Method, Precision
 from .candidates import contest_hits, world_triangles

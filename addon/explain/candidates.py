@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from ..scene import Camera, Instance, Mesh, Region, Scene
 from ..tracer.camera import camera_rays
 from ..tracer.candidates import Pairs
-from ..tracer.certified import Contest
+from ..tracer.certified.contest import Contest
+from ..tracer.certified.sweep.chunks import refused
 from ..tracer.hits import NOTHING, Hits, Name, Statistics
-from ..tracer.pieces import refused
+from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import Method, Settings
 from ..tracer.triangle import METHODS
-from ..tracer.visibility import candidates, plan, within_clip
 from ..tracer.world import WorldTriangles
 from .methods import PLAIN, nearest
 from .pixel import Candidate, Pixel, check_pixel

@@ -6,7 +6,7 @@ In comes a `Derivation`; out goes a list of blocks, which hold text and no marku
 from __future__ import annotations
 
 from ..images import to_display
-from ..tracer.certainty import Certainty
+from ..tracer.certified.certainty import Certainty
 from .answers import SENTENCES as CERTAINTIES
 from .arithmetic import FLOATS, Arithmetic
 from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..scene import Camera
+from ..tracer.nearest import within_clip
 from ..tracer.triangle import SUM_TOLERANCE
-from ..tracer.visibility import within_clip
 from .arithmetic import Number
 from .textbook import Steps
 

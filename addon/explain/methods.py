@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from ..tracer import plane
 from ..tracer.hits import NOTHING, Name
+from ..tracer.nearest import within_clip
 from ..tracer.settings import Method, Precision
 from ..tracer.triangle import METHODS
-from ..tracer.visibility import within_clip
 from ..tracer.world import WorldTriangles
 from .pixel import Pixel
 

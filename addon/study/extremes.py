@@ -18,11 +18,11 @@ from ..tracer.camera import Rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
+from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import render
 from ..tracer.settings import Method, Precision, Settings
 from ..tracer.triangle import METHODS
-from ..tracer.visibility import within_clip
 from .extreme_rows import BreakingPoint, Row, breaking_points, breaking_table, table
 from .scenarios.scenario import Scenario
 from .scenarios.sweeps import ALL

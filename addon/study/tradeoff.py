@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
+from ..tracer.nearest import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import Method, Precision, Settings
-from ..tracer.visibility import NOTHING
 from .trade import Row, Trade, advice, mark
 
 WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles

@@ -16,16 +16,16 @@ from numpy.typing import NDArray
 from ..scene import Camera, Scene
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.candidates import Pairs
-from ..tracer.certainty import Certainty
-from ..tracer.certified import decide
+from ..tracer.certified.certainty import Certainty
+from ..tracer.certified.contest import decide
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING, Name
+from ..tracer.nearest import candidates, film_positions, plan
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import Method, Precision, Settings
-from ..tracer.visibility import candidates, film_positions, plan
 from ..tracer.world import batches, world_triangles
-from .judge import judge_ray
+from .oracle import judge_ray
 
 CERTIFIED = Settings(Method.CERTIFIED)
 

@@ -12,11 +12,11 @@ import numpy as np
 from ..scene import Scene
 from .camera import Rays
 from .candidates import Pairs
-from .certified import Contest
+from .certified.contest import Contest
 from .hits import Hits, Statistics
+from .nearest import PAIRS, test_pairs, test_planes
 from .progress import Work
 from .settings import Settings
-from .visibility import PAIRS, test_pairs, test_planes
 from .world import WorldTriangles, batches, world_triangles
 
 

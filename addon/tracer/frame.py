@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
-from .certainty import Certainty
+from .certified.certainty import Certainty
 from .hits import NOTHING, Hits, Name, Statistics
 from .memory import check_memory
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .certainty import Certainty
-from .reasons import Reason, sentences
+from .certified.certainty import Certainty
+from .certified.reasons import Reason, sentences
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Name = tuple[int, int]  # instance and triangle

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ..scene import Region
 from .camera import camera_rays
+from .nearest import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
 from .progress import Work
 from .shading import positions
-from .visibility import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,14 +17,14 @@ from ..scene import Camera, Region, Scene
 from . import shading
 from .any_rays import trace_rays
 from .camera import Rays
-from .certainty import AssumptionError, check_assumptions
+from .certified.certainty import AssumptionError, check_assumptions
+from .certified.sweep.chunks import refused
+from .certified.sweep.sweep import sweep
 from .frame import Frame
 from .hits import Hits, Statistics
-from .pieces import refused
+from .nearest import plan, trace_tile
 from .progress import Work, result_of, scaled
 from .settings import Method, Precision, Settings
-from .sweep import sweep
-from .visibility import plan, trace_tile
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32

@@ -8,12 +8,12 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.compare import export_open_file
-from reference_tracer.commands.judge import built_in
-from reference_tracer.study.students.extremes import plain
-from reference_tracer.study.students.picture import look
-from reference_tracer.study.students.subject import prepare
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Method
+from reference_tracer_grading.command import built_in
+from reference_tracer_grading.extremes import plain
+from reference_tracer_grading.picture import look
+from reference_tracer_grading.subject import prepare
 
 PROJECT = Path(__file__).parents[2]
 SCENES = sorted((PROJECT / "sample_scenes").glob("*.blend"))

@@ -7,12 +7,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.engine import (
-    ENGINE,
-    NO_HIT_DEPTH,
-    PASSES,
-    ReferenceTracerEngine,
-)
+from reference_tracer.blender.engine import ENGINE, NO_HIT_DEPTH, PASSES, ReferenceTracerEngine
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings

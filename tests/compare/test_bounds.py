@@ -9,8 +9,8 @@ import pytest
 from reference_tracer.compare.bounds import SNAPPING, U, depth_resolution, pixel_error, view_error
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
+from reference_tracer.tracer.nearest import Hits
 from reference_tracer.tracer.vector import transform_points
-from reference_tracer.tracer.visibility import Hits
 
 F = np.float32
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from reference_tracer.compare.coverage import coverage, nearest_to_origin
 from reference_tracer.scene import Mesh
+from reference_tracer.tracer.nearest import plan
 from reference_tracer.tracer.probe import Probe
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
-from reference_tracer.tracer.visibility import plan
 
 BAND = 0.004  # pixels
 

@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.identity import (
-    MOST,
-    NOTHING,
-    UNKNOWN,
-    Identity,
-    colors_of,
-    decode,
-)
+from reference_tracer.compare.identity import MOST, NOTHING, UNKNOWN, Identity, colors_of, decode
 
 
 def picture(count):

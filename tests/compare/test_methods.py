@@ -11,7 +11,7 @@ from reference_tracer.compare import methods
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.methods import list_methods
 from reference_tracer.manifest import Manifest
-from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings

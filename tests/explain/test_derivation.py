@@ -13,7 +13,7 @@ from reference_tracer.explain.arithmetic import Arithmetic
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.judgement import Reason
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
-from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Precision, Settings
 

@@ -12,7 +12,7 @@ from reference_tracer.explain.arithmetic import FLOATS, Arithmetic
 from reference_tracer.explain.candidates import gather
 from reference_tracer.explain.derivation import derive, derive_pixel
 from reference_tracer.explain.methods import NOWHERE, PLAIN
-from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import trace
 from reference_tracer.tracer.settings import Precision, Settings
 

@@ -11,8 +11,8 @@ from reference_tracer.explain.judgement import judge
 from reference_tracer.explain.textbook import camera_steps, plane_steps, triangle_steps
 from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays
+from reference_tracer.tracer.nearest import within_clip
 from reference_tracer.tracer.triangle import textbook, textbook_literal
-from reference_tracer.tracer.visibility import within_clip
 
 SCALES = (-30, -8, -1, 0, 1, 8, 30)
 

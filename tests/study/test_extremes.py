@@ -11,7 +11,7 @@ from reference_tracer.study.extreme_rows import Row, breaking_points, breaking_t
 from reference_tracer.study.extremes import measure
 from reference_tracer.study.scenarios.sweeps import ALL, MAPS, SCENARIOS, quick
 from reference_tracer.study.truth import sample, truth_of
-from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Method, Precision

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
-from reference_tracer.study.judge import judge_ray
+from reference_tracer.study.oracle import judge_ray
 from reference_tracer.study.tradeoff import (
     MORE_REPEATS,
     REPEATS,
@@ -23,10 +23,10 @@ from reference_tracer.study.tradeoff import (
 )
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.nearest import NOTHING, film_positions
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Precision, Settings
-from reference_tracer.tracer.visibility import NOTHING, film_positions
 
 LADDER = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
 LADDER |= {("certified", "float64")}

@@ -15,7 +15,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified import decide, nearest
+from reference_tracer.tracer.certified.contest import decide, nearest
 
 from ..judge import EDGE, judge_pairs, sights
 from .meshes import bumpy_sphere, corners_of

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified import decide, nearest
+from reference_tracer.tracer.certified.contest import decide, nearest
 
 from ..judge import EDGE, judge_pairs
 from .families import FAMILIES, at_any_size, generic, whole_numbers

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer.camera import camera_rays
-from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 

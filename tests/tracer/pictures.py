@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
-from reference_tracer.tracer.certainty import Certainty
+from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings

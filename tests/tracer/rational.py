@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.nearest import NOTHING, film_positions
 from reference_tracer.tracer.vector import transform_points
-from reference_tracer.tracer.visibility import NOTHING, film_positions
 
 Exact = NDArray[np.object_]
 

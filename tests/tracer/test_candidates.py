@@ -10,9 +10,9 @@ from reference_tracer.scene import Instance, Mesh, Region, Scene
 from reference_tracer.tracer import candidates, world
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.candidates import pixel_bounds, within
+from reference_tracer.tracer.nearest import film_positions, within_clip
 from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.triangle import METHODS
-from reference_tracer.tracer.visibility import film_positions, within_clip
 from reference_tracer.tracer.world import batches, world_triangles
 
 from .hostile import hostile_camera, hostile_triangles

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
-from reference_tracer.tracer import visibility
+from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.nearest import NOTHING, film_positions, plan, trace_tile
 from reference_tracer.tracer.probe import Probe
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.triangle import METHODS
-from reference_tracer.tracer.visibility import NOTHING, film_positions, plan, trace_tile
 
 TILE = Region(2, 3, 18, 13)
 PLAIN = Settings("watertight")  # a probe has no certified ray

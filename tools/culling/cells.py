@@ -11,8 +11,8 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
 from reference_tracer.report import plots
-from reference_tracer.tracer.cover import Boxes, _cells
-from reference_tracer.tracer.depth_buffer import COARSE, FINE, DepthBuffer
+from reference_tracer.tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
+from reference_tracer.tracer.certified.sweep.rasterise import Boxes, _cells
 
 from .scenes import ahead, mesh, scene, sheet, sphere
 from .watched import Watched, watch

@@ -13,17 +13,18 @@ from unittest.mock import patch
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.scene import Region, Scene
-from reference_tracer.tracer import render, sweep
-from reference_tracer.tracer.certainty import Certainty
-from reference_tracer.tracer.cover import Boxes, Covered
-from reference_tracer.tracer.depth_buffer import DepthBuffer
-from reference_tracer.tracer.film import Film
-from reference_tracer.tracer.footprints import Footprints
+from reference_tracer.tracer import render
+from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.certified.sweep import sweep
+from reference_tracer.tracer.certified.sweep.chunks import Expanded
+from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer
+from reference_tracer.tracer.certified.sweep.edge_functions import Footprints
+from reference_tracer.tracer.certified.sweep.film import Film
+from reference_tracer.tracer.certified.sweep.fragments import Kept
+from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Covered
+from reference_tracer.tracer.certified.sweep.verdict import Verdict
 from reference_tracer.tracer.hits import Hits, Statistics
-from reference_tracer.tracer.kept import Kept
-from reference_tracer.tracer.pieces import Expanded
 from reference_tracer.tracer.settings import Settings
-from reference_tracer.tracer.verdict import Verdict
 
 
 @dataclass(frozen=True, eq=False)

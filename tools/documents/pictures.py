@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from reference_tracer.images import to_display
-from reference_tracer.report.judge_page import marked
-from reference_tracer.study.students.picture import look
-from reference_tracer.study.students.student import Student
-from reference_tracer.study.students.subject import prepare
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
+from reference_tracer_grading.page import marked
+from reference_tracer_grading.picture import look
+from reference_tracer_grading.student import Student
+from reference_tracer_grading.subject import prepare
 
 from .figures import scene, traced
 

@@ -20,7 +20,7 @@ from ...images import MissingLibraryError, to_display
 from ...scene import Camera, Scene
 from ...study.extremes import Row
 from ...study.trade import Trade
-from ...tracer.certainty import Certainty
+from ...tracer.certified.certainty import Certainty
 from ...tracer.frame import Frame
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report

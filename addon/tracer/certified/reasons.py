@@ -1,0 +1,78 @@
+"""Why the error bound did not decide, in words that a user understands."""
+
+from __future__ import annotations
+
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..camera import Rays
+from ..vector import cross
+from .bounds import BOUND, SLACK
+
+
+class Reason(Enum):
+    """What about a ray and a surface needed exact arithmetic."""
+
+    EDGE = "meet an edge or a corner exactly"
+    NEAR_EDGE = "pass an edge within rounding error"
+    FAR = "meet triangles that are tiny for their distance from the camera"
+    THIN = "meet slivers: triangles that are tiny in height for their length"
+    EDGE_ON = "meet surfaces that are seen edge-on"
+    COPLANAR = "meet surfaces that lie exactly in one plane"
+    CLOSE = "meet surfaces closer behind one another than float64 can tell"
+    CLIP = "meet a surface within rounding error of the clip range's ends"
+    EXTREME = "have numbers near the limits of float64"
+
+
+# Below this ratio a property is nothing unusual: it costs three of float64's sixteen digits.
+_ORDINARY = 1e3
+
+
+def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
+    """Return for n rays, each in doubt of a triangle's edge (3, 3, n), what is unusual about it."""
+    a, b, c = corners
+    with np.errstate(all="ignore"):
+        sides = [_length(side) for side in (b - a, c - b, a - c)]
+        longest = np.maximum(np.maximum(*sides[:2]), sides[2])
+        normal = cross((b - a) / longest, (c - a) / longest)  # by units, lest it underflow
+        height = _length(normal)
+        speed, distance = _length(rays.directions), _length(a - rays.origins)
+        d = rays.directions / speed
+        cosine = np.abs(d[0] * normal[0] + d[1] * normal[1] + d[2] * normal[2]) / height
+        ratios = np.stack((distance / longest, 1 / height, 1 / cosine))
+        # Of e, T and D: beyond these, it is not the digits that are too few, but the exponent.
+        sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
+        extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
+    named = Reason.FAR, Reason.THIN, Reason.EDGE_ON
+    out = []
+    for column, beyond in zip(np.nan_to_num(ratios, nan=np.inf).T, extreme, strict=True):
+        if beyond:
+            out.append(Reason.EXTREME)
+        elif column.max() <= _ORDINARY:
+            out.append(Reason.NEAR_EDGE)
+        else:
+            out.append(named[int(column.argmax())])
+    return out
+
+
+def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
+    """Return what the scene required, a fact a line: the whole, then each reason with its count."""
+    exact = sum(counts.values())
+    if not exact:
+        return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
+    order = list(Reason)
+    return [
+        f"{exact:,} of {pairs:,} pairs of a ray and a surface (one in {pairs / exact:,.0f}) "
+        "needed exact arithmetic: rays that",
+        *(
+            f"  {reason.value}: {n:,}"
+            for reason, n in sorted(counts.items(), key=lambda i: (-i[1], order.index(i[0])))
+            if n
+        ),
+    ]
+
+
+def _length(v: NDArray) -> NDArray:
+    return np.abs(v).max(axis=0)

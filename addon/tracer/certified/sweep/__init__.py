@@ -1,0 +1,1 @@
+"""The certified picture, sooner; held equal to `plain.py` to the bit by a test."""

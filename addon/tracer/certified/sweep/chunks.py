@@ -1,0 +1,203 @@
+"""The scene in pieces that are worked on together, from the front to the back.
+
+In comes a scene; out go pieces: whole instances whose triangles fit into the memory that there is,
+or a part of one that does not. What lies wholly outside the view is left out by its bounding box,
+so that an instance costs no more than that; no more than one piece is expanded at a time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....scene import Region, Scene
+from ...vector import Vectors, transform_points
+from .film import Film, Vertices
+from .instance_boxes import InstanceBoxes
+
+_CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
+
+Index = NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Triangles first <= k < last of one instance, or all of several (`last` is None)."""
+
+    instances: NDArray[np.int32]
+    first: int = 0
+    last: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Names:
+    """How the scene calls a piece's triangles.
+
+    Those `starts[i]` <= k < `starts[i + 1]` are `instances[i]`'s, from its triangle `first` on.
+    """
+
+    instances: NDArray[np.int32]
+    starts: NDArray[np.intp]
+    first: int
+
+    @property
+    def count(self) -> int:
+        """How many triangles the piece has."""
+        return int(self.starts[-1])
+
+    def of(self, triangle: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle, as the scene counts them, of triangles of the piece."""
+        which = np.searchsorted(self.starts, triangle, side="right") - 1
+        own = triangle - self.starts[which] + self.first
+        return self.instances[which], own.astype(np.int32)
+
+
+class Numbering:
+    """One number for each surface of all pieces, in the order in which the pieces come."""
+
+    def __init__(self) -> None:
+        self._names: list[Names] = []
+        self._starts = np.zeros(1, np.int64)  # the number of the first surface of each
+
+    def enter(self, names: Names) -> int:
+        """Give numbers to a piece's surfaces; returns the first."""
+        start = int(self._starts[-1])
+        self._names.append(names)
+        self._starts = np.append(self._starts, start + names.count)
+        return start
+
+    def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle of surfaces."""
+        out = np.empty((2, len(surface)), np.int32)
+        for names, own, first in self.by_piece(surface):
+            out[:, own] = names.of(surface[own] - first)
+        return out[0], out[1]
+
+    def by_piece(self, surface: Index) -> Iterator[tuple[Names, Index | slice, int]]:
+        """Yield each piece's names, which of the surfaces are its own, and the first's number."""
+        if len(self._names) == 1:
+            yield self._names[0], slice(None), 0
+            return
+        piece = np.searchsorted(self._starts, surface, side="right") - 1
+        order = np.argsort(piece.astype(np.uint16), kind="stable")
+        cuts = np.searchsorted(piece[order], np.arange(len(self._names) + 1))
+        for number, (start, end) in enumerate(pairwise(cuts.tolist())):
+            if start < end:
+                yield self._names[number], order[start:end], int(self._starts[number])
+
+
+@dataclass(frozen=True, eq=False)
+class Expanded:
+    """A piece with its vertices on the film; `corners` (3, m) are those of its triangles."""
+
+    vertices: Vertices
+    corners: NDArray[np.int32]
+    names: Names
+
+
+def pieces(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> list[Piece]:
+    """Return the pieces of what may be in view in a region, of at most `limit` triangles each."""
+    if not scene.instances:
+        return []
+    depth = around.depth
+    counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
+    order = np.flatnonzero(around.in_region(region) & (counts > 0))
+    order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
+    out = []
+    large = counts[order] > limit
+    for instance in order[large].tolist():
+        count = int(counts[instance])
+        for first in range(0, count, limit):
+            out.append(Piece(np.array([instance], np.int32), first, min(first + limit, count)))
+    rest = order[~large]
+    ends = np.cumsum(counts[rest])
+    start = 0
+    while start < len(rest):
+        done = ends[start - 1] if start else 0
+        end = max(start + 1, int(np.searchsorted(ends, done + limit, side="right")))
+        group = rest[start:end]
+        out.append(Piece(group[np.argsort(scene.instance_meshes[group], kind="stable")]))
+        start = end
+    nearest = [depth[piece.instances].min() for piece in out]
+    return [out[k] for k in np.argsort(nearest, kind="stable")]
+
+
+def expand(scene: Scene, film: Film, piece: Piece) -> Expanded:
+    """Return a piece's triangles, with their vertices on the film."""
+    if piece.last is not None:
+        mesh = scene.meshes[scene.instances[piece.instances[0]].mesh]
+        own, corners = _used(mesh.vertices, mesh.triangles[piece.first : piece.last])
+        parts = [(piece.instances, own, corners)]
+    else:
+        of = scene.instance_meshes[piece.instances]
+        parts = []
+        for members in np.split(piece.instances, np.flatnonzero(np.diff(of)) + 1):
+            mesh = scene.meshes[scene.instances[members[0]].mesh]
+            parts.append((members, mesh.vertices, mesh.triangles))
+    total = sum(len(members) * len(v) for members, v, _ in parts)
+    size = max(film.camera.width, film.camera.height)
+    vertices = Vertices.empty(total, np.int16 if size < 1 << 14 else np.int32)
+    corners = np.empty((3, sum(len(m) * len(t) for m, _, t in parts)), np.int32)
+    counts, at, triangle = [], 0, 0
+    with np.errstate(all="ignore"):  # what is not finite is dropped, or decided elsewhere
+        for members, own, triangles in parts:
+            matrices = scene.instance_matrices[..., members]
+            for first, world in _world(matrices, own):
+                film.enter(vertices, at + first, world)
+            copies = corners[:, triangle : triangle + len(members) * len(triangles)]
+            offsets = at + len(own) * np.arange(len(members), dtype=np.int32)
+            copies.reshape(3, len(members), len(triangles))[:] = (
+                triangles.T[:, None] + offsets[:, None]
+            )
+            counts += [len(triangles)] * len(members)
+            at, triangle = at + len(members) * len(own), triangle + copies.shape[1]
+    starts = np.concatenate(([0], np.cumsum(counts)))
+    return Expanded(vertices, corners, Names(piece.instances, starts, piece.first))
+
+
+def _used(vertices: NDArray, triangles: Index) -> tuple[NDArray, Index]:
+    """Return those vertices that some triangles may use, and the triangles that count from them."""
+    low, high = int(triangles.min()), int(triangles.max())
+    if high - low < 3 * len(triangles):
+        return vertices[low : high + 1], triangles - low
+    used, number = np.unique(triangles, return_inverse=True)
+    return vertices[used], number.reshape(triangles.shape)
+
+
+def _world(matrices: NDArray[np.float64], vertices: NDArray) -> Iterator[tuple[int, Vectors]]:
+    """Yield the world positions of vertices (v, 3) in each of k instances, one after the other.
+
+    With the number of the first of them; some thousand at a time.
+    """
+    count, copies = len(vertices), matrices.shape[2]
+    together = max(1, _CHUNK // max(count, 1))
+    for copy in range(0, copies, together):
+        some = matrices[..., copy : copy + together, None]
+        for first in range(0, count, _CHUNK):
+            local = vertices[first : first + _CHUNK].T.astype(np.float64)
+            world = transform_points(some, local[:, None, :])
+            yield copy * count + first, world.reshape(3, -1)
+
+
+def refused(scene: Scene) -> int:
+    """Return how many triangles have a corner that is not finite in world space."""
+    count = 0
+    for instance in scene.instances:
+        mesh = scene.meshes[instance.mesh]
+        with np.errstate(over="ignore", invalid="ignore"):
+            largest = np.abs(mesh.bounds).max(axis=0)
+            m = np.abs(instance.world_from_object[:3])
+            if np.isfinite((m[:, :3] * largest).sum(axis=1) + m[:, 3]).all():
+                continue
+            finite = np.concatenate(
+                [
+                    np.isfinite(world).all(axis=0)
+                    for _, world in _world(instance.world_from_object[..., None], mesh.vertices)
+                ]
+            )
+        count += int((~finite[mesh.triangles]).any(axis=1).sum())
+    return count

@@ -1,0 +1,176 @@
+"""Where vertices appear on the film, in homogeneous pixels, and how far that may be off.
+
+A point of space has p, q, w: it appears at the film position (p / w, q / w), in pixels. Before a
+perspective camera w is the depth; for an orthographic one it is 1. A ray passes the film where its
+pixel says. So a ray and a triangle of space are a point and a triangle of the plane.
+
+Both are rounded, and the rays were before anything was projected. Their errors are bounded together
+as if the rays had none: p and q are off by at most `place`, w by `weight`, and the depth by
+`depth_error`, each linear in the vertex's `size`, the largest coordinate of |v| plus that of |o|.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....scene import Camera
+from ...camera import pixel_size
+from ...candidates import SAFETY, has_sound_axes
+from ...vector import Vectors
+
+_EPS = 2.0**-52
+# Added to a vertex's size: its share in the bounds is far above what gradual underflow may lose.
+_TINY = 2.0**-960
+_OFF = 2  # pixels beyond the picture where boxes end
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Vertices:
+    """Vertices on the film, (v,) each.
+
+    `box` (v, 4) holds, negated where it is an upper end, the pixels whose centres a triangle with
+    this vertex may cover: lowest x, lowest y, -highest x, -highest y. The minimum over its corners
+    is a triangle's own. It holds only where `ahead`: where the vertex surely is before the eye.
+    `nearest` is the most that the nearness (`footprints.py`) of what is seen there can be.
+    """
+
+    p: Floats
+    q: Floats
+    w: Floats
+    depth: Floats
+    size: Floats
+    nearest: Floats
+    box: NDArray[np.integer]
+    ahead: NDArray[np.bool_]
+    finite: NDArray[np.bool_]
+
+    @classmethod
+    def empty(cls, count: int, dtype: np.dtype | type) -> Vertices:
+        """Return room for vertices."""
+        floats = (np.empty(count) for _ in range(6))
+        box = np.empty((count, 4), dtype)
+        return cls(*floats, box, np.empty(count, bool), np.empty(count, bool))
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """A camera's film, for rays that pass their pixel's centre at (dx, dy), at most half a pixel.
+
+    The bounds are those of `candidates.py`, with the largest term of each sum for all of its terms.
+    """
+
+    camera: Camera
+    dx: float = 0.0
+    dy: float = 0.0
+
+    @cached_property
+    def dual(self) -> Floats:
+        """Rows of the inverse of the axes right, up, forward: (3, 3)."""
+        axes = self._axes
+        dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
+        return dual / (axes[0] * dual[0]).sum()
+
+    @cached_property
+    def is_sound(self) -> bool:
+        """Whether the bounds hold; where they do not, they are infinite."""
+        return has_sound_axes(self.camera)
+
+    @cached_property
+    def ray_error(self) -> float:
+        """How far a stored ray's direction may be off, in camera space: relative to its depth.
+
+        Of an orthographic camera: how far its origin may be off, in metres.
+        """
+        c = self.camera
+        reach = self._reach[0] + self._reach[1]
+        axes = np.abs(self._axes).max()
+        length = np.abs(c.origin).max() + axes * reach if c.orthographic else axes * (1 + reach)
+        return 24 * _EPS * self._spread * length
+
+    @cached_property
+    def place(self) -> tuple[float, float]:
+        """c0, c1: p and q of a vertex are off by at most c0 + c1 size, in pixels (times w)."""
+        c = self.camera
+        if not self.is_sound:
+            return np.inf, 0.0
+        window = (c.window.left, c.window.bottom)
+        constant, slope = 0.0, 0.0
+        for start, size, reach in zip(window, pixel_size(c), self._reach, strict=True):
+            film = SAFETY * _EPS * (abs(start / size) + c.width + c.height)
+            if c.orthographic:
+                slope = max(slope, (SAFETY + 8) * _EPS * self._spread / size)
+                constant = max(constant, film + 2 * self.ray_error / size)
+            else:  # |w| <= spread * size; an error along the axis moves a ray by its film position
+                own = (SAFETY + 8) * _EPS * (1 + abs(start)) / size
+                ray = 2 * self.ray_error * (1 + reach) / size
+                slope = max(slope, self._spread * (own + film + ray))
+        return constant, slope
+
+    @cached_property
+    def weight(self) -> float:
+        """c: w of a vertex is off by at most c size."""
+        if not self.is_sound:
+            return np.inf
+        return 0.0 if self.camera.orthographic else SAFETY * _EPS * self._spread
+
+    @cached_property
+    def depth_error(self) -> tuple[float, float]:
+        """c0, c1: the t of a vertex is off by at most c0 + c1 size, orthographic."""
+        return 2 * self.ray_error if self.is_sound else np.inf, SAFETY * _EPS * self._spread
+
+    def enter(self, vertices: Vertices, first: int, world: Vectors) -> None:
+        """Project world points (3, n) into the n of these vertices from `first` on."""
+        part = slice(first, first + world.shape[1])
+        camera, window = self.camera, self.camera.window
+        x, y, z = np.abs(world)
+        size = np.maximum(np.maximum(x, y), z)
+        vertices.finite[part] = np.isfinite(size)
+        size += np.abs(camera.origin).max() + _TINY
+        q = world - camera.origin[:, None]
+        right, up, depth = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2] for d in self.dual)
+        w = np.ones(1) if camera.orthographic else depth
+        width, height = pixel_size(camera)
+        x = (right - window.left * w) * (1 / width) - self.dx * w
+        y = (up - window.bottom * w) * (1 / height) - self.dy * w
+        vertices.p[part], vertices.q[part], vertices.w[part] = x, y, w
+        vertices.depth[part], vertices.size[part] = depth, size
+        # From here on film positions. Where w is off by less than a thousandth, what appears far
+        # beside the picture truly lies on that side of it, and the rest at most `margin` away.
+        constant, slope = self.place
+        margin = constant + slope * size
+        if not camera.orthographic:
+            vertices.ahead[part] = w > 2.0**10 * self.weight * size
+            x, y = x / w, y / w
+            margin += 2 * max(camera.width, camera.height) * self.weight * size
+            margin /= w
+            before = np.maximum(w - self.weight * size, camera.clip_start)
+            vertices.nearest[part] = (1 + 2.0**-48 + 2 * self.ray_error) / before
+        else:
+            vertices.ahead[part] = self.is_sound
+            constant, slope = self.depth_error
+            vertices.nearest[part] = (constant + slope * size) - depth
+        margin = 1.01 * margin + 0.5
+        for axis, (at, end) in enumerate(((x, camera.width), (y, camera.height))):
+            vertices.ahead[part] &= np.isfinite(at)
+            vertices.box[part, axis] = np.clip(np.ceil(at - margin), -_OFF, end + _OFF)
+            highest = np.floor(at + margin) - 1
+            vertices.box[part, 2 + axis] = np.clip(-highest, -end - _OFF, _OFF)
+
+    @property
+    def _axes(self) -> Floats:
+        return np.stack((self.camera.right, self.camera.up, self.camera.forward))
+
+    @property
+    def _spread(self) -> float:
+        return float(np.abs(self.dual).sum())
+
+    @property
+    def _reach(self) -> tuple[float, float]:
+        w = self.camera.window
+        return max(abs(w.left), abs(w.right)), max(abs(w.bottom), abs(w.top))

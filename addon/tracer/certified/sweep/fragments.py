@@ -1,0 +1,61 @@
+"""What pixels keep: surfaces that may be their nearest, in the range in which they are seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....scene import Camera
+from ..bounds import U
+
+Index = NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class Kept:
+    """c pairs of a pixel and a surface that may be its nearest, (c,) each.
+
+    `surface` counts the triangles of all pieces; `nearest` is the most that its nearness can be;
+    `sure` whether it is hit for sure.
+    """
+
+    pixel: Index
+    surface: Index
+    nearest: NDArray[np.float64]
+    sure: NDArray[np.bool_]
+
+    def take(self, index: Index) -> Kept:
+        """Return those at `index`."""
+        return Kept(*(v.take(index) for v in vars(self).values()))
+
+    @staticmethod
+    def joined(parts: Sequence[Kept]) -> Kept:
+        """Return them all as one."""
+        return Kept(
+            *(np.concatenate(f) for f in zip(*(vars(p).values() for p in parts), strict=True))
+        )
+
+
+class ClipRange:
+    """The camera's clip range as nearness, with room for its own rounding."""
+
+    def __init__(self, camera: Camera) -> None:
+        if camera.orthographic:
+            ends = -camera.clip_end, -camera.clip_start
+            room = 0.0
+        else:
+            ends = 1 / camera.clip_end, 1 / camera.clip_start
+            room = 4 * U
+        self._outer = ends[0] * (1 - room), ends[1] * (1 + room)
+        self._inner = ends[0] * (1 + room), ends[1] * (1 - room)
+
+    def inside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
+        """Return which surely are in the range, of nearnesses between these."""
+        return (least > self._inner[0]) & (most < self._inner[1])
+
+    def outside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
+        """Return which surely are not."""
+        return (most < self._outer[0]) | (least > self._outer[1])

@@ -1,0 +1,253 @@
+"""The certified picture of a region: what a front-to-back sweep proves, and what it leaves open.
+
+In comes a scene; out go `Hits`. Pieces of the scene are swept from the front to the back. What a
+depth buffer of sure hits hides is dropped, most of it unseen; of the rest every pixel keeps those
+triangles that may be its nearest. `verdict.py` says which of them is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ....scene import Plane, Region, Scene
+from ...camera import camera_rays, film_positions_of
+from ...hits import NOTHING, Hits, Statistics
+from ...progress import Steps, Work, quiet, timed
+from ...vector import gather
+from ..bounds import U, plane_depths
+from .chunks import Expanded, Names, Numbering, Piece, expand, pieces
+from .depth_bins import slabs
+from .depth_buffer import FINE, DepthBuffer
+from .edge_functions import Footprints, footprints
+from .film import Film
+from .fragments import ClipRange, Kept
+from .instance_boxes import InstanceBoxes
+from .rasterise import LARGE, Boxes, Covered, covered, split
+from .triangle_boxes import boxes_of
+from .verdict import Verdict
+
+_TRIANGLES = 1 << 15  # looked at together
+_PIXELS = 1 << 15  # of a plane, at a time
+_BYTES_PER_TRIANGLE = 128  # of a piece, with its vertices
+
+Index = NDArray[np.integer]
+
+
+def sweep(
+    scene: Scene,
+    region: Region,
+    memory: int,
+    dx: float = 0.0,
+    dy: float = 0.0,
+    statistics: Statistics | None = None,
+) -> Work[Hits]:
+    """Find the nearest hits of a region's rays, with proof, in small steps.
+
+    Parameters
+    ----------
+    scene : Scene
+    region : Region
+        Of n pixels, within the camera's.
+    memory : int
+        Bytes that a piece of the scene may take, about.
+    dx, dy : float
+        Where each ray passes its pixel's centre, in pixels; at most half a pixel.
+    statistics : Statistics, optional
+        To count in.
+
+    Returns
+    -------
+    Hits
+        Of the n rays, row by row from the lowest.
+    """
+    swept = Sweep(scene, Film(scene.camera, dx, dy), region, statistics or Statistics())
+    return quiet(swept.steps(max(1, memory // _BYTES_PER_TRIANGLE)))
+
+
+class Sweep:
+    """A region's pixels on the way to being decided.
+
+    Parameters
+    ----------
+    film : Film
+    region : Region
+        Within the camera's.
+    statistics : Statistics
+        To count in.
+    """
+
+    def __init__(self, scene: Scene, film: Film, region: Region, statistics: Statistics) -> None:
+        self._scene, self._film, self._statistics = scene, film, statistics
+        self._depths = DepthBuffer(region)
+        self._clip = ClipRange(film.camera)
+        self._kept: list[Kept] = []
+        self._numbers = Numbering()
+
+    def steps(self, limit: int) -> Work[Hits]:
+        """Sweep the scene in pieces of at most `limit` triangles, and decide every pixel."""
+        stages = self._statistics.stages
+        for _ in timed(self.enter_planes(), stages):
+            yield 0.0
+        around = InstanceBoxes.of(self._scene, self._film) if self._scene.instances else None
+        parts = pieces(self._scene, around, self._depths.region, limit)
+        for number, piece in enumerate(parts):
+            if self._kept:
+                piece = self._not_behind(piece, around)
+            for _ in timed(self.enter(piece), stages):
+                yield 0.6 * number / len(parts)
+        verdict = Verdict(self._scene, self._film, self._depths, self._numbers, self._statistics)
+        return (yield from timed(verdict.steps(self._kept), stages, 0.6))
+
+    def _not_behind(self, piece: Piece, around: InstanceBoxes) -> Piece:
+        """Return a piece without the instances that what is nearer hides."""
+        self._depths.refresh(0, self._depths.region.height)
+        hidden = around.hidden(piece.instances, self._depths)
+        return replace(piece, instances=piece.instances[~hidden])
+
+    def enter_planes(self) -> Steps[None]:
+        """Sweep the infinite planes, in small steps."""
+        planes, first = self._scene.planes, len(self._scene.instances)
+        if not planes:
+            return
+        count = np.arange(len(planes) + 1)
+        start = self._numbers.enter(Names((first + count[:-1]).astype(np.int32), count, NOTHING))
+        size, kept = self._depths.region.width * self._depths.region.height, []
+        for number, infinite in enumerate(planes):
+            for low in range(0, size, _PIXELS):
+                pixel = np.arange(low, min(low + _PIXELS, size))
+                kept.append(self._keep_plane(infinite, pixel, start + number))
+                yield "planes"
+        self._kept.append(Kept.joined(kept))
+
+    def _keep_plane(self, infinite: Plane, pixel: Index, surface: int) -> Kept:
+        film = self._film
+        px, py = film_positions_of(self._depths.region, pixel, film.dx, film.dy)
+        rays = camera_rays(film.camera, px, py)
+        depths = plane_depths(rays, infinite.point[:, None], infinite.normal[:, None])
+        low, high = (np.broadcast_to(v, pixel.shape) for v in depths.interval())
+        if film.camera.orthographic:
+            least, most = -high, np.where(np.isfinite(high), -low, np.inf)
+        else:
+            least, most = (1 - 4 * U) / high, (1 + 4 * U) / np.maximum(low, 0)
+        place, of = self._depths.places(pixel), np.full(len(pixel), surface)
+        return self._keep(place, of, least, most, np.isfinite(high))
+
+    def enter(self, piece: Piece) -> Steps[None]:
+        """Sweep the triangles of a piece, in small steps; yields which stage of work each was."""
+        if not len(piece.instances):
+            return
+        region = self._depths.region
+        expanded = expand(self._scene, self._film, piece)
+        start = self._numbers.enter(expanded.names)
+        yield "project"
+        low, high, nearest = self._boxes(expanded)
+        yield "boxes"
+        corner = np.array([[region.x0], [region.y0]], low.dtype)
+        extent = np.array([[region.width - 1], [region.height - 1]], low.dtype)
+        part_low = np.maximum(low - corner, 0)
+        part_high = np.minimum(high - corner, extent)
+        fits = part_low <= part_high
+        seen = np.flatnonzero(fits[0] & fits[1])
+        if not len(seen):
+            return
+        yield "boxes"
+        kept: list[Kept] = []
+        parts, y0, y1 = slabs(seen, nearest, part_low, part_high)
+        yield "slabs"
+        for number, slab in enumerate(parts):
+            if number or self._kept:
+                self._depths.refresh(y0, y1)
+            for first in range(0, len(slab), _TRIANGLES):
+                some = slab[first : first + _TRIANGLES]
+                boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
+                open_ = self._not_hidden(boxes, gather(nearest, some))
+                if not len(open_):
+                    continue
+                # Sorted by shape, so that what is evaluated together lies together.
+                shape = boxes.take(open_).shape
+                order = np.argsort(shape, kind="stable")
+                open_, shape = open_.take(order), shape.take(order)
+                some = some.take(open_)
+                origin = gather(low, some)
+                width, height = gather(high, some) - origin
+                found = footprints(
+                    self._film,
+                    expanded.vertices,
+                    gather(expanded.corners, some),
+                    gather(nearest, some),
+                    origin,
+                    np.maximum(width, height) + 1.0,
+                )
+                boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
+                yield "footprints"
+                for pairs in self._pairs(found, boxes, shape):
+                    kept.append(self._keep_pairs(found, pairs, start + some))
+                    yield "pixels"
+        if kept:
+            self._kept.append(Kept.joined(kept))
+
+    def _boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
+        return boxes_of(self._scene, self._film, expanded)
+
+    def _not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
+        """Return which boxes, where they are small, are not wholly behind the depth buffer."""
+        farthest = np.full(len(nearest), -np.inf)
+        small = np.flatnonzero((boxes.high - boxes.low).max(axis=0) < FINE)
+        (x0, y0), (x1, y1) = gather(boxes.low, small), gather(boxes.high, small)
+        farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
+        return np.flatnonzero(~(nearest < farthest))
+
+    def _pairs(
+        self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]
+    ) -> Iterator[Covered]:
+        """Yield the pairs of sorted boxes, the large ones last, each with its own footprint."""
+        large = int(np.searchsorted(shape, LARGE))
+        parts = list(covered(found, boxes, shape[:large], self._depths))
+        rest = np.arange(large, len(found.row))  # and those that occur twice
+        row = found.row.take(rest)
+        rest = Boxes(rest, boxes.low.take(row, axis=1), boxes.high.take(row, axis=1))
+        for some in split(found, rest, self._depths) if len(row) else ():
+            order = np.argsort(own := some.shape, kind="stable")
+            parts += covered(found, some.take(order), own.take(order), self._depths)
+            if parts:
+                yield _joined(parts)
+                parts = []
+        if parts:
+            yield _joined(parts)
+
+    def _keep_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Kept:
+        error = gather(found.nearness_error, pairs.owner)
+        least, most = pairs.nearness - error, pairs.nearness + error
+        np.minimum(most, gather(found.nearest, pairs.owner), out=most)
+        sure = pairs.least > gather(found.edge_error, pairs.owner)
+        sure &= gather(found.sure, pairs.owner)
+        return self._keep(
+            pairs.pixel, gather(surface.take(found.row), pairs.owner), least, most, sure
+        )
+
+    def _keep(
+        self, pixel: Index, surface: Index, least: NDArray, most: NDArray, sure: NDArray[np.bool_]
+    ) -> Kept:
+        """Enter the sure hits into the depth buffer; return what may be the nearest."""
+        self._statistics.pairs_tested += len(pixel)
+        sure = sure & self._clip.inside(least, most)
+        certain = np.flatnonzero(sure)
+        if len(certain) == len(sure):
+            self._depths.enter(pixel, least)
+            keep = ~(most < gather(self._depths.nearness, pixel))
+        else:
+            self._depths.enter(gather(pixel, certain), gather(least, certain))
+            keep = ~(most < gather(self._depths.nearness, pixel))
+            keep &= ~self._clip.outside(least, most)
+        keep = np.flatnonzero(keep)
+        return Kept(*(gather(v, keep) for v in (pixel, surface, most, sure)))
+
+
+def _joined(parts: Sequence[Covered]) -> Covered:
+    return Covered(
+        *(np.concatenate(f) for f in zip(*(vars(p).values() for p in parts), strict=True))
+    )

@@ -1,0 +1,113 @@
+"""What is measured: which scene, at which size, through which camera, beside which peers.
+
+All is beside embreex. The others are so slow that only some pictures have them: the whole takes
+less than half an hour, the quick one less than 2 minutes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from reference_tracer.scene import SceneError
+
+from . import scenes
+from .scenes import ORTHOGRAPHIC, PERSPECTIVE, SUBJECTS
+
+SMALL, LARGE = (480, 270), (1920, 1080)  # pixels
+QUICK_ADVERSARIAL = "slivers_20k", "inside_soup"
+QUICK_LARGE = "cube", "icosphere_82k", "suzanne"
+QUICK_CYCLES = "cube", "icosphere_82k"
+MANY = 200_000  # triangles: an R-tree of more takes minutes and gigabytes to build
+REPEATS, QUICK_REPEATS = 5, 3
+BLENDER = frozenset({"bvhtree", "cycles", "workbench"})
+
+
+@dataclass(frozen=True)
+class Case:
+    """One picture, and the slow peers that it is held against."""
+
+    scene: str
+    width: int
+    height: int
+    camera: str
+    peers: frozenset[str] = frozenset()
+
+    @property
+    def cost(self) -> float:
+        """About how long it takes, in some unit."""
+        return self.width * self.height + SUBJECTS[self.scene].triangles + 500_000
+
+    @property
+    def title(self) -> str:
+        """Say which it is."""
+        return f"{self.scene}, {self.width} x {self.height}, {self.camera}"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All cases, scene by scene, and how long they may take."""
+
+    cases: tuple[Case, ...]
+    quick: bool
+    repeats: int
+    budget: float  # seconds for the repeats of one case
+    slow: float  # seconds for each peer that is measured on a sample of rays
+    seconds: float = 1e9  # for all: who comes late gets fewer rounds
+
+
+def plan(names: list[str] | None = None, quick: bool = False, repeats: int | None = None) -> Plan:
+    """Return what is to be measured.
+
+    Parameters
+    ----------
+    names : list of str, optional
+        Scenes; all by default, but for --quick, which leaves out some of the adversarial.
+    quick : bool
+    repeats : int, optional
+        Rounds of every case, if they fit its time.
+
+    Raises
+    ------
+    SceneError
+        If there is no such scene, or there are to be fewer rounds than one.
+    """
+    if repeats is not None and repeats < 1:
+        raise SceneError(f"--repeats is {repeats}; it must be at least 1")
+    chosen = [scenes.subject(name).name for name in dict.fromkeys(names or _default(quick))]
+    cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
+    if quick:
+        return Plan(
+            tuple(cases), True, repeats or QUICK_REPEATS, budget=5.0, slow=0.3, seconds=100.0
+        )
+    return Plan(tuple(cases), False, repeats or REPEATS, budget=10.0, slow=3.0, seconds=1200.0)
+
+
+def _default(quick: bool) -> list[str]:
+    groups = (scenes.EVERYDAY,) if quick else (scenes.EVERYDAY, scenes.ADVERSARIAL, scenes.SCALING)
+    found = [s.name for s in SUBJECTS.values() if s.group in groups]
+    return [*found, *QUICK_ADVERSARIAL] if quick else found
+
+
+def _quick(name: str) -> list[Case]:
+    peers = {"bvhtree"} if name in QUICK_CYCLES else set()
+    peers |= {"cycles", "workbench"} if name in QUICK_CYCLES else set()
+    peers |= {"rtree"} if SUBJECTS[name].triangles <= 10_000 else set()
+    found = [Case(name, *SMALL, PERSPECTIVE, frozenset(peers))]
+    if SUBJECTS[name].group == scenes.EVERYDAY:
+        found.append(Case(name, *SMALL, ORTHOGRAPHIC))
+    return [*found, Case(name, *LARGE, PERSPECTIVE)] if name in QUICK_LARGE else found
+
+
+def _whole(name: str) -> list[Case]:
+    subject = SUBJECTS[name]
+    if subject.group == scenes.SCALING:
+        return [Case(name, *LARGE, PERSPECTIVE)]
+    peers = set(BLENDER) if subject.group == scenes.EVERYDAY else set()
+    if subject.triangles <= MANY and subject.group == scenes.EVERYDAY:
+        peers.add("rtree")
+    return [
+        Case(name, *SMALL, PERSPECTIVE),
+        Case(name, *SMALL, ORTHOGRAPHIC),
+        Case(name, *LARGE, PERSPECTIVE, frozenset(peers)),
+        Case(name, *LARGE, ORTHOGRAPHIC),
+    ]

@@ -1,0 +1,143 @@
+"""The scenes of the benchmark, by name: a mesh and a view of it, through either camera.
+
+In comes a name, a size in pixels and the kind of camera; out goes a `scene.Scene`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from reference_tracer.scene import Camera, Instance, Mesh, Scene, SceneError, ViewWindow
+
+from . import meshes
+from .meshes import Triangles
+
+Vector = tuple[float, float, float]
+PERSPECTIVE, ORTHOGRAPHIC = CAMERAS = "perspective", "orthographic"
+EVERYDAY, ADVERSARIAL, SCALING = "everyday", "adversarial", "scaling"
+SUZANNE_FILE = "monkey.npz"  # not a name that somebody exports a scene to
+
+
+@dataclass(frozen=True)
+class View:
+    """Where the cameras stand, and how much they see."""
+
+    eye: Vector
+    target: Vector
+    angle: float  # tangent of half the vertical angle of view (perspective)
+    height: float  # metres from the picture's middle to its upper edge (orthographic)
+    clip: tuple[float, float]  # metres along the view axis
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What is measured: a mesh and how it is looked at."""
+
+    name: str
+    triangles: int
+    mesh: Callable[[], Triangles] | None  # None for the one that Blender makes
+    view: View
+    group: str = EVERYDAY
+
+
+_AROUND = View((2.7, -2.5, 1.7), (0, 0, 0), 0.28, 1.12, (0.5, 10.0))  # frames the unit sphere
+_CUBE = View((3.9, -3.6, 2.5), (0, 0, 0), 0.32, 1.85, (0.5, 15.0))  # frames the cube's corners
+_GRAZING = View((0.1, -1.35, 0.19), (0, 0, 0.02), 0.4, 0.24, (0.01, 10.0))
+_INSIDE = View((0.01, 0.02, 0.03), (1, 0.4, 0.2), 0.5, 0.5, (0.001, 10.0))
+
+SUBJECTS = {
+    s.name: s
+    for s in (
+        Subject("cube", 12, meshes.cube, _CUBE),
+        Subject("icosphere_5k", 5_120, partial(meshes.icosphere, 4), _AROUND),
+        Subject("icosphere_82k", 81_920, partial(meshes.icosphere, 6), _AROUND),
+        Subject("icosphere_1m", 1_310_720, partial(meshes.icosphere, 8), _AROUND),
+        Subject("heightfield", 500_000, partial(meshes.heightfield, 500), _GRAZING),
+        Subject("soup_10k", 10_000, partial(meshes.soup, 10_000, 0.1), _CUBE),
+        Subject("suzanne", meshes.SUZANNE, None, _AROUND),
+        Subject("slivers_20k", 20_000, partial(meshes.slivers, 20_000), _CUBE, ADVERSARIAL),
+        Subject("slivers_100k", 100_000, partial(meshes.slivers, 100_000), _CUBE, ADVERSARIAL),
+        Subject(
+            "large_100k", 100_000, partial(meshes.large_triangles, 100_000), _CUBE, ADVERSARIAL
+        ),
+        Subject("small_1m", 1_000_000, partial(meshes.soup, 1_000_000, 0.005), _CUBE, ADVERSARIAL),
+        Subject(
+            "nested_spheres", 1_310_720, partial(meshes.nested_spheres, 64, 5), _AROUND, ADVERSARIAL
+        ),
+        Subject("inside_soup", 10_000, partial(meshes.soup, 10_000, 0.1), _INSIDE, ADVERSARIAL),
+        Subject("icosphere_5m", 5_242_880, partial(meshes.icosphere, 9), _AROUND, SCALING),
+    )
+}
+# Of one shape, so that only the number of triangles tells them apart.
+SCALED = "icosphere_5k", "icosphere_82k", "icosphere_1m", "icosphere_5m"
+
+
+def subject(name: str) -> Subject:
+    """Return the scene of a name.
+
+    Raises
+    ------
+    SceneError
+        If there is none, naming those that there are.
+    """
+    if name not in SUBJECTS:
+        raise SceneError(f"there is no benchmark scene '{name}': choose of {', '.join(SUBJECTS)}")
+    return SUBJECTS[name]
+
+
+def mesh_of(name: str, cache: Path) -> Mesh:
+    """Return a scene's mesh.
+
+    Parameters
+    ----------
+    name : str
+        One of SUBJECTS.
+    cache : Path
+        The folder with SUZANNE_FILE.
+
+    Raises
+    ------
+    meshes.MissingMeshError
+        If it is one that Blender makes, and has not made.
+    """
+    make = subject(name).mesh or partial(meshes.stored, cache / SUZANNE_FILE)
+    return Mesh(*make(), name=name)
+
+
+def build(mesh: Mesh, width: int, height: int, camera: str) -> Scene:
+    """Return the scene of a mesh from :func:`mesh_of`, through one of CAMERAS.
+
+    A scene keeps tables once they are made: a new one has none yet.
+    """
+    view = subject(mesh.name).view
+    return Scene(
+        camera_of(view, width, height, camera == ORTHOGRAPHIC),
+        (mesh,),
+        (Instance(0, 0, np.eye(4)),),
+        objects=(mesh.name,),
+    )
+
+
+def camera_of(view: View, width: int, height: int, orthographic: bool) -> Camera:
+    """Return the camera of a view: its picture is `width` x `height` pixels, which are square."""
+    backward = np.subtract(view.eye, view.target)
+    right = np.cross((0.0, 0.0, 1.0), backward)
+    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = axes / np.linalg.norm(axes, axis=0), view.eye
+    y = view.height if orthographic else view.angle
+    x = y * width / height
+    return Camera(
+        matrix,
+        ViewWindow(-x, x, -y, y),
+        width,
+        height,
+        orthographic=orthographic,
+        clip_start=view.clip[0],
+        clip_end=view.clip[1],
+        name=ORTHOGRAPHIC if orthographic else PERSPECTIVE,
+    )

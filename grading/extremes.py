@@ -1,0 +1,131 @@
+"""How far a student's function holds as scenes grow extreme, beside the textbook's own formulas.
+
+In come the scenarios of numerical stability; out go rows, one for each scale of each: how many rays
+see another surface than the certified one. That is not held against anyone: in float64 every plain
+formula gives way somewhere. The yardstick is the textbook in float64, and Möller and Trumbore.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from reference_tracer.study.scenarios.scenario import QUICK_HEIGHT, QUICK_WIDTH, Scenario
+from reference_tracer.study.scenarios.sweeps import SCENARIOS
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.progress import Work, result_of
+from reference_tracer.tracer.settings import Method
+from reference_tracer.tracer.triangle import METHODS
+
+from .known import Ask, Floats
+from .picture import EXCUSED, Mark, look
+from .subject import Subject, prepare
+
+_FINE = {m.name.lower() for m in (Mark.RIGHT, *EXCUSED)}
+YARDSTICKS = Method.TEXTBOOK, Method.MOLLER_TRUMBORE
+
+
+@dataclass(frozen=True, eq=False)
+class ExtremeScene:
+    """A scenario at one of its scales, with the rays that each yardstick loses."""
+
+    scenario: Scenario
+    scale: float
+    subject: Subject
+    yardsticks: dict[str, int]
+
+
+@dataclass(frozen=True)
+class ExtremeRow:
+    """What a student's function loses there; counts are of rays."""
+
+    scenario: str
+    scale: float
+    rays: int
+    lost: int  # that see another surface than the certified one
+    pixels: dict[str, int]  # how many have each mark, by its name; what none has is left out
+    yardsticks: dict[str, int]  # lost by the textbook's formulas, and by others, in float64
+
+    @property
+    def wrong(self) -> bool:
+        """Whether something is wrong that rounding does not excuse."""
+        return not set(self.pixels) <= _FINE
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the row as JSON can hold it."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class Held:
+    """The first scale of a scenario at which a ray is lost; None for never."""
+
+    scenario: str
+    student: float | None
+    wrong: float | None  # the first at which something is wrong that rounding does not excuse
+    yardsticks: dict[str, float | None]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        return asdict(self)
+
+
+def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[ExtremeScene]]:
+    """Prepare every scale of some scenarios, in small pictures."""
+    every = [(s, scale) for s in scenarios for scale in s.scales]
+    out = []
+    for done, (scenario, scale) in enumerate(every):
+        yield done / len(every)
+        scene = scenario.build(scale, QUICK_WIDTH, QUICK_HEIGHT)
+        subject = result_of(prepare(scenario.name, scene, pixels=None))
+        lost = {m.value: result_of(look(subject, plain(m))).lost for m in YARDSTICKS}
+        out.append(ExtremeScene(scenario, scale, subject, lost))
+    return out
+
+
+def plain(method: Method) -> Ask:
+    """Return one of the tracer's own plain methods as a student would have written it."""
+    test = METHODS[method]
+
+    def intersect(origins: Floats, directions: Floats, triangles: Floats) -> tuple[Floats, Floats]:
+        hit, t, s = test(Rays(origins.T, directions.T), *triangles.transpose(1, 2, 0))
+        with np.errstate(invalid="ignore"):
+            return np.where(hit & (t > 0), t, np.inf), s.T
+
+    return intersect
+
+
+def try_extremes(
+    scenes: Sequence[ExtremeScene], ask: Ask, before: Callable[[], None] = lambda: None
+) -> Work[list[ExtremeRow]]:
+    """Return what a function loses of every scene; `before` is called before each."""
+    rows = []
+    for done, e in enumerate(scenes):
+        yield done / len(scenes)
+        before()
+        found = result_of(look(e.subject, ask))
+        pixels = {name: n for name, n in found.counts.items() if n}
+        rays = len(e.subject.t)
+        rows.append(ExtremeRow(e.scenario.name, e.scale, rays, found.lost, pixels, e.yardsticks))
+    return rows
+
+
+def held(rows: Sequence[ExtremeRow]) -> list[Held]:
+    """Return up to where each scenario holds, in the order of the rows."""
+    sweeps: dict[str, list[ExtremeRow]] = {}
+    for row in rows:
+        sweeps.setdefault(row.scenario, []).append(row)
+    return [
+        Held(
+            name,
+            next((r.scale for r in sweep if r.lost), None),
+            next((r.scale for r in sweep if r.wrong), None),
+            {
+                m: next((r.scale for r in sweep if r.yardsticks[m]), None)
+                for m in sweep[0].yardsticks
+            },
+        )
+        for name, sweep in sweeps.items()
+    ]

@@ -1,0 +1,184 @@
+"""Judgements of students' files -> one HTML page: no network, no script, pictures within.
+
+Whatever comes from a student's file or a scene is escaped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from reference_tracer.images import to_display
+from reference_tracer.report.page.packing import data_uri
+
+from .examples import Example
+from .judging import Judgement
+from .picture import Look, Mark
+from .student_error import StudentError
+from .tables import HEAD, MARKS, NO_BOUNDARY, VERDICTS, dashed, explain, held_rows, row, tallies
+
+_STYLE = Path(__file__).with_name("page.css")
+MARK_COLORS = {  # sRGB; told apart without telling red from green (after Okabe and Ito)
+    Mark.EDGE: (70, 70, 70),
+    Mark.DEPTH_TIE: (86, 180, 233),
+    Mark.MISSED: (213, 60, 0),
+    Mark.FALSE_HIT_IN_FRONT: (112, 40, 122),
+    Mark.FALSE_HIT: (204, 121, 167),
+    Mark.WRONG_ORDER: (0, 80, 178),
+    Mark.WRONG_T: (0, 158, 115),
+    Mark.WRONG_BARYCENTRICS: (236, 200, 30),
+    Mark.WRONG_T_AND_BARYCENTRICS: (122, 98, 12),
+}
+_DIM = 0.35
+_WARNING = (
+    "These numbers were made by <strong>running the students' own code</strong>, in a process of "
+    "its own with a time limit. That is not a sandbox: the code could do whatever the one who "
+    "started it may. This page itself runs nothing."
+)
+
+
+def page(judgements: Sequence[Judgement]) -> str:
+    """Return the page."""
+    head = f"<title>Judged: {escape(', '.join(j.name for j in judgements))}</title>"
+    parts = [
+        "<!doctype html>",
+        f'<html lang="en"><head><meta charset="utf-8">{head}',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f"<style>{_STYLE.read_text(encoding='utf-8')}</style></head><body><main>",
+        "<h1>Students’ ray/triangle tests, judged</h1>",
+        f'<p class="warning">{_WARNING}</p>',
+    ]
+    if len(judgements) > 1:
+        parts.append(_class_table(judgements))
+    parts += [_student(k, j) for k, j in enumerate(judgements)]
+    return "\n".join((*parts, "</main></body></html>", ""))
+
+
+def _class_table(judgements: Sequence[Judgement]) -> str:
+    rows = []
+    for k, j in enumerate(judgements):
+        wrong = dict.fromkeys([e.kind for _, e in j.errors] + [f.name for f in j.faults])
+        link = f'<a href="#s{k}">{escape(j.name)}</a>'
+        rows.append((link, f"{j.score:.1f}", _verdict(j), escape(", ".join(wrong))))
+    return _table(("file", "score", "verdict", "what is wrong"), rows, words=(0, 2, 3))
+
+
+def _verdict(j: Judgement) -> str:
+    return f'<span class="verdict {j.verdict}">{VERDICTS[j.verdict]}</span>'
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]], words: Sequence[int] = (0,)) -> str:
+    """Return a table of cells that are HTML already; the columns of `words` are flush left."""
+    kind = [' class="words"' if k in words else "" for k in range(len(head))]
+    top = "".join(f'<th scope="col"{k}>{h}</th>' for k, h in zip(kind, head, strict=True))
+    body = "".join(
+        "<tr>"
+        + "".join(f"<td{k}>{cell}</td>" for k, cell in zip(kind, cells, strict=True))
+        + "</tr>\n"
+        for cells in rows
+    )
+    return f'<div class="wide"><table><thead><tr>{top}</tr></thead>\n{body}</table></div>'
+
+
+def _student(number: int, j: Judgement) -> str:
+    name = escape(j.name)
+    parts = [f'<section id="s{number}"><h2>{name}</h2>']
+    parts.append(f'<p><span class="score">{j.score:.1f}</span> of 100 {_verdict(j)}</p>')
+    parts += [_error(where, error) for where, error in j.errors]
+    if j.faults:
+        parts.append("<h3>What is wrong</h3><ul>")
+        for f in j.faults:
+            text = f"<code>{f.name}</code> ({f.pairs:,} checks): {escape(f.sentence)}"
+            parts.append(f"<li>{text}.</li>")
+        parts.append("</ul>")
+    if j.printed:
+        parts.append(f"<details><summary>It prints {j.printed:,} bytes</summary>")
+        parts.append(f"<pre>{escape(j.said)}</pre></details>")
+    if counts := tallies(j):
+        parts.append(_table(HEAD, [tuple(map(escape, row(*named))) for named in counts]))
+        parts += [f"<p>{NO_BOUNDARY}.</p>"] * dashed(counts)
+    parts += [_scene(found, j.examples[found.subject.name]) for found in j.looks]
+    if j.extremes:
+        names = "student", "not by rounding", "textbook", "Möller–Trumbore"
+        head = "the first scale at which a ray is lost", *names
+        why = "Does not count: every formula in float64 gives way somewhere. A dot: it never does."
+        parts.append(f"<h3>At the extremes</h3><p>{why}</p>")
+        parts.append(_table(head, [tuple(map(escape, cells)) for cells in held_rows(j)]))
+    return "\n".join((*parts, "</section>"))
+
+
+def _error(where: str, error: StudentError) -> str:
+    lines = dict.fromkeys(f"{file}, line {n}: {text}" for file, n, _, text in error.trace)
+    trace = "\n".join(lines)
+    return (
+        f'<div class="error"><strong>The file’s own error, in {escape(where)}</strong> '
+        f"({error.kind}): {escape(error.message)}<pre>{escape(trace)}</pre></div>"
+    )
+
+
+def _scene(found: Look, examples: Sequence[Example]) -> str:
+    subject = found.subject
+    pictures = (
+        ("the student’s", to_display(found.color)),
+        ("certified", to_display(subject.color)),
+        ("wrong pixels", marked(found)),
+    )
+    figures = "".join(
+        f'<figure><img alt="{escape(subject.name)}: {title}" src="{data_uri(picture)}">'
+        f"<figcaption>{title}</figcaption></figure>"
+        for title, picture in pictures
+    )
+    legend = " ".join(
+        f'<span class="mark" style="--c: rgb{color}">{n:,} {MARKS[m]}</span>'
+        for m, color in MARK_COLORS.items()
+        if (n := found.counts[m.name.lower()])
+    )
+    every = f", every {subject.stride}th pixel of a row and column" if subject.stride > 1 else ""
+    h, w = subject.shape
+    parts = [f"<h3>{escape(subject.name)}</h3>"]
+    parts.append(f'<div class="pictures">{figures}</div>')
+    parts.append(f"<p>{w} × {h} pixels{every}. {legend or 'All are right.'}</p>")
+    parts += [_example(subject, e) for e in examples]
+    return "\n".join(parts)
+
+
+def marked(found: Look) -> NDArray[np.uint8]:
+    """Return the map of marks over the dimmed certified picture, (h, w, 4) sRGB."""
+    grey = to_display(found.subject.color)[..., :3].mean(axis=2, keepdims=True)
+    out = np.full((*found.mark.shape, 4), 255, np.uint8)
+    out[..., :3] = 255 - _DIM * (255 - grey)
+    for mark, color in MARK_COLORS.items():
+        out[found.mark == mark, :3] = color
+    return out
+
+
+def _example(subject, e: Example) -> str:
+    true_t, true_s = e.true
+    t, s = e.answer
+    numbers = (
+        "import numpy as np\n"
+        f"origins = np.array([{_numbers(e.origin)}])\n"
+        f"directions = np.array([{_numbers(e.direction)}])\n"
+        f"triangles = np.array([[{', '.join(map(_numbers, e.triangle))}]])\n"
+        f"# certified: {_said(true_t, true_s)}\n"
+        f"# answered:  {_said(t, s)}\n"
+        "print(intersect(origins, directions, triangles))"
+    )
+    title = f"Pixel ({e.pixel[0]}, {e.pixel[1]}), {escape(e.object)}: {MARKS[e.mark]}"
+    return (
+        f"<details><summary>{title}</summary><pre>{escape(numbers)}</pre>"
+        f"<p>Step by step: <code>{escape(explain(subject, e))}</code></p></details>"
+    )
+
+
+def _numbers(values: NDArray[np.float64]) -> str:
+    return f"[{', '.join(repr(float(v)) for v in values)}]"
+
+
+def _said(t: float, s: NDArray[np.float64]) -> str:
+    if not np.isfinite(t):
+        return "no hit"
+    return f"t = {t!r}, barycentrics {_numbers(s)}"

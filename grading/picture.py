@@ -1,0 +1,160 @@
+"""What a student's function makes of a scene, pixel by pixel, and which of that is wrong.
+
+In come a `Subject` and the function; out goes a `Look`: the student's picture, a `Mark` for every
+pixel, and how many are right, the interior and the boundary apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+from reference_tracer.tracer import shading
+from reference_tracer.tracer.hits import NOTHING, Hits
+from reference_tracer.tracer.nearest import within_clip
+from reference_tracer.tracer.progress import Work
+from reference_tracer.tracer.world import world_corners
+
+from .known import Ask, known
+from .subject import Subject, arrays
+from .tally import Tally
+
+
+class Mark(IntEnum):
+    """What is said of a pixel."""
+
+    RIGHT = 0
+    EDGE = 1  # wrong, but the ray passes within float64's rounding of an edge: not counted
+    DEPTH_TIE = 2  # wrong, but two surfaces are within float64's rounding of one another
+    MISSED = 3  # the nearest triangle is not said to be hit
+    FALSE_HIT_IN_FRONT = 4  # a triangle that the ray does not hit hides the surface that it does
+    FALSE_HIT = 5  # a triangle that the ray does not hit is shown where there is nothing
+    WRONG_ORDER = 6  # both are said to be hit, and the wrong one is taken for the nearer
+    WRONG_T = 7  # the right triangle and barycentrics, with a t that is off by more than rounding
+    WRONG_BARYCENTRICS = 8  # the right triangle and t, and not the right barycentrics
+    WRONG_T_AND_BARYCENTRICS = 9  # the right triangle, and neither
+
+
+EXCUSED = Mark.EDGE, Mark.DEPTH_TIE
+FALSE_HITS = Mark.FALSE_HIT_IN_FRONT, Mark.FALSE_HIT
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """A student's picture of a subject; arrays are (h, w) or flat (n,) as the subject's."""
+
+    subject: Subject
+    hits: Hits
+    color: NDArray[np.float32]  # (h, w, 4)
+    mark: NDArray[np.uint8]  # (h, w)
+    lost: int  # pixels that see another surface than they should, those on the boundary included
+    tally: Tally
+    seconds: float
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many pixels have each mark, by its name."""
+        return {m.name.lower(): int((self.mark == m).sum()) for m in Mark}
+
+
+def look(subject: Subject, ask: Ask, clock: Callable[[], float] = float) -> Work[Look]:
+    """Trace a subject with a student's function, and judge every pixel.
+
+    Parameters
+    ----------
+    subject : Subject
+    ask : callable
+        Takes origins (p, 3), directions (p, 3), triangles (p, 3, 3); returns t (p,) and
+        barycentrics (p, 3).
+    clock : callable, optional
+        Tells the seconds that the function itself has taken so far.
+
+    Raises
+    ------
+    StudentError
+        If the function fails.
+    """
+    began, count = clock(), len(subject.t)
+    reported = np.zeros(count, bool)  # the true triangle is said to be hit
+    found = []
+    for done, (some, truth, *question) in enumerate(subject.questions()):
+        t, s = ask(*question)
+        hit = np.flatnonzero(np.isfinite(t) & within_clip(subject.scene.camera, t))
+        pixel, instance, triangle = some.pixel[hit], some.instance[hit], some.triangle[hit]
+        true = (instance == subject.instance[pixel]) & (triangle == subject.triangle[pixel])
+        reported[pixel[true]] = True
+        found.append((pixel, t[hit], instance, triangle, s[hit], truth.hit[hit]))
+        yield done / len(subject.pairs)
+    hits, really = _nearest(subject, found)
+    false = (hits.triangle != NOTHING) & ~really
+    return _judged(subject, hits, false, reported, clock() - began)
+
+
+def _nearest(subject: Subject, found: list[tuple]) -> tuple[Hits, NDArray[np.bool_]]:
+    """Return the nearest of all that is said to be hit, and whether it truly is."""
+    p = subject.planes
+    hits = Hits(p.t.copy(), p.instance.copy(), p.triangle.copy(), p.s.copy())
+    really = np.ones(len(hits.t), bool)
+    if not found:
+        return hits, really
+    pixel, t, instance, triangle, s, true = (np.concatenate(c) for c in zip(*found, strict=True))
+    order = np.lexsort((triangle, instance, t, pixel))
+    first = order[np.flatnonzero(np.diff(pixel[order], prepend=-1))]
+    first = first[t[first] <= hits.t[pixel[first]]]
+    at = pixel[first]
+    hits.t[at], hits.instance[at], hits.triangle[at] = t[first], instance[first], triangle[first]
+    hits.s[:, at], really[at] = s[first].T, true[first]
+    return hits, really
+
+
+def _judged(subject: Subject, hits: Hits, false, reported, seconds: float) -> Look:
+    wrong = _wrong_surface(subject, hits)
+    mark = np.full(len(wrong), Mark.RIGHT, np.uint8)
+    mark[wrong] = Mark.WRONG_ORDER
+    missed = ~reported & (subject.triangle != NOTHING)
+    mark[wrong & missed] = Mark.MISSED
+    # What hides nothing nearer is no reason: the pixel is wrong for what is missed in front of it.
+    false &= ~(missed & (hits.t > subject.t))
+    shows = subject.instance != NOTHING
+    mark[wrong & false & shows] = Mark.FALSE_HIT_IN_FRONT
+    mark[wrong & false & ~shows] = Mark.FALSE_HIT
+    edge = subject.ambiguous | subject.near_edge
+    mark[wrong & edge] = Mark.EDGE
+    mark[wrong & subject.near_tie & ~edge] = Mark.DEPTH_TIE
+    on_triangle = (subject.triangle != NOTHING) | (hits.triangle != NOTHING)
+    right = ~wrong & (hits.triangle != NOTHING)
+    t_right, s_right = _values(subject, hits, np.flatnonzero(right))
+    inside = right & ~subject.boundary
+    mark[inside & ~s_right] = Mark.WRONG_BARYCENTRICS
+    mark[inside & ~t_right] = Mark.WRONG_T
+    mark[inside & ~t_right & ~s_right] = Mark.WRONG_T_AND_BARYCENTRICS
+    tally = Tally.of(on_triangle, wrong, subject.boundary, right, t_right, s_right)
+    color = shading.colors(subject.scene, hits).reshape(subject.color.shape)
+    h, w = subject.shape
+    return Look(subject, hits, color, mark.reshape(h, w), int(wrong.sum()), tally, seconds)
+
+
+def _wrong_surface(subject: Subject, hits: Hits) -> NDArray[np.bool_]:
+    wrong = (hits.instance != subject.instance) | (hits.triangle != subject.triangle)
+    for pixel in np.flatnonzero(wrong).tolist():
+        if may := subject.ties.get(pixel):
+            wrong[pixel] = (int(hits.instance[pixel]), int(hits.triangle[pixel])) not in may
+    return wrong
+
+
+def _values(
+    subject: Subject, hits: Hits, pixel: NDArray
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return whether t and barycentrics are right within rounding, (n,) each, of some pixels."""
+    t_right, s_right = (np.zeros(len(hits.t), bool) for _ in range(2))
+    corners = world_corners(subject.scene, hits.instance[pixel], hits.triangle[pixel])
+    truth = known(*arrays(subject.rays, pixel, corners))
+    with np.errstate(invalid="ignore"):  # a student's NaN is wrong
+        t_off = np.abs(hits.t[pixel] - truth.t)
+        s_off = np.abs(hits.s[:, pixel].T - truth.s).max(axis=1)
+        t_right[pixel] = (t_off <= truth.t_allowed) | ~np.isfinite(truth.t_allowed)
+        s_right[pixel] = (s_off <= truth.s_allowed) | ~np.isfinite(truth.s_allowed)
+    return t_right, s_right

@@ -1,0 +1,125 @@
+"""Judgements of students' files -> a table, `judge.json`, and the page `judge.html`.
+
+`judge_page.py` has the page; `judge.schema.json` describes the JSON.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from reference_tracer.report.folders import replacing
+
+from .checks import Group
+from .extremes import held
+from .judging import Judgement
+from .page import page
+from .picture import Look
+from .student_error import StudentError
+from .tables import explain
+from .tally import WEIGHTS, Tally
+
+SCHEMA = "reference_tracer.judge/1"
+JSON, PAGE = "judge.json", "judge.html"
+
+_UNITS = {
+    "score": "0 to 100: the mean over the checks and all scenes of the weighted shares",
+    "total": "of the interior: pixels (checks: pairs) where a triangle is, or is said to be, seen",
+    "surface": "of those, with the right triangle",
+    "t": "of those, with the right t, within the rounding of float64",
+    "barycentrics": "of those with the right triangle, with the right barycentrics",
+    "boundary": "pixels where float64 may see another surface: counted apart, not in the score",
+    "stride": "every so many pixels were judged, in both directions",
+    "pixel": "[x, y] of the picture, or of its border, from the lower left",
+    "origin": "metres, world space; so are direction and triangle (p1, p2, p3)",
+    "lost": "rays that see another surface than the certified one",
+    "seconds": "that the student's function itself has taken",
+}
+
+
+def to_dict(judgements: Sequence[Judgement]) -> dict[str, Any]:
+    """Return what `judge.json` holds."""
+    return {
+        "schema": SCHEMA,
+        "units": _UNITS,
+        "weights": WEIGHTS,
+        "checks": {g.name.lower(): _GROUPS[g] for g in Group},
+        "students": [_student(j) for j in judgements],
+    }
+
+
+_GROUPS = {
+    Group.FRONT: "ordinary hits, the corners counter-clockwise as the ray sees them",
+    Group.BACK: "the same from the other side",
+    Group.WHOLE: "hits in whole numbers: nothing is rounded",
+    Group.SCALED: "the first ones, 2^-30, 2^-20 and 2^20 times as large",
+    Group.OUTSIDE: "rays that clearly pass beyond an edge",
+    Group.BESIDE: "rays that pass 1e-9 to 1e-4 of the triangle's height inside or outside an edge",
+    Group.BEHIND: "triangles behind the ray's origin",
+    Group.PARALLEL: "rays parallel to the triangle's plane",
+    Group.EMPTY: "triangles without an area: what is said of them does not count",
+}
+
+
+def _student(j: Judgement) -> dict[str, Any]:
+    return {
+        "file": j.name,
+        "verdict": j.verdict,
+        "score": j.score,
+        "seconds": round(j.seconds, 6),
+        "printed_bytes": j.printed,
+        "printed": j.said,
+        "errors": [_error(where, error) for where, error in j.errors],
+        "faults": [fault.to_dict() for fault in j.faults],
+        "checks": _tally(j.checks),
+        "scenes": [_scene(j, found) for found in j.looks],
+        "extremes": {
+            "rows": [row.to_dict() for row in j.extremes],
+            "held": [h.to_dict() for h in held(j.extremes)],
+        }
+        if j.extremes
+        else None,
+    }
+
+
+def _error(where: str, error: StudentError) -> dict[str, Any]:
+    return {"where": where} | error.to_dict()
+
+
+def _tally(tally: Tally | None) -> dict[str, Any] | None:
+    return tally.to_dict() if tally else None
+
+
+def _scene(j: Judgement, found: Look) -> dict[str, Any]:
+    subject = found.subject
+    height, width = subject.shape
+    return {
+        "name": subject.name,
+        "source": subject.source,
+        "width": width,
+        "height": height,
+        "stride": subject.stride,
+        "first": subject.first,
+        "seconds": round(found.seconds, 6),
+        "pixels": found.counts,
+        "tally": found.tally.to_dict(),
+        "examples": [
+            e.to_dict() | {"explain": explain(subject, e)} for e in j.examples[subject.name]
+        ],
+    }
+
+
+def write(directory: str | Path, judgements: Sequence[Judgement]) -> None:
+    """Write `judge.json` and `judge.html`, both or none.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    text = json.dumps(to_dict(judgements), indent=2, allow_nan=False) + "\n"
+    with replacing(Path(directory), (PAGE, JSON)) as new:
+        (new / JSON).write_text(text, encoding="utf-8")
+        (new / PAGE).write_text(page(judgements), encoding="utf-8")

@@ -1,0 +1,162 @@
+"""Judgements of students' files -> text: a table for each, and a row for each of a class."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import textwrap
+from collections.abc import Sequence
+from pathlib import Path
+
+from reference_tracer.study.extreme_rows import written
+
+from .examples import Example
+from .extremes import held
+from .judging import CHECKS, Judgement
+from .picture import EXCUSED, Mark
+from .subject import Subject
+from .tally import Tally
+
+VERDICTS = {
+    "right": "all right",
+    "boundary": "right but for pixels where float64 may see either surface",
+    "wrong": "wrong",
+    "failed": "failed",
+}
+MARKS = {
+    Mark.RIGHT: "right",
+    Mark.EDGE: "at an edge, within rounding",
+    Mark.DEPTH_TIE: "two surfaces at one depth",
+    Mark.MISSED: "missed",
+    Mark.FALSE_HIT_IN_FRONT: "hit a triangle that the ray misses, in front of what is seen",
+    Mark.FALSE_HIT: "hit, but there is nothing",
+    Mark.WRONG_ORDER: "not the nearest",
+    Mark.WRONG_T: "wrong t",
+    Mark.WRONG_BARYCENTRICS: "wrong barycentrics",
+    Mark.WRONG_T_AND_BARYCENTRICS: "wrong t and wrong barycentrics",
+}
+NO_BOUNDARY = (
+    "boundary -: no ray that counts there passes an edge, or two surfaces, within rounding"
+)
+HEAD = "", "counted", "surface", "t", "barycentrics", "boundary", "score"
+
+
+def explain(subject: Subject, example: Example) -> str:
+    """Return the command that derives an example's pixel, step by step."""
+    source = Path(subject.source)
+    if source.exists() and source.resolve().is_relative_to(Path.cwd()):
+        source = Path(os.path.relpath(source))
+    joined = subprocess.list2cmdline if os.name == "nt" else shlex.join
+    pixel = map(str, example.pixel)
+    return joined(["reftrace", "explain", str(source), "--pixel", *pixel, *subject.camera_options])
+
+
+def percent(share: float) -> str:
+    """Return a share in percent; what is not all is not written as all, nor some as none."""
+    if share in (0, 1):
+        return f"{100 * share:.0f} %"
+    return f"{min(max(100 * share, 0.1), 99.9):.1f} %"
+
+
+def lines(j: Judgement) -> list[str]:
+    """Return what a student wants to know, a fact a line."""
+    out = [f"{j.name}: {VERDICTS[j.verdict]}, score {j.score:.1f} of 100"]
+    for where, error in j.errors:
+        out += wrapped(f"its own error, in {where}: {error.message}")
+        out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
+    for fault in j.faults:
+        out += wrapped(f"{fault.name} ({fault.pairs:,} checks): {fault.sentence}")
+    if j.printed:
+        first = j.said.strip().splitlines()[:1]
+        out.append(f"  it prints ({j.printed:,} bytes): {' '.join(first)[:120]}")
+    if found := tallies(j):
+        out += ["", *columns([HEAD, *(row(*named) for named in found)])]
+        out += [NO_BOUNDARY] * dashed(found)
+    out += _wrong_pixels(j)
+    if j.extremes:
+        out += ["", *columns([("first scale that loses a ray", *_YARDS), *held_rows(j)])]
+    return out
+
+
+_YARDS = "student", "not by rounding", "textbook", "Möller–T."
+
+
+def wrapped(text: str) -> list[str]:
+    """Return a fact in lines that a terminal has room for."""
+    return textwrap.wrap(text, 96, initial_indent="  ", subsequent_indent="    ")
+
+
+def held_rows(j: Judgement) -> list[tuple[str, ...]]:
+    """Return cells of how far each sweep holds; a dot where it holds to its end."""
+    rows = []
+    for h in held(j.extremes):
+        scales = h.student, h.wrong, *h.yardsticks.values()
+        rows.append((h.scenario, *("." if v is None else written(v) for v in scales)))
+    return rows
+
+
+def tallies(j: Judgement) -> list[tuple[str, Tally]]:
+    """Return the counts of what was finished, by name."""
+    named = [(CHECKS, j.checks)] if j.checks else []
+    return named + [(k.subject.name, k.tally) for k in j.looks]
+
+
+def dashed(found: Sequence[tuple[str, Tally]]) -> bool:
+    """Return whether a row has no boundary, so that a reader wants to know what that means."""
+    return not all(tally.boundary for _, tally in found)
+
+
+def row(name: str, tally: Tally) -> tuple[str, ...]:
+    """Return the cells of one row below HEAD."""
+    border = f"{tally.boundary_right:,} of {tally.boundary:,}" if tally.boundary else "-"
+    if not tally.total:
+        return name, "0", "-", "-", "-", border, "-"
+    shares = (percent(v) for v in tally.shares.values())
+    return name, f"{tally.total:,}", *shares, border, f"{tally.score:.1f}"
+
+
+def _wrong_pixels(j: Judgement) -> list[str]:
+    out = []
+    for found in j.looks:
+        counts = [
+            f"{n:,} {MARKS[m]}{' (not counted)' if m in EXCUSED else ''}"
+            for m in Mark
+            if m != Mark.RIGHT and (n := found.counts[m.name.lower()])
+        ]
+        if counts:
+            out += ["", f"{found.subject.name}: {'; '.join(counts)}"]
+            out += [
+                f"  ({e.pixel[0]}, {e.pixel[1]}) {e.object}, {MARKS[e.mark]}: "
+                f"{explain(found.subject, e)}"
+                for e in _one_each(j.examples[found.subject.name])
+            ]
+    return out
+
+
+def _one_each(examples: Sequence[Example]) -> list[Example]:
+    """Return the first example of each mark."""
+    return list({e.mark: e for e in reversed(examples)}.values())[::-1]
+
+
+def class_table(judgements: Sequence[Judgement]) -> list[str]:
+    """Return a row for each of several files."""
+    rows = [("file", "score", "verdict", "what is wrong")]
+    for j in judgements:
+        wrong = [error.kind for _, error in j.errors] + [f.name for f in j.faults]
+        rows.append(
+            (j.name, f"{j.score:.1f}", VERDICTS[j.verdict], ", ".join(dict.fromkeys(wrong)))
+        )
+    return columns(rows, left=(0, 2, 3))
+
+
+def columns(rows: Sequence[tuple[str, ...]], left: tuple[int, ...] = (0,)) -> list[str]:
+    """Return rows of cells as lines; the columns of `left` are flush left."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return [
+        "  ".join(
+            cell.ljust(w) if k in left else cell.rjust(w)
+            for k, (cell, w) in enumerate(zip(row, widths, strict=True))
+        ).rstrip()
+        for row in rows
+    ]

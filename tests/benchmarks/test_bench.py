@@ -1,0 +1,322 @@
+"""The benchmark's loop and its peers, on pictures of a few pixels."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+from reference_tracer_benchmarks import field, measure, memory, peers, scenes
+from reference_tracer_benchmarks.blender_peer import BlenderPeer
+from reference_tracer_benchmarks.peers import Embreex, MissingPeerError, Rtree, Timed
+from reference_tracer_benchmarks.plan import Case, Plan
+from reference_tracer_benchmarks.rays import rays_of
+from reference_tracer_benchmarks.rounds import Runner, in_rounds, ratio
+from reference_tracer_benchmarks.rows import Bench, Row, machine
+from reference_tracer_benchmarks.scaling import exponent, scalings
+
+WIDTH, HEIGHT = 48, 27
+REQUIRED = {
+    *("scene", "triangles", "width", "height", "camera", "method", "precision", "trace_s"),
+    *("render_s", "embreex_trace_s", "embreex_build_s", "rtree_s", "bvhtree_s", "cycles_s"),
+    *("workbench_s", "peak_bytes", "ratio_to_mt", "ratio_to_mt_least", "ratio_to_mt_most"),
+}
+
+
+def tiny(*names: str, cameras=("perspective",), peers=frozenset(), sizes=((WIDTH, HEIGHT),)):
+    cases = [Case(n, *size, c, frozenset(peers)) for n in names for size in sizes for c in cameras]
+    return Plan(tuple(cases), True, repeats=2, budget=0.5, slow=0.05)
+
+
+def interior(frame):
+    """Pixels whose neighbours see the same triangle: no rounding takes them elsewhere."""
+    seen = frame.triangle_index
+    same = np.ones_like(seen, bool)
+    for shift in (1, -1):
+        for axis in (0, 1):
+            same &= np.roll(seen, shift, axis) == seen
+    return same
+
+
+# ---- peers
+
+
+@pytest.mark.parametrize("camera", scenes.CAMERAS)
+@pytest.mark.parametrize("name", ["cube", "icosphere_5k", "inside_soup", "soup_10k"])
+def test_embreex_sees_what_certified_sees(name, camera, tmp_path):
+    mesh = scenes.mesh_of(name, tmp_path)
+    scene = scenes.build(mesh, 160, 90, camera)
+    frame = render(scene, Settings("certified"))
+    seconds, found = Embreex(mesh).trace(rays_of(scene.camera))
+    ids = found["primID"].reshape(90, 160)
+    assert seconds > 0
+    assert (ids == frame.triangle_index)[interior(frame)].all()
+    assert (ids != frame.triangle_index).mean() < 1e-3
+    same = (ids == frame.triangle_index) & (ids >= 0)
+    t = found["tfar"].reshape(90, 160) + scene.camera.clip_start
+    assert np.allclose(t[same], frame.t[same], rtol=1e-5, atol=1e-5)
+
+
+def test_rtree_traces_a_sample(tmp_path):
+    tracer, rays = (
+        Rtree(scenes.mesh_of("cube", tmp_path)),
+        rays_of(
+            scenes.build(scenes.mesh_of("cube", tmp_path), WIDTH, HEIGHT, "perspective").camera
+        ),
+    )
+    timed = tracer.trace(rays, 1e-9)
+    assert timed.rays == peers.BATCH and timed.seconds > 0
+    assert tracer.trace(rays, 1e9).rays == WIDTH * HEIGHT
+
+
+def test_as_many_rows_as_fit():
+    camera = scenes.build(scenes.mesh_of("cube", None), 400, 300, "perspective").camera
+
+    def taking(each):
+        return lambda rays: each * rays.count
+
+    assert peers.fitting(taking(1e-6), camera, 1.0).count == 400 * 300
+    some = peers.fitting(taking(1e-3), camera, 12.0)  # a tenth of its 120 s
+    assert some.count == 400 * 30 and some.of == 400 * 300
+    assert peers.fitting(taking(1.0), camera, 1e-3).count == 400
+
+
+@pytest.mark.parametrize("library", ["embreex", "rtree"])
+def test_a_missing_library_is_named(library, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, library, None)
+    if library == "rtree":
+        monkeypatch.setattr("trimesh.Trimesh.triangles_tree", property(_no_rtree))
+    make = {"embreex": Embreex, "rtree": Rtree}[library]
+    with pytest.raises(MissingPeerError, match=rf"{library}.*'reference_tracer\[bench\]'"):
+        make(scenes.mesh_of("cube", tmp_path))
+
+
+def _no_rtree(self):
+    raise ImportError("no rtree")
+
+
+def test_without_peers_ours_is_measured(monkeypatch, tmp_path):
+    for name in ("embreex", "rtree"):
+        monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.setattr("trimesh.Trimesh.triangles_tree", property(_no_rtree))
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    bench = Bench(machine(True))
+    wanted = tiny("cube", "suzanne", peers={"rtree", "bvhtree", "cycles", "workbench"})
+    result_of(measure.measure(wanted, bench, tmp_path))
+    assert [r.scene for r in bench.rows] == ["cube", "cube"]
+    for r in bench.rows:
+        assert r.trace_s > 0 and r.embreex_trace_s is r.rtree_s is r.cycles_s is None
+    said = "\n".join(bench.notes)
+    for word in ("embreex", "rtree", "bvhtree, cycles, workbench", "suzanne is left out"):
+        assert word in said
+    assert len(bench.notes) == 4
+
+
+class NoWorkbench:
+    """A Blender that can do all but draw."""
+
+    def __init__(self, cache):
+        NoWorkbench.asked = self.asked = []
+
+    def open(self, scene):
+        self.asked.append("open")
+
+    def bvhtree(self, budget):
+        return Timed(2.0, 100), 0.5
+
+    def render(self, engine):
+        self.asked.append(engine)
+        if engine == "workbench":
+            raise MissingPeerError("Blender ended without an answer to 'workbench'")
+        return 3.0
+
+    def close(self):
+        self.asked.append("closed")
+
+
+def test_a_peer_that_fails_is_left_out_from_then_on(monkeypatch, tmp_path):
+    monkeypatch.setattr(field, "BlenderPeer", NoWorkbench)
+    bench = Bench(machine(True))
+    wanted = tiny("cube", cameras=scenes.CAMERAS, peers={"bvhtree", "cycles", "workbench"})
+    result_of(measure.measure(wanted, bench, tmp_path))
+    for r in bench.rows:
+        assert (r.bvhtree_s, r.bvhtree_rays, r.bvhtree_build_s) == (2.0, 100, 0.5)
+        assert (r.cycles_s, r.workbench_s) == (3.0, None)
+    assert NoWorkbench.asked.count("workbench") == 1 and NoWorkbench.asked[-1] == "closed"
+    assert bench.notes == ["workbench: Blender ended without an answer to 'workbench'"]
+
+
+@pytest.mark.skipif(importlib.util.find_spec("bpy") is None, reason="there is no bpy")
+def test_blender_answers(tmp_path):
+    blender = BlenderPeer(tmp_path)
+    try:
+        blender.open(scenes.build(scenes.mesh_of("cube", tmp_path), WIDTH, HEIGHT, "orthographic"))
+        timed, build = blender.bvhtree(1.0)
+        assert timed.rays == WIDTH * HEIGHT and timed.seconds > 0 and build > 0
+        assert blender.render("cycles") > 0
+        blender.make_suzanne(tmp_path / scenes.SUZANNE_FILE)
+        mesh = scenes.mesh_of("suzanne", tmp_path)
+        assert len(mesh.triangles) == scenes.SUBJECTS["suzanne"].triangles
+        assert np.abs(mesh.vertices).max() < 1.5
+        with pytest.raises(MissingPeerError, match="no benchmark scene 'none'"):
+            blender._ask(do="open", scene="none", cache="", size=[1, 1], camera="perspective")
+        blender._process.kill()
+        with pytest.raises(MissingPeerError, match="ended without an answer to 'cycles'"):
+            blender.render("cycles")
+    finally:
+        blender.close()
+
+
+# ---- rounds
+
+
+def test_rounds_take_turns_and_the_first_is_forgotten():
+    order = []
+
+    def run(name, seconds):
+        def once():
+            order.append(name)
+            return seconds.pop(0)
+
+        return once
+
+    a, b = Runner(run("a", [9.0, 1.0, 3.0])), Runner(run("b", [9.0, 2.0, 2.0]))
+    once = Runner(run("c", [5.0]), allowed=0.0)
+    assert result_of(in_rounds([a, b, once], 2, 100.0)) == 2
+    assert "".join(order) == "abc" + "ab" + "ba"
+    assert (a.median, b.median, once.median) == (2.0, 2.0, 5.0)
+    found = ratio(a, b)
+    assert (found.median, found.least, found.most) == (1.0, 0.5, 1.5)
+    assert ratio(a, once) is None
+
+
+def test_where_there_is_no_time_the_first_round_counts():
+    slow = Runner(lambda: 7.0)
+    slow.spent.append(99.0)  # seconds that it has taken already
+    assert result_of(in_rounds([slow], 5, 10.0)) == 1
+    assert slow.seconds == {0: 7.0}
+
+
+def test_who_fails_has_no_time():
+    def fail():
+        raise MissingPeerError("gone")
+
+    broken, other = Runner(fail), Runner(lambda: 1.0)
+    shares = list(in_rounds([broken, other], 2, 10.0))
+    assert (broken.median, broken.failed, other.median) == (None, "gone", 1.0)
+    assert shares == sorted(shares) and shares[-1] == 1
+
+
+# ---- the whole
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory):
+    found = Bench(machine(True), quick=True)
+    wanted = tiny(
+        *("cube", "icosphere_5k"),
+        cameras=scenes.CAMERAS,
+        sizes=((WIDTH, HEIGHT), (24, 13)),
+        peers={"rtree"},
+    )
+    before = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else None
+    shares = list(measure.measure(wanted, found, tmp_path_factory.mktemp("bench")))
+    assert shares == sorted(shares) and shares[-1] == 1
+    assert before is None or os.sched_getaffinity(0) == before
+    return found
+
+
+def test_a_row_for_each_scene_size_camera_and_method(bench):
+    assert {f.name for f in fields(Row)} >= REQUIRED
+    assert len(bench.rows) == len({r.key for r in bench.rows}) == 2 * 2 * 2 * 2
+    for r in bench.rows:
+        assert r.triangles == scenes.SUBJECTS[r.scene].triangles and r.rounds >= 1
+        assert 0 < r.trace_s < 1 and 0 < r.render_s < 1
+        assert r.embreex_trace_s > 0 and r.embreex_build_s > 0 and r.embreex_rays == r.pixels
+        assert r.rtree_s > r.embreex_trace_s and 0 < r.rtree_rays <= r.pixels
+        assert r.embreex_differs < 0.01
+        assert r.ratio_to_mt_least <= r.ratio_to_mt <= r.ratio_to_mt_most
+        assert r.ratio_to_embreex_least <= r.ratio_to_embreex <= r.ratio_to_embreex_most
+        assert (r.bvhtree_s, r.cycles_s, r.workbench_s) == (None, None, None)
+        if r.method == "moller_trumbore":
+            assert r.ratio_to_mt == r.ratio_to_mt_least == r.ratio_to_mt_most == 1
+    assert not bench.notes
+
+
+def test_who_comes_late_gets_less_time(monkeypatch):
+    wanted = replace(tiny("cube", cameras=scenes.CAMERAS), budget=6.0, seconds=10.0)
+    now = [100.0]
+    monkeypatch.setattr(measure.time, "perf_counter", lambda: now[0])
+    pace = measure.Pace(wanted)
+    assert pace.budget(wanted.cases[0]) == pytest.approx(5.0)
+    now[0] += 7
+    assert pace.budget(wanted.cases[1]) == pytest.approx(3.0)
+    pace = measure.Pace(wanted)
+    now[0] += 99
+    assert pace.budget(wanted.cases[0]) == 0
+
+
+def test_stages_are_parts_of_a_frame(bench):
+    for r in bench.rows:
+        assert r.stages and "shade" in r.stages
+        assert 0 <= sum(r.stages.values()) <= 1.5 * r.render_s  # medians, each of its own round
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
+def test_memory_is_that_of_the_picture():
+    sizes = (64, 36), (640, 360)
+    jobs = [memory.Job(*s, "perspective", "certified", "float64", True) for s in sizes]
+    small, large = memory.peaks("cube", None, jobs)
+    # A frame is 16 + 8 + 24 + 2 * 4 + 1 bytes a pixel.
+    assert large > 57 * 640 * 360 and large - small > 50 * (640 * 360 - 64 * 36)
+    assert small < 32 << 20
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system cannot fork")
+def test_a_plain_method_that_takes_too_long_is_not_timed(tmp_path, monkeypatch):
+    monkeypatch.setattr(memory, "LONGEST", 1e-6)
+    case = Case("cube", 64, 36, "perspective")
+    found = Bench(machine(True))
+    result_of(measure.measure(Plan((case,), False, 1, 1.0, 0.1), found, tmp_path))
+    plain, certified = found.rows
+    assert plain.trace_s is plain.render_s is plain.peak_bytes is None
+    assert certified.trace_s > 0 and certified.peak_bytes > 0 and certified.ratio_to_mt is None
+    assert sum("takes more than" in note for note in found.notes) == 2
+
+
+def test_no_memory_is_known_where_a_child_fails(tmp_path):
+    jobs = [memory.Job(8, 8, "perspective", "certified", "float64", False)] * 2
+    assert list(memory.peaks("suzanne", tmp_path, jobs)) == [None, None]
+
+
+# ---- scaling
+
+
+@pytest.mark.parametrize("k", [0.0, 0.37, 1.0, 2.5])
+def test_the_exponent_of_a_power_law(k):
+    n = np.array([12.0, 5e3, 1.3e6])
+    assert exponent(n, 3e-7 * n**k) == pytest.approx(k, abs=1e-12)
+
+
+def test_scaling_over_triangles_and_pixels():
+    rows = [
+        Row(
+            *(name, scenes.SUBJECTS[name].triangles, w, h, "perspective", "certified", "float64"),
+            trace_s=1e-9 * scenes.SUBJECTS[name].triangles ** 0.5 * (w * h) ** 0.75,
+        )
+        for name in ("icosphere_5k", "icosphere_82k", "icosphere_1m")
+        for w, h in ((480, 270), (1920, 1080))
+    ]
+    cube = replace(rows[0], scene="cube", triangles=12)  # another shape, and no second size
+    found = scalings([*rows, cube])
+    triangles = [s for s in found if s.over == "triangles"]
+    pixels = [s for s in found if s.over == "pixels"]
+    assert [s.exponent for s in triangles] == pytest.approx([0.5] * 2)
+    assert [s.exponent for s in pixels] == pytest.approx([0.75] * 3)
+    assert {s.points for s in triangles} == {3} and {s.of for s in found} == {"trace"}

@@ -1,0 +1,125 @@
+"""The benchmark's scenes: what they say they are, the same every time, and all of them seen."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.camera import camera_rays as our_rays
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+from reference_tracer_benchmarks import meshes, scenes
+from reference_tracer_benchmarks.plan import BLENDER, LARGE, plan
+from reference_tracer_benchmarks.rays import rays_of
+from reference_tracer_benchmarks.scenes import CAMERAS, SUBJECTS
+
+SMALL = {
+    "icosphere_1m": partial(meshes.icosphere, 3),
+    "icosphere_5m": partial(meshes.icosphere, 3),
+    "heightfield": partial(meshes.heightfield, 20),
+    "large_100k": partial(meshes.large_triangles, 300),
+    "small_1m": partial(meshes.soup, 2000, 0.1),
+    "nested_spheres": partial(meshes.nested_spheres, 4, 2),
+    "slivers_100k": partial(meshes.slivers, 3000),
+}
+
+
+def small(name: str):
+    """A scene's mesh, or one of its kind with fewer triangles."""
+    make = SMALL.get(name) or SUBJECTS[name].mesh
+    return scenes.Mesh(*make(), name=name)
+
+
+MADE_HERE = [name for name, s in SUBJECTS.items() if s.mesh]
+
+
+@pytest.mark.parametrize("name", sorted(set(MADE_HERE) - {"icosphere_5m", "icosphere_1m"}))
+def test_the_triangles_are_as_many_as_stated(name):
+    vertices, triangles = SUBJECTS[name].mesh()
+    assert triangles.shape == (SUBJECTS[name].triangles, 3) and triangles.dtype == np.int32
+    assert vertices.dtype == np.float32 and np.isfinite(vertices).all()
+    assert triangles.min() == 0 and triangles.max() == len(vertices) - 1
+
+
+def test_a_sphere_has_four_times_as_many_at_every_level():
+    for level in range(4):
+        vertices, triangles = meshes.icosphere(level)
+        assert len(triangles) == 20 * 4**level and len(vertices) == 2 + len(triangles) // 2
+        assert np.allclose(np.linalg.norm(vertices, axis=1), 1, atol=1e-6)
+    assert [SUBJECTS[name].triangles for name in scenes.SCALED] == [20 * 4**k for k in (4, 6, 8, 9)]
+
+
+@pytest.mark.parametrize("level", [0, 2])
+def test_spheres_and_cube_are_closed_and_face_outward(level):
+    for vertices, triangles in (meshes.cube(), meshes.icosphere(level)):
+        edges = np.concatenate([triangles[:, k] for k in ([0, 1], [1, 2], [2, 0])])
+        directed = {tuple(e) for e in edges.tolist()}
+        assert len(directed) == len(edges) and all((b, a) in directed for a, b in directed)
+        a, b, c = vertices[triangles].astype(float).transpose(1, 0, 2)
+        assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a + b + c) > 0).all()
+
+
+@pytest.mark.parametrize("name", ["soup_10k", "slivers_20k", "heightfield", "inside_soup"])
+def test_scenes_are_the_same_every_time(name):
+    first, second = SUBJECTS[name].mesh(), SUBJECTS[name].mesh()
+    assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("name", MADE_HERE)
+def test_all_scenes_trace(name, camera):
+    scene = scenes.build(small(name), 32, 18, camera)
+    seen = render(scene, Settings("certified")).instance_index >= 0
+    assert scene.camera.orthographic == (camera == "orthographic")
+    assert 0.02 < seen.mean() <= 1
+    assert seen.all() == (name == "inside_soup")
+
+
+@pytest.mark.parametrize("camera", CAMERAS)
+@pytest.mark.parametrize("every", [1, 4])
+def test_peers_get_the_rays_that_are_traced(camera, every):
+    scene = scenes.build(small("cube"), 32, 18, camera)
+    rays, view = rays_of(scene.camera, every), scene.camera
+    rows, columns = np.arange(18)[rays.rows] + 0.5, np.arange(32) + 0.5
+    x, y = (v.ravel() for v in np.meshgrid(columns, rows))
+    ours = our_rays(view, x, y)
+    origins, directions = (
+        np.broadcast_to(v, (3, len(x))).T for v in (ours.origins, ours.directions)
+    )
+    assert rays.count == len(x) == 32 * -(-(18 - every // 2) // every) and rays.of == 32 * 18
+    assert np.allclose(rays.directions, directions, rtol=0, atol=1e-6)
+    assert np.allclose(rays.origins, origins + view.clip_start * directions, rtol=0, atol=1e-6)
+    assert rays.length == view.clip_end - view.clip_start
+    assert rays.origins.flags.c_contiguous and rays.directions.dtype == np.float32
+
+
+def test_what_blender_makes_is_asked_for_by_name(tmp_path: Path):
+    with pytest.raises(meshes.MissingMeshError, match=r"pip install 'reference_tracer\[blender\]'"):
+        scenes.mesh_of("suzanne", tmp_path)
+    vertices, triangles = meshes.cube()
+    np.savez(tmp_path / scenes.SUZANNE_FILE, vertices=vertices, triangles=triangles)
+    assert len(scenes.mesh_of("suzanne", tmp_path).triangles) == 12
+
+
+def test_the_plan():
+    whole, quick = plan(), plan(quick=True)
+    everyday = [n for n, s in SUBJECTS.items() if s.group == scenes.EVERYDAY]
+    assert len(everyday) == 7 and {c.scene for c in whole.cases} == set(SUBJECTS)
+    assert set(everyday) < {c.scene for c in quick.cases} < set(SUBJECTS)
+    assert len(whole.cases) == 4 * 13 + 1
+    for c in whole.cases:
+        at_peers = (c.width, c.height) == LARGE and c.camera == "perspective"
+        assert (c.peers >= BLENDER) == (at_peers and c.scene in everyday)
+    assert all(c.title and c.cost > 0 for c in whole.cases)
+    assert {c.scene for c in plan(["cube", "soup_10k", "cube"]).cases} == {"cube", "soup_10k"}
+    assert plan(["cube"], repeats=9).repeats == 9
+
+
+def test_what_cannot_be_planned():
+    with pytest.raises(SceneError, match=r"'sphere'.*cube.*inside_soup"):
+        plan(["sphere"])
+    with pytest.raises(SceneError, match="--repeats is 0"):
+        plan(["cube"], repeats=0)

@@ -1,0 +1,88 @@
+"""Every known fault is recognised by its name, alone and among others; right files have none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_tracer.tracer.settings import Method
+from reference_tracer_grading.answers import Answers
+from reference_tracer_grading.extremes import plain
+from reference_tracer_grading.faults import dependence, find_faults
+
+
+def function(text):
+    space = {}
+    exec(text, space)
+
+    def quiet(*rays):
+        with np.errstate(all="ignore"):
+            t, s = space["intersect"](*rays)
+        return np.asarray(t, np.float64), np.asarray(s, np.float64)
+
+    return quiet
+
+
+def faults(text, checks):
+    ask = function(text)
+    answers = Answers(checks, *ask(checks.origins, checks.directions, checks.triangles))
+    return find_faults(answers) + dependence(checks, answers, ask)
+
+
+@pytest.mark.parametrize("name", ["textbook", "moller_trumbore", "loop"])
+def test_right_files_have_no_fault(name, right, checks):
+    assert faults(right[name], checks) == []
+
+
+def test_the_tracers_own_methods(checks):
+    def found(method):
+        ask = plain(method)
+        t, s = ask(checks.origins, checks.directions, checks.triangles)
+        return [f.name for f in find_faults(Answers(checks, t, s))]
+
+    assert found(Method.WATERTIGHT) == found(Method.TEXTBOOK) == []
+    assert found(Method.TEXTBOOK_LITERAL) == ["sum_equals_one"]
+
+
+def test_a_fault_is_recognised(fault, checks):
+    name, text = fault
+    found = faults(text, checks)
+    assert [f.name for f in found] == [name]
+    assert found[0].pairs > 0 and len(found[0].sentence) > 20
+
+
+def test_several_at_once(right, checks):
+    text = right["textbook"]
+    for old, new in (
+        ("(t > 0)", "(t > 0) & (slope > 0) & (s1 + s2 + s3 == 1)"),
+        ("np.where(hit, t, ", "np.where(hit, t * np.linalg.norm(d, axis=1), "),
+        ("stack((s1, s2, s3)", "stack((s1, s3, s2)"),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    found = [f.name for f in faults(text, checks)]
+    assert found == ["back_faces_culled", "sum_equals_one", "t_is_distance", "s2_s3_swapped"]
+
+
+def test_batch_mixed_up_with_components(right, checks):
+    """A call of three rays, in which (3,) fits (3, 3) the wrong way round."""
+    text = right["textbook"].replace(
+        "t[:, None] * d", "(t * d if t.shape == d.shape[1:] else t[:, None] * d)"
+    )
+    assert [f.name for f in faults(text, checks)] == ["depends_on_the_call"]
+
+
+def test_another_order_of_summation_is_no_dependence(right, checks):
+    """Libraries sum a single row otherwise than many; float32 makes more of it."""
+    for dtype in ("float64", "float32"):
+        text = right["textbook"].replace(
+            "(a * b).sum(axis=1)", "((a * b)[:, ::1 if len(a) > 3 else -1]).sum(axis=1)"
+        )
+        text = text.replace("o, d = ", f"triangles = triangles.astype('{dtype}')\n    o, d = ")
+        text = text.replace("= origins, directions", f"= origins.astype('{dtype}'), directions")
+        assert "depends_on_the_call" not in [f.name for f in faults(text, checks)]
+
+
+def test_which_edge_is_not_tested(right, checks):
+    text = right["textbook"].replace("(s1 >= 0) & ", "")
+    [found] = faults(text, checks)
+    assert "s1 >= 0 is not tested" in found.sentence and "u + v <= 1" in found.sentence

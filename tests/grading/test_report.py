@@ -1,0 +1,236 @@
+"""Judgements as a table, as JSON by its schema, and as a page."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from html.parser import HTMLParser
+from importlib.resources import files
+
+import jsonschema
+import numpy as np
+import pytest
+import reference_tracer.report
+from reference_tracer.study.scenarios.sweeps import SCENARIOS
+from reference_tracer.tracer.progress import result_of
+from reference_tracer_grading.checks import make_checks
+from reference_tracer_grading.extremes import extreme_scenes
+from reference_tracer_grading.judging import judge_all
+from reference_tracer_grading.page import MARK_COLORS, marked
+from reference_tracer_grading.picture import Mark
+from reference_tracer_grading.report import to_dict, write
+from reference_tracer_grading.student import Limits
+from reference_tracer_grading.subject import prepare
+from reference_tracer_grading.tables import MARKS, NO_BOUNDARY, class_table, lines, percent
+
+TEXT = """
+import numpy as np
+
+def dot(a, b):
+    return (a * b).sum(axis=1)
+
+def intersect(o, d, p):
+    p1, p2, p3 = p[:, 0], p[:, 1], p[:, 2]
+    n = np.cross(p3 - p1, p2 - p1)
+    t = -dot(o - p1, n) / dot(d, n)
+    x = o + t[:, None] * d
+    edges = (p2, p3), (p3, p1), (p1, p2)
+    s = np.stack([dot(n, np.cross(a - b, x - b)) for a, b in edges], axis=1) / dot(n, n)[:, None]
+    return np.where((s >= 0).all(axis=1) & (t > 0), t, np.inf), s
+"""
+FILES = {
+    "right.py": TEXT,
+    "swapped.py": TEXT.replace("(p3, p1), (p1, p2)", "(p1, p2), (p3, p1)"),
+    "blind.py": TEXT.replace("(t > 0)", "False") + "\nprint('<script>alert(1)</script>')\n",
+    "one_sided.py": TEXT.replace("(t > 0)", "(t > 0) & (dot(d, n) > 0)"),
+    "broken.py": "def intersect(o, d, p):\n    return '<b>' + 1\n",
+    "endless <i>.py": "while True:\n    pass\n",
+}
+
+
+@pytest.fixture(scope="module")
+def judged(make, tmp_path_factory):
+    """What is said of six files, on one scene and one sweep."""
+    folder = tmp_path_factory.mktemp("students")
+    for name, text in FILES.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    quads = make.quad(-1.03, 1.07, -1.01, 1.02, -4), make.quad(3, -3, -2, 2.1, -6, "A & <B>")
+    subject = result_of(prepare("a<b", make.scene(make.camera(), *quads), "s.npz", None))
+    extremes = result_of(extreme_scenes([s for s in SCENARIOS if s.name == "tiny"]))
+    paths = [folder / name for name in FILES]
+    work = judge_all(paths, make_checks(), [subject], extremes, Limits(seconds=3))
+    return {j.path.name: j for j in result_of(work)}
+
+
+@pytest.fixture(scope="module")
+def written(judged, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("judged")
+    write(folder, list(judged.values()))
+    return folder
+
+
+def test_verdicts(judged):
+    assert {name: j.verdict for name, j in judged.items()} == {
+        "right.py": "right",
+        "swapped.py": "wrong",
+        "blind.py": "wrong",
+        "one_sided.py": "wrong",
+        "broken.py": "failed",
+        "endless <i>.py": "failed",
+    }
+
+
+def test_json_is_by_its_schema(written):
+    schema = json.loads(files(reference_tracer.report).joinpath("judge.schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    found = json.loads((written / "judge.json").read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(schema).validate(found)
+    assert len(found["students"]) == len(FILES)
+    assert sum(found["weights"].values()) == pytest.approx(1)
+    swapped = found["students"][1]
+    assert [f["name"] for f in swapped["faults"]] == ["s2_s3_swapped"]
+    [scene] = swapped["scenes"]
+    assert sum(scene["pixels"].values()) == scene["width"] * scene["height"]
+    example = scene["examples"][0]
+    x, y = example["pixel"]
+    assert example["explain"] == f"reftrace explain s.npz --pixel {x} {y}"
+    right, wrong = (example[who]["barycentrics"] for who in ("certified", "student"))
+    assert wrong == pytest.approx([right[0], right[2], right[1]])
+    # A schema that lets anything pass would be none.
+    swapped["score"] = 101
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(found, schema)
+
+
+def test_examples_are_reproducible(judged):
+    """Ray and triangle as they are printed give the answer that is printed."""
+    [scene] = to_dict([judged["swapped.py"]])["students"][0]["scenes"]
+    space = {}
+    exec(FILES["swapped.py"], space)
+    for e in scene["examples"]:
+        t, s = space["intersect"](*(np.array([e[k]]) for k in ("origin", "direction", "triangle")))
+        assert t[0] == e["student"]["t"] and s[0].tolist() == e["student"]["barycentrics"]
+
+
+class Page(HTMLParser):
+    """Counts elements, and notes what they point at."""
+
+    VOID = "meta", "img"
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.tags, self.links, self.text = [], [], [], ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append(tag)
+        self.links += [value for name, value in attributes if name in ("href", "src")]
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
+def test_page(written, judged):
+    page = Page((written / "judge.html").read_text(encoding="utf-8"))
+    assert not page.open  # every element is closed, in the right order
+    assert "script" not in page.tags and "i" not in page.tags and "b" not in page.tags
+    assert all(link.startswith(("#", "data:image/png;base64,")) for link in page.links)
+    assert page.tags.count("img") == 3 * 4  # of the four that came to the scene's end
+    assert "running the students' own code" in page.text and "not a sandbox" in page.text
+    assert "A & <B>" in page.text and "endless <i>.py" in page.text
+    assert "<script>alert(1)</script>" in page.text  # as text
+    assert "line 2: return '<b>' + 1" in page.text
+    for j in judged.values():
+        assert f"{j.score:.1f}" in page.text
+        assert all(f.name in page.text for f in j.faults)
+    assert sorted(p.name for p in written.iterdir()) == ["judge.html", "judge.json"]
+
+
+def test_map_of_wrong_pixels(judged):
+    [found] = judged["one_sided.py"].looks
+    picture = marked(found)
+    missed = found.mark == Mark.MISSED
+    assert missed.any() and not missed.all()
+    assert (picture[missed, :3] == MARK_COLORS[Mark.MISSED]).all()
+    assert (picture[found.mark == Mark.RIGHT, :3].std(axis=-1) < 1).all()
+
+
+def test_lines(judged):
+    text = {name: "\n".join(lines(j)) for name, j in judged.items()}
+    assert text["right.py"].startswith("right.py: all right, score 100.0 of 100")
+    assert "tiny" in text["right.py"] and "1e-80" in text["right.py"]
+    assert "reftrace explain s.npz --pixel" in text["swapped.py"]
+    assert "the textbook's erratum" in " ".join(text["swapped.py"].split())
+    assert "broken.py, line 2: return '<b>' + 1" in text["broken.py"]
+    assert "raise it with --time-limit" in " ".join(text["endless <i>.py"].split())
+    assert "time limit of 3 s" in " ".join(text["endless <i>.py"].split())
+    assert "it prints" in text["blind.py"]
+    assert max(len(line) for t in text.values() for line in t.splitlines()) <= 120
+
+
+def test_class_table(judged):
+    table = class_table(list(judged.values()))
+    assert len(table) == 1 + len(FILES)
+    assert table[1].split() == ["right.py", "100.0", "all", "right"]
+    assert table[2].split()[2:] == ["wrong", "s2_s3_swapped"]
+    assert table[5].split()[1:] == ["0.0", "failed", "exception"]
+
+
+def test_the_page_says_the_same_in_the_same_words(written, judged):
+    text = (written / "judge.html").read_text(encoding="utf-8")
+    right = class_table([judged["right.py"], judged["swapped.py"]])[1].split("  ")[-1]
+    assert right == "all right" and f">{right}</span>" in text
+    # No pixel of this scene lies on a boundary, and both say what the dash there means.
+    assert not judged["right.py"].looks[0].subject.boundary.any()
+    assert NO_BOUNDARY in text and NO_BOUNDARY in lines(judged["right.py"])
+
+
+def test_words_are_flush_left(written):
+    text = (written / "judge.html").read_text(encoding="utf-8")
+    table = text[text.index("<thead>") : text.index("</table>")]
+    for head in ("file", "verdict", "what is wrong"):
+        assert f'<th scope="col" class="words">{head}</th>' in table
+    assert '<th scope="col">score</th>' in table
+    assert table.count('<td class="words">') == 3 * len(FILES) and "<td>100.0</td>" in table
+    css = " ".join(text[text.index("<style>") : text.index("</style>")].split())
+    assert ".words { text-align: left; }" in css
+
+
+def test_every_mark_has_its_words_and_color():
+    assert set(MARKS) == set(Mark) and len(set(MARKS.values())) == len(Mark)
+    assert set(MARK_COLORS) == set(Mark) - {Mark.RIGHT}
+    assert len(set(MARK_COLORS.values())) == len(MARK_COLORS)
+
+
+def test_an_example_of_every_mark(judged):
+    """The terminal shows one pixel of each kind, not only of the first."""
+    j = judged["swapped.py"]
+    [found] = j.looks
+    first = j.examples[found.subject.name][0]
+    other = replace(first, mark=Mark.MISSED)
+    several = replace(j, examples={found.subject.name: [first, first, other]})
+    pixels = [line for line in lines(several) if "reftrace explain" in line]
+    assert len(pixels) == 2
+    assert MARKS[first.mark] in pixels[0] and MARKS[Mark.MISSED] in pixels[1]
+
+
+def test_percent_does_not_round_to_all_or_none():
+    assert [percent(v) for v in (0, 1e-9, 0.5, 1 - 1e-9, 1)] == [
+        "0 %",
+        "0.1 %",
+        "50.0 %",
+        "99.9 %",
+        "100 %",
+    ]
+
+
+def test_it_needs_no_library_for_pictures(judged, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    write(tmp_path, list(judged.values()))
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["judge.html", "judge.json"]

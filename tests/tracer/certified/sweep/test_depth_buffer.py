@@ -1,0 +1,137 @@
+"""The depth buffer: a maximum of what is entered, and minima of what is in its cells."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_tracer.scene import Region
+from reference_tracer.tracer.certified.sweep import depth_buffer
+from reference_tracer.tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
+
+REGIONS = [
+    Region(*r)
+    for r in ((0, 0, 1, 1), (3, 5, 67, 70), (0, 0, 128, 64), (1, 2, 3, 200), (7, 0, 140, 9))
+]
+every_region = pytest.mark.parametrize("region", REGIONS, ids=lambda r: f"{r.width}x{r.height}")
+
+
+def grid(depths: DepthBuffer) -> np.ndarray:
+    return depths.nearness.reshape(-1, depths.stride)
+
+
+def filled(region, rng) -> DepthBuffer:
+    depths = DepthBuffer(region)
+    inside = grid(depths)[: region.height, : region.width]
+    inside[:] = rng.normal(size=inside.shape)
+    inside[rng.random(inside.shape) < 0.1] = -np.inf
+    return depths
+
+
+@every_region
+def test_pixels_have_a_place_each_and_back(region):
+    depths = DepthBuffer(region)
+    pixels = np.arange(region.width * region.height)
+    places = depths.places(pixels)
+    assert np.array_equal(depths.pixels(places), pixels)
+    assert np.isneginf(depths.nearness[places]).all()
+    assert np.isneginf(depths.nearness).sum() == len(pixels)  # and all else is never in the way
+    y, x = np.divmod(places, depths.stride)
+    assert np.array_equal(y * region.width + x, pixels)
+
+
+def increasing(rng, n):
+    return np.sort(rng.normal(size=n))
+
+
+ORDERS = {
+    "increasing": increasing,
+    "decreasing": lambda rng, n: increasing(rng, n)[::-1],
+    "any": lambda rng, n: rng.normal(size=n),
+    "equal": lambda rng, n: np.full(n, 0.25),
+    "few values": lambda rng, n: rng.integers(-2, 3, n) * 1.0,
+    "zigzag": lambda rng, n: np.where(np.arange(n) % 2, 1.0, -1.0) * np.arange(n),
+    "extreme": lambda rng, n: rng.choice([-np.inf, np.inf, 0.0, -0.0, 5e-324, -1e308, 1e308], n),
+}
+
+
+@pytest.mark.parametrize("order", ORDERS)
+@pytest.mark.parametrize("pixels", [1, 2, 40, 3000])
+def test_enter_is_a_maximum(rng, order, pixels):
+    """However often a pixel occurs, and in whatever order."""
+    region = Region(2, 3, 75, 70)
+    depths = filled(region, rng)
+    expected = depths.nearness.copy()
+    for _ in range(4):
+        pixel = depths.places(rng.integers(0, pixels, 3000))
+        nearness = ORDERS[order](rng, 3000)
+        depths.enter(pixel, nearness)
+        np.maximum.at(expected, pixel, nearness)
+        assert np.array_equal(depths.nearness, expected)
+    depths.enter(pixel[:0], nearness[:0])
+    assert np.array_equal(depths.nearness, expected)
+
+
+def test_what_is_not_a_number_is_not_entered(rng):
+    depths = filled(Region(0, 0, 9, 9), rng)
+    before = depths.nearness.copy()
+    depths.enter(np.arange(5), np.full(5, np.nan))
+    assert np.array_equal(depths.nearness, before)
+
+
+@pytest.mark.parametrize("sizes", [(FINE, COARSE), (4, 16), (8, 8), (2, 64), (1, 2)], ids=str)
+@every_region
+def test_cells_hold_plain_minima(region, sizes, rng, monkeypatch):
+    fine, coarse = sizes
+    for name, value in zip(("FINE", "COARSE"), sizes, strict=True):
+        monkeypatch.setattr(depth_buffer, name, value)
+    depths = filled(region, rng)
+    for size in sizes:  # nothing is known before it is refreshed
+        assert np.isneginf(depths.farthest(np.zeros(1, int), np.zeros(1, int), size)).all()
+    depths.refresh(0, region.height)
+    inside = grid(depths)[: region.height, : region.width]  # padding is never the least
+    for size in {fine, coarse}:
+        y, x = np.indices((-(-region.height // size), -(-region.width // size))).reshape(2, -1)
+        plain = [
+            inside[b * size : (b + 1) * size, a * size : (a + 1) * size].min()
+            for a, b in zip(x, y, strict=True)
+        ]
+        assert np.array_equal(depths.farthest(x, y, size), plain)
+
+
+@every_region
+def test_some_rows_are_refreshed_and_no_cell_is_too_near(region, rng):
+    """Cells of rows that were not refreshed have an older, farther minimum: that is safe."""
+    depths = filled(region, rng)
+    depths.refresh(0, region.height)
+    for _ in range(5):
+        count = region.width * region.height
+        depths.enter(depths.places(rng.integers(0, count, count)), rng.normal(size=count) + 2)
+        y0 = int(rng.integers(region.height))
+        y1 = int(rng.integers(y0, region.height)) + 1
+        depths.refresh(y0, y1)
+        inside = grid(depths)[: region.height, : region.width]
+        for y in range(-(-region.height // FINE)):
+            for x in range(-(-region.width // FINE)):
+                least = inside[y * FINE : (y + 1) * FINE, x * FINE : (x + 1) * FINE].min()
+                found = depths.farthest(np.array([x]), np.array([y]), FINE)[0]
+                assert found <= least
+                if y0 // FINE <= y <= (y1 - 1) // FINE:
+                    assert found == least
+
+
+@every_region
+@pytest.mark.parametrize("dtype", [np.int16, np.int32])
+def test_farthest_around_small_boxes(region, dtype, rng):
+    """As near as the least pixel of the cells that a box touches, so never nearer than its own."""
+    depths = filled(region, rng)
+    depths.refresh(0, region.height)
+    inside = grid(depths)[: region.height, : region.width]
+    x0, y0 = (rng.integers(0, n, 500).astype(dtype) for n in (region.width, region.height))
+    x1 = np.minimum(x0 + rng.integers(0, FINE, 500), region.width - 1).astype(dtype)
+    y1 = np.minimum(y0 + rng.integers(0, FINE, 500), region.height - 1).astype(dtype)
+    found = depths.farthest_in(x0, x1, y0, y1)
+    for k in range(500):
+        cells = [v // FINE * FINE for v in (x0[k], y0[k])]
+        ends = [v // FINE * FINE + FINE for v in (x1[k], y1[k])]
+        assert found[k] == inside[cells[1] : ends[1], cells[0] : ends[0]].min()
+        assert found[k] <= inside[y0[k] : y1[k] + 1, x0[k] : x1[k] + 1].min()

@@ -1,0 +1,257 @@
+"""The nearest hit: as brute force has it, however the work is divided."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
+from reference_tracer.tracer import nearest as visibility
+from reference_tracer.tracer import plane, render, world
+from reference_tracer.tracer.camera import Rays, camera_rays
+from reference_tracer.tracer.certified.sweep import chunks as pieces
+from reference_tracer.tracer.certified.sweep import depth_bins as slabs
+from reference_tracer.tracer.certified.sweep import rasterise as cover
+from reference_tracer.tracer.certified.sweep import sweep, verdict
+from reference_tracer.tracer.nearest import NOTHING, film_positions
+from reference_tracer.tracer.settings import Method, Settings
+from reference_tracer.tracer.triangle import METHODS
+from reference_tracer.tracer.vector import transform_points
+from reference_tracer.tracer.world import WorldTriangles
+
+from ..judge import judge
+from .pictures import names_of
+from .rational import t_of_pixels
+
+PLAIN = [Settings(m, p) for m in Method if m.is_plain for p in ("float64", "float32")]
+PROVEN = [Settings("certified"), Settings("auto")]
+
+
+def for_all(some):
+    return pytest.mark.parametrize(
+        "settings", some, ids=lambda s: f"{s.method.value} {s.precision.value}"
+    )
+
+
+@pytest.fixture
+def mess(make, rng):
+    """Return instances of random triangles through one another, duplicates and planes too."""
+    points = rng.normal(size=(30, 3)).astype(np.float32)
+    meshes = [Mesh(points, rng.integers(0, 30, (n, 3))) for n in (11, 40)]
+    meshes.append(
+        replace(meshes[0], triangles=np.repeat(meshes[0].triangles, 2, axis=0), slots=None)
+    )
+    instances = []
+    for k in range(12):
+        matrix = np.eye(4)
+        matrix[:3, :3] = rng.normal(size=(3, 3)) * 0.6
+        matrix[:3, 3] = (*rng.uniform(-2, 2, 2), rng.uniform(-9, -3))
+        instances += [Instance(k % 3, k, matrix)] * (1 + k % 2)
+    planes = [Plane(12, (0, 0, -8), (0.1, 0.2, 1)), Plane(12, (0, -1, 0), (0, 1, 0))]
+    camera = make.camera(26, 20, half=0.4, clip_start=2.5, clip_end=14)
+    return Scene(camera, meshes, instances, planes, objects=tuple("ABCDEFGHIJKLM"))
+
+
+def brute_force(scene, settings):
+    """Return t, instance, triangle of every pixel, (h w,) each: every ray with every triangle."""
+    region, dtype = scene.camera.region, settings.precision.dtype
+    rays = camera_rays(scene.camera, *film_positions(region, 0.0, 0.0), dtype)
+    count = region.width * region.height
+    best = [(np.inf, NOTHING, NOTHING)] * count
+
+    def enter(hit, t, name):
+        for pixel in np.flatnonzero(
+            hit & (t >= scene.camera.clip_start) & (t <= scene.camera.clip_end)
+        ):
+            found = (float(t[pixel]), *name)
+            if best[pixel][1] == NOTHING or found < best[pixel]:
+                best[pixel] = found
+
+    for i, instance in enumerate(scene.instances):
+        mesh = scene.meshes[instance.mesh]
+        world = transform_points(instance.world_from_object, mesh.vertices.T).astype(dtype)
+        for k, triangle in enumerate(mesh.triangles):
+            hit, t, _ = METHODS[settings.method](rays, *(world[:, [corner]] for corner in triangle))
+            enter(hit, t, (i, k))
+    for i, infinite in enumerate(scene.planes):
+        t = plane.intersect(
+            rays, infinite.point[:, None].astype(dtype), infinite.normal[:, None].astype(dtype)
+        )
+        enter(np.isfinite(t), t, (len(scene.instances) + i, NOTHING))
+    return tuple(np.array(column) for column in zip(*best, strict=True))
+
+
+def traced(scene, settings=None):
+    return render.render(scene, settings)
+
+
+@for_all(PLAIN)
+def test_brute_force(mess, settings):
+    frame = traced(mess, settings)
+    t, instance, triangle = brute_force(mess, settings)
+    assert np.array_equal(frame.t.ravel(), t)
+    assert np.array_equal(frame.instance_index.ravel(), instance)
+    assert np.array_equal(frame.triangle_index.ravel(), triangle)
+    seen = set(instance.tolist())
+    assert len(seen) > 6 and len(mess.instances) in seen  # a plane
+
+
+def test_certified_and_auto_against_exact_brute_force(mess):
+    """Every ray with every triangle in whole numbers, with a rule written apart."""
+    truth = judge(mess)
+    names = [s.seen for s in truth]
+    t = t_of_pixels(mess, names)
+    for settings in PROVEN:
+        frame = traced(mess, settings)
+        assert names_of(frame) == names
+        assert np.array_equal(frame.t.ravel(), t)
+    assert sum(len(s.touched) > 1 for s in truth) > 20 and len({i for i, _ in names}) > 6
+
+
+@for_all(PLAIN + PROVEN[:1])
+@pytest.mark.parametrize(
+    "division",
+    [(1, 1 << 14, 32), (1 << 15, 1, 32), (1 << 15, 17, 1), (50, 7, 3), (1 << 20, 1 << 20, 1000)],
+)
+def test_the_division_of_the_work_does_not_matter(mess, settings, division, monkeypatch):
+    whole = traced(mess, settings)
+    for module, name, value in zip(
+        (visibility, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
+    ):
+        monkeypatch.setattr(module, name, value)
+    if settings in PROVEN:
+        pairs, triangles, rows = division
+        monkeypatch.setattr(render, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
+        monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
+        monkeypatch.setattr(pieces, "_CHUNK", triangles)
+        for module, name in ((verdict, "_PAIRS"), (cover, "_VALUES"), (cover, "_CELLS")):
+            monkeypatch.setattr(module, name, pairs)
+        monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
+        monkeypatch.setattr(slabs, "BINS", 2 + triangles % 255)
+    divided = traced(mess, settings)
+    for name, values in divided.passes().items():
+        assert values.tobytes() == whole.passes()[name].tobytes(), name
+    assert divided.ties == whole.ties and bool(whole.ties) == (settings in PROVEN)
+    if settings not in PROVEN:  # what is hidden before it is tested depends on the division
+        assert divided.statistics.pairs_tested == whole.statistics.pairs_tested
+
+
+def test_the_memory_does_not_matter(mess):
+    whole = traced(mess, Settings(samples=2)).passes()
+    for memory in (16 << 20, 1 << 34):
+        for name, values in traced(mess, Settings(samples=2, memory=memory)).passes().items():
+            assert values.tobytes() == whole[name].tobytes(), name
+
+
+def test_a_mesh_shared_or_copied_or_split_is_the_same(mess):
+    """Each triangle as an instance of a mesh of its own: the same picture, bit for bit."""
+    whole = traced(mess)
+    meshes, instances, origin = [], [], []
+    for i, instance in enumerate(mess.instances):
+        mesh = mess.meshes[instance.mesh]
+        for k, triangle in enumerate(mesh.triangles):
+            instances.append(replace(instance, mesh=len(meshes)))
+            meshes.append(Mesh(mesh.vertices[triangle], [[0, 1, 2]]))
+            origin.append((i, k))
+    for k in range(len(mess.planes)):
+        origin.append((len(mess.instances) + k, NOTHING))
+    origin.append((NOTHING, NOTHING))
+    split = traced(replace(mess, meshes=meshes, instances=instances))
+    for name in ("t", "position", "normal", "barycentrics", "object_index"):
+        assert getattr(split, name).tobytes() == getattr(whole, name).tobytes(), name
+    names = np.array(origin)[split.instance_index]
+    assert np.array_equal(names[..., 0], whole.instance_index)
+    assert np.array_equal(names[..., 1], whole.triangle_index)
+
+
+SEEING = pytest.mark.parametrize("method", [m for m in Method if m != Method.TEXTBOOK_LITERAL])
+
+
+@SEEING
+def test_where_instances_touch_there_is_no_gap(make, rng, method):
+    """A grid of instances of one square, each corner computed four times: no pixel is missed."""
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    camera = make.camera(
+        40,
+        40,
+        eye=5 * turn[:, 2],
+        axes=turn,
+        window=ViewWindow(-0.45123, 0.46317, -0.44171, 0.43713),
+    )  # no centre on an edge
+    instances = []
+    for x in range(-8, 8):
+        for y in range(-8, 8):
+            matrix = np.eye(4)
+            matrix[:3] = np.column_stack((turn, turn @ (x, y, 0)))
+            instances.append(Instance(0, 0, matrix))
+    scene = Scene(camera, (make.quad(0, 1, 0, 1, 0),), instances, objects=("Square",))
+    frame = traced(scene, Settings(method))
+    assert (frame.instance_index != NOTHING).all()
+    assert len(np.unique(frame.instance_index)) > 16
+
+
+@SEEING
+def test_equal_t_goes_to_the_lower_instance_and_triangle(make, method):
+    quad = make.quad(-9, 9, -9, 9, -2)
+    double = replace(quad, triangles=quad.triangles[[1, 0, 1, 0]], slots=None)
+    scene = make.scene(make.camera(), double, quad)
+    instances = [replace(scene.instances[k], mesh=m) for k, m in ((0, 1), (1, 0), (0, 0), (1, 1))]
+    for some in (instances, instances[1:], instances[::-1]):
+        frame = traced(replace(scene, instances=some), Settings(method))
+        assert (frame.instance_index == 0).all()
+        lower_right = (
+            0 if some[0].mesh == 1 else 1
+        )  # of the double mesh, the first of its two copies
+        assert frame.triangle_index[0, -1] == lower_right
+        assert frame.triangle_index[-1, 0] == 1 - lower_right
+        assert set(np.unique(frame.triangle_index)) == {0, 1}
+
+
+def test_planes_come_after_instances_and_the_first_of_them_wins(make):
+    planes = [((0, 0, -2), (0, 0, 1)), ((5, 0, -2), (0, 0, -3))]
+    quad = make.quad(-9, 0, -9, 9, -2)
+    frame = traced(make.scene(make.camera(), quad, planes=planes))
+    assert (frame.t == 2).all()
+    assert (frame.instance_index[:, :12] == 0).all()
+    assert (frame.instance_index[:, 12:] == 1).all()
+    assert (frame.triangle_index[:, 12:] == NOTHING).all()
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("kind", ["triangle", "plane"])
+@pytest.mark.parametrize("method", ["moller_trumbore", "certified"])
+def test_the_clip_range_is_inclusive(make, orthographic, kind, method):
+    camera = make.camera(orthographic=orthographic, clip_start=2, clip_end=3)
+    for z, seen in ((2, True), (3, True), (2 - 1e-12, False), (3 + 1e-12, False), (-2.5, False)):
+        things = {"planes": [((0, 0, -z), (0, 0, 1))]} if kind == "plane" else {}
+        meshes = () if kind == "plane" else (make.quad(-9, 9, -9, 9, -z),)
+        frame = traced(make.scene(camera, *meshes, **things), Settings(method))
+        assert (frame.instance_index == (0 if seen else NOTHING)).all()
+        assert np.allclose(frame.t, z if seen else np.inf, rtol=0, atol=1e-15)
+
+
+def test_what_is_clipped_shows_what_is_behind(make):
+    camera = make.camera(clip_start=1.5)
+    scene = make.scene(camera, make.quad(-9, 9, -9, 9, -1), make.quad(-9, 9, -9, 9, -2))
+    assert (traced(scene).object_index == 1).all()
+
+
+def test_nearest_to_a_ray_among_pairs_of_one_step(mess):
+    """Several hits of one ray entered at once: the first of them stays, as one by one."""
+    rays = Rays(np.zeros((3, 1)), np.array([[0.0], [0], [-1]]))
+    corners = np.stack(
+        [make_corner(x, y, np.array([5.0, 3, 4, 3])) for x, y in ((-1, -1), (1, -1), (0, 2))]
+    )
+    some = visibility.Pairs(
+        np.zeros(4, int),
+        np.arange(4),
+        WorldTriangles(corners, np.array([1, 7, 0, 2], np.int32), np.arange(4, dtype=np.int32)),
+    )
+    hits = visibility.Hits.none(1)
+    visibility.test_pairs(mess, Settings("watertight"), rays, some, hits)
+    assert (hits.t[0], hits.instance[0], hits.triangle[0]) == (3, 2, 3)
+
+
+def make_corner(x, y, depths):
+    return np.stack((np.full(len(depths), x, float), np.full(len(depths), y, float), -depths))
