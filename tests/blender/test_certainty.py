@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.engine import ENGINE
+from reference_tracer.tracer.certified import certainty
 from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.contest import certainty
 
 SIZE = 40
 

@@ -9,7 +9,7 @@ from PIL import Image
 from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.certified.contest import certainty
+from reference_tracer.tracer.certified import certainty
 
 from .parts import channels, trace
 

@@ -12,13 +12,13 @@ import sys
 import numpy as np
 import pytest
 from reference_tracer.tracer import render
+from reference_tracer.tracer.certified import certainty
 from reference_tracer.tracer.certified.certainty import (
     AssumptionError,
     Certainty,
     broken_assumptions,
     check_assumptions,
 )
-from reference_tracer.tracer.certified.contest import certainty
 from reference_tracer.tracer.settings import Settings
 
 GLIBC_X86 = platform.machine() in ("x86_64", "AMD64") and platform.libc_ver()[0] == "glibc"

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
+from reference_tracer.tracer.certified import contest as certified
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.contest import Contest, decide, nearest
-from reference_tracer.tracer.certified.contest import contest as certified
 from reference_tracer.tracer.certified.reasons import Reason
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of

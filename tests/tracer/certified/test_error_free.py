@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.tracer.certified.contest import error_free as ef
+from reference_tracer.tracer.certified import error_free as ef
 
 from ..rational import rational
 

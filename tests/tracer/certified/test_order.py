@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
+from reference_tracer.tracer.certified import contest as certified
 from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.contest import contest as certified
 from reference_tracer.tracer.certified.reasons import Reason
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Mesh, Region, Scene
 from reference_tracer.tracer import render
+from reference_tracer.tracer.certified import resolve, settle
 from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.contest import resolve, settle
 from reference_tracer.tracer.certified.sweep import chunks as pieces
 from reference_tracer.tracer.certified.sweep import depth_bins as slabs
 from reference_tracer.tracer.certified.sweep import depth_buffer, sweep, triangle_boxes, verdict
