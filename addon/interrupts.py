@@ -7,7 +7,6 @@ callback from C, it is printed and forgotten; in the middle of an import it leav
 from __future__ import annotations
 
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -22,17 +21,26 @@ def heard() -> Iterator[None]:
     A handler that someone else has set, and all that is not the main thread, is left alone.
     """
     global _heard
-    main = threading.current_thread() is threading.main_thread()
-    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+    if not _taken_over():
         yield
         return
     _heard = False
-    signal.signal(signal.SIGINT, _hear)
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)
         _heard = False  # it is answered: what comes later is not meant
+
+
+def _taken_over() -> bool:
+    """Hear Ctrl-C from now on; return whether that is possible."""
+    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        return False
+    try:
+        signal.signal(signal.SIGINT, _hear)
+    except ValueError:  # outside the main thread
+        return False
+    return True
 
 
 def _hear(*_: object) -> None:
@@ -56,11 +64,12 @@ def answered() -> None:
 
 @contextmanager
 def held() -> Iterator[None]:
-    """Let Ctrl-C wait until the block has ended without an error."""
+    """Let Ctrl-C wait until the block, and each one around it, has ended without an error."""
     global _holding
-    _holding = True
+    before, _holding = _holding, True
     try:
         yield
     finally:
-        _holding = False
-    check()
+        _holding = before
+    if not _holding:
+        check()

@@ -298,9 +298,10 @@ class Scene:
         for i in self.instances:
             if not 0 <= i.mesh < len(self.meshes):
                 raise SceneError(f"An instance names mesh {i.mesh} of {len(self.meshes)}.")
-        for i in (*self.instances, *self.planes):
-            if not 0 <= i.object < len(self.objects):
-                raise SceneError(f"An instance names object {i.object} of {len(self.objects)}.")
+        for what, shown in (("instance", self.instances), ("infinite plane", self.planes)):
+            for s in shown:
+                if not 0 <= s.object < len(self.objects):
+                    raise SceneError(f"An {what} names object {s.object} of {len(self.objects)}.")
 
     @cached_property
     def instance_meshes(self) -> NDArray[np.intp]:

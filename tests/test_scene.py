@@ -181,3 +181,13 @@ def test_drop_non_finite(dtype):
 def test_drop_non_finite_leaves_finite_meshes_alone():
     finite, keep = drop_non_finite(POINTS, FACES)
     assert finite is POINTS and keep.all() and len(keep) == 1
+
+
+@pytest.mark.parametrize("kind", ["instance", "infinite plane"])
+def test_what_names_no_object_is_called_what_it_is(kind):
+    meshes = (Mesh(POINTS, FACES),)
+    shown = {"instances": (Instance(0, 1, np.eye(4)),)}
+    if kind == "infinite plane":
+        shown = {"planes": (Plane(1, np.zeros(3), np.ones(3)),)}
+    with pytest.raises(SceneError, match=f"^An {kind} names object 1 of 1"):
+        Scene(camera(), meshes, objects=("Cube",), **shown)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import pytest
@@ -79,3 +80,26 @@ def test_what_is_held_comes_at_its_end():
     assert steps == ["inside"]
     with interrupts.heard():
         interrupts.check()  # of an earlier one nothing is left
+
+
+def test_what_is_held_within_what_is_held_comes_at_the_outer_end():
+    steps = []
+    with pytest.raises(KeyboardInterrupt), interrupts.heard():
+        with interrupts.held():
+            with interrupts.held():
+                signal.raise_signal(signal.SIGINT)
+                steps.append("inner")
+            steps.append("between")
+            signal.raise_signal(signal.SIGINT)
+            steps.append("outer")
+        steps.append("after")
+    assert steps == ["inner", "between", "outer"]
+
+
+def test_outside_the_main_thread_nothing_is_taken_over():
+    def work():
+        with interrupts.heard():
+            return signal.getsignal(signal.SIGINT)
+
+    with ThreadPoolExecutor() as pool:
+        assert pool.submit(work).result() is signal.default_int_handler
