@@ -9,6 +9,7 @@ import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
+from reference_tracer.report.tables import columns, percent
 from reference_tracer.study.extreme_rows import written
 
 from .examples import Example
@@ -50,13 +51,6 @@ def explain(subject: Subject, example: Example) -> str:
     joined = subprocess.list2cmdline if os.name == "nt" else shlex.join
     pixel = map(str, example.pixel)
     return joined(["reftrace", "explain", str(source), "--pixel", *pixel, *subject.camera_options])
-
-
-def percent(share: float) -> str:
-    """Return a share in percent; what is not all is not written as all, nor some as none."""
-    if share in (0, 1):
-        return f"{100 * share:.0f} %"
-    return f"{min(max(100 * share, 0.1), 99.9):.1f} %"
 
 
 def lines(j: Judgement) -> list[str]:
@@ -112,7 +106,7 @@ def row(name: str, tally: Tally) -> tuple[str, ...]:
     border = f"{tally.boundary_right:,} of {tally.boundary:,}" if tally.boundary else "-"
     if not tally.total:
         return name, "0", "-", "-", "-", border, "-"
-    shares = (percent(v) for v in tally.shares.values())
+    shares = (f"{percent(v)} %" for v in tally.shares.values())
     return name, f"{tally.total:,}", *shares, border, f"{tally.score:.1f}"
 
 
@@ -148,15 +142,3 @@ def class_table(judgements: Sequence[Judgement]) -> list[str]:
             (j.name, f"{j.score:.1f}", VERDICTS[j.verdict], ", ".join(dict.fromkeys(wrong)))
         )
     return columns(rows, left=(0, 2, 3))
-
-
-def columns(rows: Sequence[tuple[str, ...]], left: tuple[int, ...] = (0,)) -> list[str]:
-    """Return rows of cells as lines; the columns of `left` are flush left."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            cell.ljust(w) if k in left else cell.rjust(w)
-            for k, (cell, w) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        for row in rows
-    ]

@@ -69,7 +69,7 @@ def write_extremes(folder: Path, rows: Sequence[extremes.Row]) -> None:
 
 def extremes_table(rows: Sequence[extremes.Row]) -> list[str]:
     """Return the table of breaking points, by lines."""
-    return extremes.breaking_table(rows).splitlines()
+    return extremes_report.breaking_table(rows).splitlines()
 
 
 def extremes_sentence(rows: Sequence[extremes.Row]) -> str:

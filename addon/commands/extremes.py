@@ -33,6 +33,6 @@ def run(options: argparse.Namespace) -> int:
     with folders.made(Path(options.out)):
         with progress_bar() as progress:
             rows = result_of(extremes.measure(rays=options.rays), progress)
-        print(extremes.breaking_table(rows))
+        print(report.breaking_table(rows))
         write_study(options.out, lambda: report.write(options.out, rows, images.save_png))
     return 0

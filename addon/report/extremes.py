@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..images import SavePng
-from ..study.extremes import Row, breaking_points, breaking_table, table
+from ..study.extreme_rows import NAMES, BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
 from .folders import replacing
+from .tables import columns, percent
 
 SCHEMA = "reference_tracer.extremes/1"
 TABLE, JSON = "extremes.txt", "extremes.json"
@@ -40,6 +41,88 @@ _UNITS = {
     "judged": "rays that an independent judge in whole numbers decided, with every triangle",
     "across": "of a row of a map: its second scale",
 }
+
+
+_LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
+_WIDTH = 12  # of a column of the tables
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Return the sweeps as text: for each scale, the percentage of rays that each method loses.
+
+    Behind a plus: those that cross more triangles than there are.
+    """
+    methods = _shown(rows)
+    scenarios = {s.name: s for s in SCENARIOS}
+    lines: list[Sequence[str] | str] = list(_head([""], methods))
+    sweeps: dict[str, dict[float, dict[tuple[str, str], Row]]] = {}
+    for r in rows:
+        if r.across is None:
+            sweeps.setdefault(r.scenario, {}).setdefault(r.scale, {})[r.method, r.precision] = r
+    for name, sweep in sweeps.items():
+        lines.append("")
+        if name in scenarios:
+            s = scenarios[name]
+            unit = f", {s.unit}" if s.unit else ""
+            lines.append(f"{s.title} ({s.scale_name}{unit}): {s.explanation}")
+        for scale, by in sweep.items():
+            lines.append([written(scale), *(_lost(by[m]) if m in by else "" for m in methods)])
+    return "\n".join(
+        [
+            "Rays missed or wrong, in percent; + rays that cross more triangles than there are",
+            _LITERAL,
+            "",
+            *columns(lines, left=(), least=[_WIDTH] * (1 + len(methods))),
+        ]
+    )
+
+
+def _shown(rows: Sequence[Row] | Sequence[BreakingPoint]) -> list[tuple[str, str]]:
+    """Return the methods and precisions but the literal textbook, which loses rays everywhere."""
+    found = dict.fromkeys((r.method, r.precision) for r in rows)
+    return [m for m in found if m[0] != "textbook_literal"]
+
+
+def _head(first: list[str], methods: Sequence[tuple[str, str]]) -> tuple[list[str], list[str]]:
+    names = [NAMES.get(method, method) for method, _ in methods]
+    return first + names, first + [precision for _, precision in methods]
+
+
+def _lost(row: Row) -> str:
+    doubled = f" +{percent(row.doubled / row.rays)}" if row.doubled else ""
+    return f"{percent(row.share)}{doubled}" if row.lost or row.doubled else "."
+
+
+def breaking_table(rows: Sequence[Row]) -> str:
+    """Return as text at which scale each method first misses a ray or sees a wrong surface.
+
+    Behind a plus: where a ray first crosses more triangles than there are.
+    """
+    points = breaking_points(rows)
+    methods = _shown(points)
+    by = {(p.scenario, p.method, p.precision): p for p in points}
+    scales = {s.name: s.scale_name for s in SCENARIOS}
+    lines: list[Sequence[str] | str] = [*_head(["", ""], methods), ""]
+    for name in dict.fromkeys(p.scenario for p in points):
+        cells = (_first_scale(by.get((name, *m))) for m in methods)
+        lines.append([name, scales.get(name, ""), *cells])
+    least = [18, 2 + max(map(len, scales.values())), *[_WIDTH] * len(methods)]
+    return "\n".join(
+        [
+            "First scale at which a ray is missed or wrong; + at which one crosses too many; "
+            ". never",
+            _LITERAL,
+            "",
+            *columns(lines, left=(0, 1), least=least),
+        ]
+    )
+
+
+def _first_scale(point: BreakingPoint | None) -> str:
+    if point is None or point.never:
+        return "."
+    lost = "." if point.lost is None else written(point.lost)
+    return lost if point.doubled is None else f"{lost} +{written(point.doubled)}"
 
 
 def to_dict(rows: Sequence[Row]) -> dict[str, Any]:

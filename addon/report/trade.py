@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from ..images import SavePng
 from ..study.trade import Row, Trade
 from .folders import replacing
+from .tables import columns
 from .trade_plot import picture
 
 SCHEMA = "reference_tracer.tradeoff/1"
@@ -26,18 +26,26 @@ _UNITS = {
 }
 
 
+_HEAD = (
+    *("method", "precision", "seconds", "(min - max)", "wrong pixels  ", "t error, m", "MiB"),
+    "coverage  ",
+)
+
+
 def table(trade: Trade) -> str:
-    """Return the rows as text, a block for each size; those that no other beats have a star."""
-    head, *lines = _lines(trade.rows)
-    blocks: dict[str, list[str]] = {}
-    for r, line in zip(trade.rows, lines, strict=True):
+    """Return the rows as text, a block for each size; a star marks those that no other beats."""
+    counts = [(f"{r.wrong_pixels:,}", f"({r.wrong_pixels / r.pixels:.2%})") for r in trade.rows]
+    blocks: dict[str, list[list[str]]] = {}
+    for r, wrong in zip(trade.rows, columns(counts, left=(), gap=" "), strict=True):
         rays = "one ray" if r.samples == 1 else f"{r.samples} x {r.samples} rays"
-        blocks.setdefault(f"{r.width} x {r.height} pixels, {rays} each", []).append(line)
+        blocks.setdefault(f"{r.width} x {r.height} pixels, {rays} each", []).append(
+            _cells(r, wrong)
+        )
+    lines = [line for title, rows in blocks.items() for line in ("", title, *rows)]
     k = trade.converged
     return "\n".join(
         [
-            head,
-            *(line for title, lines in blocks.items() for line in ("", title, *lines)),
+            *columns([_HEAD, *lines], left=(0, 1, 3), gap=" "),
             "",
             "* no other row beats it, as far as the rounds agree on which is faster: beside wrong",
             "  pixels, in time and wrong pixels, of the same size; beside coverage, in time and",
@@ -47,31 +55,6 @@ def table(trade: Trade) -> str:
             trade.advice,
         ]
     )
-
-
-_COLUMNS = (  # and on which side their cells are flush
-    *(("method", str.ljust), ("precision", str.ljust), ("seconds", str.rjust)),
-    *(("(min - max)", str.ljust), ("wrong pixels  ", str.rjust), ("t error, m", str.rjust)),
-    *(("MiB", str.rjust), ("coverage  ", str.rjust)),
-)
-
-
-def _lines(rows: Sequence[Row]) -> list[str]:
-    """Return the head and a line for each row; columns are as wide as what is in them."""
-    counts, shares = [f"{r.wrong_pixels:,}" for r in rows], [_share(r) for r in rows]
-    wide, wider = max(map(len, counts)), max(map(len, shares))
-    wrong = [f"{c:>{wide}} {s:>{wider}}" for c, s in zip(counts, shares, strict=True)]
-    cells = [[name for name, _ in _COLUMNS], *map(_cells, rows, wrong)]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    sides = [side for _, side in _COLUMNS]
-    return [
-        " ".join(side(c, w) for side, c, w in zip(sides, row, widths, strict=True)).rstrip()
-        for row in cells
-    ]
-
-
-def _share(r: Row) -> str:
-    return f"({r.wrong_pixels / r.pixels:.2%})"
 
 
 def _cells(r: Row, wrong: str) -> list[str]:

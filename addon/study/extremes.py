@@ -23,19 +23,12 @@ from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import render
 from ..tracer.settings import Method, Precision, Settings
 from ..tracer.triangle import METHODS
-from .extreme_rows import BreakingPoint, Row, breaking_points, breaking_table, table
+from .extreme_rows import BreakingPoint, Row, breaking_points
 from .scenarios.scenario import Scenario
 from .scenarios.sweeps import ALL
 from .truth import Truth, crossings, judge_sample, keys, number, pixel_rays, sample, truth_of
 
-__all__ = [
-    "BreakingPoint",
-    "Row",
-    "breaking_points",
-    "breaking_table",
-    "measure",
-    "table",
-]
+__all__ = ["BreakingPoint", "Row", "breaking_points", "measure"]
 
 JUDGED = 16  # rays of a scene, with every triangle: a twentieth of a second
 PLAIN = tuple(Settings(m, p) for m in METHODS for p in Precision)

@@ -10,7 +10,14 @@ import numpy as np
 import pytest
 from reference_tracer.images import MissingLibraryError, save_png
 from reference_tracer.report import extreme_plots
-from reference_tracer.report.extremes import picture_names, pictures, to_dict, write
+from reference_tracer.report.extremes import (
+    breaking_table,
+    picture_names,
+    pictures,
+    table,
+    to_dict,
+    write,
+)
 from reference_tracer.study.extreme_rows import Row
 from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS, quick
 
@@ -123,3 +130,31 @@ def test_grey_is_explained_only_where_there_is_grey(seen, rows, monkeypatch):
     some = [replace(r, seen=seen, missed=0, doubled=0) for r in rows if r.scenario == MAPS[0].name]
     extreme_plots.map_picture(MAPS[0], [*some[:-1], replace(some[-1], seen=100)])
     assert ("Grey" in said[0]) == (seen == 0)
+
+
+def row(scale, missed=0, wrong=0, doubled=0, method="watertight"):
+    return Row("tiny", scale, method, "float64", 200, missed, doubled, wrong, 0)
+
+
+def test_tables():
+    rows = [row(1.0), row(1e-9, doubled=1, wrong=3), row(1e-20, missed=200)]
+    rows += [row(s, method="certified") for s in (1.0, 1e-9, 1e-20)]
+    lines = breaking_table(rows).splitlines()
+    assert lines[-1].split() == ["tiny", "scale", "1e-9", "+1e-9", "."]
+    lines = table(rows).splitlines()
+    assert [line.split() for line in lines[-3:]] == [
+        ["1", ".", "."],
+        ["1e-9", "1.5", "+0.5", "."],
+        ["1e-20", "100", "."],
+    ]
+    assert "Tiny (scale): A sphere" in table(rows)
+    assert len({len(line) for line in (*lines[-3:], lines[4])}) == 1
+
+
+def test_tables_of_all(rows):
+    text = table(rows)
+    assert all(s.explanation in text for s in SCENARIOS)
+    assert not any(m.title in text for m in MAPS)
+    lines = breaking_table([replace(r, doubled=0) for r in rows]).splitlines()
+    assert [line.split()[0] for line in lines[-len(SCENARIOS) :]] == [s.name for s in SCENARIOS]
+    assert all(line.endswith(" .") for line in lines[-len(SCENARIOS) :])

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.study import extremes
-from reference_tracer.study.extreme_rows import Row, breaking_points, breaking_table, table, written
+from reference_tracer.study.extreme_rows import Row, breaking_points, written
 from reference_tracer.study.extremes import measure
-from reference_tracer.study.scenarios.sweeps import ALL, MAPS, SCENARIOS, quick
+from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS, quick
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.hits import NOTHING
@@ -232,30 +232,6 @@ def test_breaking_points():
     assert (first.doubled, first.wrong, first.missed, first.lost) == (0.1, 0.01, 1e-3, 0.01)
     assert second.never and not first.never and second.method == "certified"
     assert second.lost is second.doubled is second.wrong is second.missed is None
-
-
-def test_tables():
-    rows = [row(1.0), row(1e-9, doubled=1, wrong=3), row(1e-20, missed=200)]
-    rows += [row(s, method="certified") for s in (1.0, 1e-9, 1e-20)]
-    lines = breaking_table(rows).splitlines()
-    assert lines[-1].split() == ["tiny", "scale", "1e-9", "+1e-9", "."]
-    lines = table(rows).splitlines()
-    assert [line.split() for line in lines[-3:]] == [
-        ["1", ".", "."],
-        ["1e-9", "1.5", "+0.5", "."],
-        ["1e-20", "100", "."],
-    ]
-    assert "Tiny (scale): A sphere" in table(rows)
-    assert len({len(line) for line in (*lines[-3:], lines[4])}) == 1
-
-
-def test_tables_of_all(rows):
-    text = table(rows)
-    assert all(s.explanation in text for s in SCENARIOS)
-    assert not any(m.title in text for m in MAPS)
-    lines = breaking_table(rows).splitlines()
-    assert [line.split()[0] for line in lines[-len(SCENARIOS) :]] == [s.name for s in SCENARIOS]
-    assert all(line.endswith(" .") for line in lines[-len(SCENARIOS) :])
 
 
 @pytest.mark.parametrize(

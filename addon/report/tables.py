@@ -1,0 +1,46 @@
+"""Cells -> the lines of a text table, for a terminal or a file; and numbers as its cells."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from itertools import zip_longest
+
+
+def columns(
+    rows: Sequence[Sequence[str] | str],
+    left: Collection[int] = (0,),
+    gap: str = "  ",
+    least: Sequence[int] = (),
+) -> list[str]:
+    """Return rows of cells as lines, each column as wide as its widest cell.
+
+    Parameters
+    ----------
+    rows : sequence of (sequence of str, or str)
+        All rows have the same number of cells. A str is a line by itself, such as a title.
+    left : collection of int
+        The columns whose cells are flush left; those of the others are flush right.
+    gap : str
+        What stands between two columns.
+    least : sequence of int
+        The least widths of the first columns.
+    """
+    cells = [row for row in rows if not isinstance(row, str)]
+    widest = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    widths = [max(pair) for pair in zip_longest(widest, least[: len(widest)], fillvalue=0)]
+
+    def line(row: Sequence[str]) -> str:
+        padded = (
+            cell.ljust(width) if k in left else cell.rjust(width)
+            for k, (cell, width) in enumerate(zip(row, widths, strict=True))
+        )
+        return gap.join(padded).rstrip()
+
+    return [row if isinstance(row, str) else line(row) for row in rows]
+
+
+def percent(share: float) -> str:
+    """Return a share as a number of percent: only all is written as 100, and only none as 0."""
+    if share in (0, 1):
+        return f"{100 * share:.0f}"
+    return f"{min(max(100 * share, 0.1), 99.9):.1f}"
