@@ -105,7 +105,7 @@ def test_the_tutorials_pictures_are_there():
 
 def test_every_fault_is_described():
     grading = (DOCS / "grading.md").read_text(encoding="utf-8")
-    folder = PROJECT / "addon" / "study" / "students"
+    folder = PROJECT / "grading"
     names = set()
     for file in ("hit_faults.py", "value_faults.py", "faults.py"):
         for node in ast.walk(ast.parse((folder / file).read_text(encoding="utf-8"))):
