@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from typing import NoReturn
 
 import numpy as np
@@ -55,12 +56,12 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_judge(parser: argparse.ArgumentParser) -> None:
-    """Add which of Blender's pictures to compare with, and how it is shaded."""
+def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
+    """Add which of Blender's pictures, by the names of its judges, to compare with, and how."""
     group = parser.add_argument_group("Blender's picture (by default as the scene says)")
     group.add_argument(
         "--judge",
-        choices=["auto", "workbench", "cycles", "all"],
+        choices=["auto", *judges, "all"],
         help="which of Blender's pictures to compare with; all: a table of every one (and the "
         "viewport's, in a window)",
     )

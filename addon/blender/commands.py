@@ -37,6 +37,7 @@ from ..tracer.settings import Settings
 from . import studies
 from .compare import compare_to_folder, export_open_file, made
 from .engines import compare_all
+from .judges import choices
 
 _handle: Any = None
 
@@ -73,7 +74,7 @@ def _parser() -> Parser:
         "trace the open scene, compare it with Blender's picture, write files",
     )
     add_settings(sub)
-    add_judge(sub)
+    add_judge(sub, choices())
     add_page(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
     sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES)
@@ -145,14 +146,14 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     SceneError, SizeError, OSError, AssumptionError, MemoryError
         What :func:`compare_to_folder` raises; the folder's JSON says why.
     """
-    choices = {
+    chosen = {
         "settings": settings_from(options, bpy.context.scene.reference_tracer.settings()),
         "as_is": options.as_is or None,
         "identity": options.identity,
         "self_check": options.self_check,
     }
     if options.judge == "all":
-        rows = result_of(compare_all(bpy.context, options.out, **choices), progress)
+        rows = result_of(compare_all(bpy.context, options.out, **chosen), progress)
         verdict = engines.worst(rows)
         print(*engines.lines(rows), f"verdict: {verdict}", f"written to {options.out}", sep="\n")
         pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
@@ -160,7 +161,7 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
         return VERDICT_CODES[verdict]
     judge = options.judge.upper() if options.judge else None
     for_page = {"trade": options.trade, "extremes": options.extremes}
-    work = compare_to_folder(bpy.context, options.out, **for_page, judge=judge, **choices)
+    work = compare_to_folder(bpy.context, options.out, **for_page, judge=judge, **chosen)
     comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")

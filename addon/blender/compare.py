@@ -29,22 +29,14 @@ from . import images
 from .alternatives import alternatives
 from .animation import values_kept
 from .camera import export_camera
-from .cycles import check_random
 from .engine import Certified, export_certified, export_for_render
 from .identity import draw_identity
+from .judges import Judge, find
 from .planes import stand_ins
 from .temporary import temporary_scene
 from .unmodelled import of_shading
 from .view_transforms import view_transforms
-from .viewport import (
-    FILTER_RADIUS,
-    SAMPLE_RADIUS,
-    anti_aliasing,
-    choose_source,
-    picture,
-    prepare,
-    use_view_shading,
-)
+from .viewport import anti_aliasing, picture, prepare, use_view_shading
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,39 +94,40 @@ def gather(
     settings = settings or stored.settings()
     if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
         settings = replace(settings, samples=1)
-    source = choose_source(judge or stored.judge)
-    view_shading = None if like_for_like or source != "viewport" else _solid_shading(context)
+    engine = find(judge or stored.judge, bpy.app.background)
+    of_view = engine.needs_window and not like_for_like
+    view_shading = _solid_shading(context) if of_view else None
     checked = stored.self_check if self_check is None else self_check
     found, later = None, None
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
-    with temporary_scene(scene, layer, source) as tmp:
+    with temporary_scene(scene, layer, engine) as tmp:
         if view_shading:
             use_view_shading(tmp, view_shading)
         used = prepare(tmp, like_for_like)
         used["shading_of"] = "3D view" if view_shading else "scene"
-        used["anti_aliasing"] = smooth = anti_aliasing(tmp, source, like_for_like)
-        exported, manifest, certificate = export_for_judge(tmp, layer, source)
+        used["anti_aliasing"] = smooth = anti_aliasing(tmp, engine, like_for_like)
+        exported, manifest, certificate = export_for_judge(tmp, layer, engine)
         certificate.check()
-        if like_for_like and (source, used["color_type"]) == ("cycles", "RANDOM"):
-            check_random(exported, manifest.owners)
+        if like_for_like and used["color_type"] == "RANDOM":
+            engine.check_random(exported, manifest.owners)
         if not like_for_like:
             own = [
-                replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, source, smooth)
+                replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, engine, smooth)
             ]
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
         if checked:
-            later = _a_frame_later(tmp, layer, source)
+            later = _a_frame_later(tmp, layer, engine)
         of_planes = manifest.owners[len(exported.instances) :]
         with stand_ins(tmp, layer, exported, of_planes) as exported:
-            drawn = picture(tmp, layer, source, exported.camera, like_for_like)
+            drawn = picture(tmp, layer, engine, exported.camera, like_for_like)
             if stored.identity if identity is None else identity:
-                found = draw_identity(tmp, layer, source, exported.camera)
+                found = draw_identity(tmp, layer, engine, exported.camera)
     names, owner = found or ((), None)
     blender = {
         "version": bpy.app.version_string,
-        "source": source,
-        "sample_radius": SAMPLE_RADIUS[source],
-        "filter_radius": 0.0 if smooth == "OFF" else FILTER_RADIUS,
+        "source": engine.name,
+        "sample_radius": engine.sample_radius,
+        "filter_radius": 0.0 if smooth == "OFF" else engine.filter_radius,
         "settings": used,
     }
     known = Known(
@@ -149,20 +142,20 @@ def gather(
     return Gathered(exported, manifest, settings, shown, blender, known)
 
 
-def export_for_judge(tmp: Any, layer: str, source: str) -> Certified:
+def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
     """Return what a judge is to be compared with, and the certificate of its camera."""
-    if source != "viewport":
+    if not judge.needs_window:
         return export_for_render(tmp)
     with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
         return export_certified(bpy.context.evaluated_depsgraph_get())
 
 
-def _a_frame_later(tmp: Any, layer: str, source: str) -> Scene:
+def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     """Return the scene of the next frame, and go back to this one."""
     now = tmp.frame_current
     with values_kept():
         tmp.frame_set(now + 1)
-        later, _, _ = export_for_judge(tmp, layer, source)
+        later, _, _ = export_for_judge(tmp, layer, judge)
         tmp.frame_set(now)
     return later
 

@@ -6,24 +6,25 @@ viewport colour of the face's slot by its data path, and lives as long as one pi
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ..scene import GREY, Scene, SceneError
+from ..scene import GREY, SceneError
 from .colors import WITHOUT_ATTRIBUTE, random_color
 from .copies import colored_copies, drawn
 
 SLOTS = 32  # material slots that are told apart: each is some nodes
-FILTER_WIDTH = 0.01  # pixels, the least there is: every sample lies near its pixel's centre
 
 
 @contextmanager
-def constant_colors(scene: Any, layer: str) -> Iterator[None]:
+def constant_colors(scene: Any, layer: str, sample_radius: float) -> Iterator[None]:
     """Set a temporary scene up to be drawn by Cycles in constant colours.
+
+    Its samples are at most `sample_radius` pixels from their pixel's centre: 0.005 is the least.
 
     Raises
     ------
@@ -35,15 +36,16 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
         objects = drawn(scene, layer)
         colors = np.array([random_color(o)[:3] for o in objects]).reshape(-1, 3)
         scene.display.shading.color_type = "OBJECT"
-        with colored_copies(scene, layer, objects, colors), constant_colors(scene, layer):
-            yield
+        with colored_copies(scene, layer, objects, colors):
+            with constant_colors(scene, layer, sample_radius):
+                yield
         scene.view_layers[layer].update()  # or its list still has the copies
         return
     scene.cycles.samples = 1
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.pixel_filter_type = "BOX"
-    scene.cycles.filter_width = FILTER_WIDTH
+    scene.cycles.filter_width = 2 * sample_radius
     material = bpy.data.materials.new("Reference Tracer Constant")
     try:
         _emission(material, scene)
@@ -51,20 +53,6 @@ def constant_colors(scene: Any, layer: str) -> Iterator[None]:
         yield
     finally:
         bpy.data.materials.remove(material)
-
-
-def check_random(scene: Scene, owners: Sequence[str]) -> None:
-    """Raise a SceneError if random colours are those of instances, which Cycles cannot draw.
-
-    An instance shows the colour of its own object's name, and Cycles that of what instances it.
-    """
-    for instance, owner in zip(scene.instances, owners, strict=False):
-        if scene.objects[instance.object] != owner:
-            raise SceneError(
-                f"Cycles cannot draw the viewport's random colours of instances, as of '{owner}': "
-                "set the colour of the scene's solid shading to material or object, or compare "
-                "with Workbench."
-            )
 
 
 def _emission(material: Any, scene: Any) -> None:

@@ -1,4 +1,4 @@
-"""Every engine that is here against the same tracer: the viewport (in a window), Workbench, Cycles.
+"""Every judge that is here against the same tracer.
 
 All pictures are drawn at once; what is returned then holds nothing of Blender's.
 """
@@ -17,8 +17,7 @@ from ..scene import SceneError
 from ..tracer.progress import Work, scaled
 from . import images
 from .compare import Gathered, gather, made
-
-ENGINES = ("viewport", "workbench", "cycles")  # the first needs a window
+from .judges import JUDGES
 
 
 def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
@@ -41,7 +40,8 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
         If the folder cannot be written.
     """
     folder = made(directory) if directory else None
-    drawn = [(e, _drawn(context, e, choices)) for e in ENGINES[bpy.app.background :]]
+    here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
+    drawn = [(name, _drawn(context, name, choices)) for name in here]
     if all(isinstance(d, str) for _, d in drawn):
         raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
     return _compared(drawn, folder)

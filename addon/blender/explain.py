@@ -13,8 +13,9 @@ from ..scene import Scene
 from . import results
 from .camera import export_camera
 from .compare import export_for_judge
+from .judges import JUDGES, find
 from .temporary import temporary_scene
-from .viewport import choose_source, prepare
+from .viewport import prepare
 
 
 def derive_here(
@@ -51,7 +52,7 @@ def exported(context: Any, as_rendered: bool = False) -> Scene:
     """Export the context's scene as a comparison does, or as a render."""
     scene, layer, stored = context.scene, context.view_layer.name, context.scene.reference_tracer
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
-    source = "workbench" if as_rendered else choose_source(stored.judge)
-    with temporary_scene(scene, layer, source) as tmp:
+    judge = JUDGES["workbench"] if as_rendered else find(stored.judge, bpy.app.background)
+    with temporary_scene(scene, layer, judge) as tmp:
         prepare(tmp, stored.shading == "LIKE_FOR_LIKE" and not as_rendered)
-        return export_for_judge(tmp, layer, source)[0]
+        return export_for_judge(tmp, layer, judge)[0]

@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 from ..compare.identity import MOST, colors_of, decode
 from ..scene import Camera
 from .copies import colored_copies, drawn
+from .judges import Judge
 from .planes import STANDS_FOR
 from .viewport import picture, prepare
 
 
 def draw_identity(
-    tmp: Any, layer: str, source: str, camera: Camera
+    tmp: Any, layer: str, judge: Judge, camera: Camera
 ) -> tuple[tuple[str, ...], NDArray[np.int32]] | None:
     """Return the names of what may be shown, and which of them each pixel shows, (h, w).
 
@@ -32,7 +33,7 @@ def draw_identity(
         Prepared, with the stand-ins of infinite planes.
     layer : str
         Name of the view layer.
-    source : {'viewport', 'workbench', 'cycles'}
+    judge : Judge
     camera : Camera
 
     Returns
@@ -55,5 +56,5 @@ def draw_identity(
     prepare(tmp, True)
     tmp.display.shading.color_type = "OBJECT"
     with colored_copies(tmp, layer, objects, colors_of(len(names))[numbers]):
-        found = decode(picture(tmp, layer, source, camera, True), len(names))
+        found = decode(picture(tmp, layer, judge, camera, True), len(names))
     return names, found

@@ -16,6 +16,7 @@ from ..tracer.progress import Work
 from . import results, scenario_scene, studies
 from .compare import compare_to_folder, gather, made
 from .engines import compare_all
+from .judges import JUDGES
 from .long_work import LongWork
 
 SWEEPS = [(s.name, s.title, s.explanation) for s in SCENARIOS]
@@ -24,6 +25,9 @@ STUDIES = [
     *SWEEPS,
     *((m.name, m.title, m.explanation) for m in MAPS),
 ]
+
+*_FIRST, _LAST = (j.label for j in JUDGES.values())
+_ENGINES = f"{', '.join(_FIRST)} and {_LAST}"
 
 
 class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
@@ -55,8 +59,8 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
     bl_idname = "reference_tracer.compare_all"
     bl_label = "Compare All Engines"
     bl_description = (
-        "Trace the scene, and compare the viewport, Workbench and Cycles with it, each in turn: "
-        "which of them shows a wrong object, where, and why"
+        f"Trace the scene, and compare {_ENGINES} with it, each in turn: which of them shows a "
+        "wrong object, where, and why"
     )
 
     def begin(self, context: Any) -> Work[Any]:

@@ -12,6 +12,7 @@ from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
 from . import results
 from .engine import ENGINE
+from .judges import JUDGES
 from .operators import REFERENCE_TRACER_OT_compare, REFERENCE_TRACER_OT_compare_all
 from .page import REFERENCE_TRACER_OT_open_page
 from .panel_parts import NARROW, Properties, Sidebar, short_name, table, wrapped
@@ -58,7 +59,7 @@ class _Main:
                 p = row.pixels or {"differ": "-", "unexplained": "-"}
                 wrong = "?" if row.wrong_objects is None else row.wrong_objects
                 shown = (p["differ"], wrong, p["unexplained"])
-                rows.append((row.engine.capitalize(), *map(str, shown)))
+                rows.append((JUDGES[row.engine].label, *map(str, shown)))
             table(layout.box(), rows, NARROW)
 
 
@@ -91,7 +92,7 @@ class _Result:
             ("PSNR", "infinite" if psnr is None else f"{psnr:.1f} dB"),
             ("SSIM", f"{measured['ssim']:.6f}"),
             ("Largest Difference", f"{measured['largest_difference']['value']:.3g} at ({x}, {y})"),
-            ("Compared With", comparison.blender["source"].capitalize()),
+            ("Compared With", JUDGES[comparison.blender["source"]].label),
             ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
         ]
         table(self.layout, rows)

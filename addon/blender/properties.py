@@ -9,6 +9,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
 from ..tracer.settings import Method, Precision, Settings
+from . import judges
 
 # (identifier, name, description, number). A .blend stores the number: one that was given away is
 # never given to another, and a new item takes the next.
@@ -52,14 +53,8 @@ PRECISIONS = (
     ("float32", "float32", "Single precision, as graphics hardware has it", 1),
 )
 JUDGES = (
-    ("AUTO", "Automatic", "The viewport in a window, Workbench in background", 0),
-    ("WORKBENCH", "Workbench", "A Workbench render: render visibility and modifier levels", 1),
-    (
-        "CYCLES",
-        "Cycles",
-        "A Cycles render of the same constant colours, one sample in each pixel's centre",
-        2,
-    ),
+    (judges.AUTO, "Automatic", "The viewport in a window, Workbench in background", 0),
+    *((j.name.upper(), j.label, j.description, j.number) for j in judges.choices().values()),
 )
 SHADINGS = (
     (

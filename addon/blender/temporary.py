@@ -12,15 +12,17 @@ from typing import Any
 
 import bpy
 
+from .judges import Judge
+
 DRAWN = "reference_tracer_drawn"  # a custom property of what the add-on itself draws in a scene
 
-_copies: dict[str, tuple[str, str | None]] = {}  # name of a temporary scene: the user's, judge
+_copies: dict[str, tuple[str, Judge | None]] = {}  # name of a temporary scene: the user's, judge
 _collections: dict[str, list[Any]] = {}  # name of a temporary scene: copies of collections in it
 
 
 @contextmanager
 def temporary_scene(
-    scene: Any, layer: str | None = None, judge: str | None = None
+    scene: Any, layer: str | None = None, judge: Judge | None = None
 ) -> Iterator[Any]:
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
@@ -32,7 +34,7 @@ def temporary_scene(
     scene : bpy.types.Scene
     layer : str, optional
         Name of the view layer; the scene's first by default.
-    judge : {'viewport', 'workbench', 'cycles'}, optional
+    judge : Judge, optional
         Whose picture it is for.
     """
     images = set(bpy.data.images)
@@ -67,7 +69,7 @@ def is_temporary(scene: Any) -> bool:
     return scene.name_full in _copies
 
 
-def judge_of(scene: Any) -> str | None:
+def judge_of(scene: Any) -> Judge | None:
     """Return whose picture a temporary scene is for; None for a scene of the user's."""
     return _copies.get(scene.name_full, (None, None))[1]
 

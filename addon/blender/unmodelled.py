@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..manifest import Unmodelled
 from .colors import slot_materials
+from .judges import Judge
 
 # Object types that Blender draws, but not as triangles.
 _DRAWN_OTHERWISE = {
@@ -22,20 +23,6 @@ _DRAWN_OTHERWISE = {
     "GREASEPENCIL": "grease pencil",
     "POINTCLOUD": "point cloud",
     "VOLUME": "volume",
-}
-
-# Who draws what: elsewhere a feature is named, but explains no pixel. Cycles shows constant colours
-# without transparency (see `cycles.py`).
-_RASTERISERS = frozenset({"viewport", "workbench"})
-_CYCLES = frozenset({"cycles"})
-_DRAWN_BY = {
-    "transparency": _RASTERISERS,
-    "texture": _RASTERISERS,
-    "in-front drawing": _RASTERISERS,
-    "display type": frozenset(),
-    "holdout": _CYCLES,
-    "not visible to the camera": _CYCLES,
-    "indirect only": _CYCLES,
 }
 
 
@@ -61,7 +48,7 @@ def _reaches(obj: Any) -> Iterator[float]:
 
 
 def of_object(
-    obj: Any, matrix: Any, shading: Any, layer: Any, mode: str, judge: str | None
+    obj: Any, matrix: Any, shading: Any, layer: Any, mode: str, judge: Judge | None
 ) -> Iterator[Unmodelled]:
     """Yield what is not modelled of one evaluated object as it appears with `matrix`.
 
@@ -74,14 +61,14 @@ def of_object(
     shading : bpy.types.View3DShading
     layer : bpy.types.ViewLayer
     mode : {'VIEWPORT', 'RENDER'}
-    judge : {'viewport', 'workbench', 'cycles'} or None
+    judge : Judge or None
         Whose picture is compared: only what it draws has bounds. None for any.
     """
     bounds = None
 
     def found(feature: str, detail: str = "") -> Unmodelled:
         nonlocal bounds
-        if judge and judge not in _DRAWN_BY.get(feature, (judge,)):
+        if judge and feature in judge.ignores:
             return Unmodelled(obj.original.name_full, feature, detail)
         bounds = world_bounds(obj, matrix) if bounds is None else bounds
         return Unmodelled(obj.original.name_full, feature, detail, bounds)
@@ -165,14 +152,14 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
         yield found("mist")
 
 
-def of_shading(scene: Any, source: str, anti_aliasing: str) -> Iterator[Unmodelled]:
+def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
     """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it.
 
     Anti-aliasing alone can be checked: it mixes colours that the tracer sees.
     """
     shading, name = scene.display.shading, f"scene '{scene.name}'"
-    if source == "cycles":
-        yield Unmodelled(name, "materials and light", "of Cycles", None, True, True)
+    if not judge.solid:
+        yield Unmodelled(name, "materials and light", f"of {judge.label}", None, True, True)
         return
     detail, found = "Blender's picture is made with it", False
     for feature, shown, recolours in (

@@ -1,4 +1,4 @@
-"""Blender's own picture of a scene, as an array: the viewport's, Workbench's or Cycles'.
+"""Blender's own picture of a scene, as an array, by one of its engines.
 
 Everything is set on a temporary copy of the user's scene. What cannot live on a copy, the
 preference for the viewport's anti-aliasing and the mark that preferences were changed, is put back.
@@ -18,22 +18,8 @@ from numpy.typing import NDArray
 
 from ..compare.comparison import SizeError
 from ..scene import Camera
-from . import cycles
 from .animation import values_kept
-
-# Where each samples a pixel: at most this far from its centre, in pixels.
-SAMPLE_RADIUS = {"viewport": 0.0, "workbench": 0.0, "cycles": cycles.FILTER_WIDTH / 2}
-
-# How far from a pixel's centre its anti-aliasing mixes what is seen, in pixels: Workbench's samples
-# lie within a pixel and a half, and what smooths their edges takes in the pixel beside.
-FILTER_RADIUS = 2.0
-
-
-def choose_source(judge: str) -> str:
-    """Return which picture, a key of SAMPLE_RADIUS, the user's choice of judge means here."""
-    if judge == "AUTO":
-        return "workbench" if bpy.app.background else "viewport"
-    return judge.lower()
+from .judges import Judge
 
 
 def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
@@ -99,14 +85,14 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
     }
 
 
-def anti_aliasing(scene: Any, source: str, like_for_like: bool) -> str:
+def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
     """Return what smooths the edges of the picture that :func:`picture` makes; 'OFF' for nothing.
 
     In a window that is the user's preference, whatever the scene says.
     """
     if like_for_like:
         return "OFF"
-    if source == "viewport":
+    if judge.needs_window:
         return bpy.context.preferences.system.viewport_aa
     return scene.display.render_aa
 
@@ -123,7 +109,7 @@ def use_view_shading(scene: Any, shading: Any) -> None:
 
 
 def picture(
-    scene: Any, layer: str, source: str, camera: Camera, like_for_like: bool
+    scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool
 ) -> NDArray[np.float32]:
     """Return Blender's picture of a prepared temporary scene.
 
@@ -132,8 +118,7 @@ def picture(
     scene : bpy.types.Scene
     layer : str
         Name of the view layer.
-    source : {'viewport', 'workbench', 'cycles'}
-        'viewport' needs a window.
+    judge : Judge
     camera : Camera
         Says which pixels are the picture's: the viewport ignores the render border.
     like_for_like : bool
@@ -152,20 +137,17 @@ def picture(
     """
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")
-        if source == "viewport":
-            _draw_viewport(scene, layer, like_for_like)
-        else:
-            scene.render.engine = "BLENDER_WORKBENCH" if source == "workbench" else "CYCLES"
-            colors = source == "cycles" and like_for_like
-            with cycles.constant_colors(scene, layer) if colors else nullcontext():
-                with values_kept():
-                    bpy.ops.render.render(scene=scene.name, write_still=True)
+        with judge.set_up(judge, scene, layer) if like_for_like else nullcontext():
+            if judge.needs_window:
+                _draw_viewport(scene, layer, like_for_like)
+            else:
+                _render(scene, judge.engine)
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
-            raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({source}).")
+            raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
         pixels = _read(found[0])
     r = camera.region
-    if source == "viewport" and pixels.shape[:2] == (camera.height, camera.width):
+    if judge.needs_window and pixels.shape[:2] == (camera.height, camera.width):
         pixels = pixels[r.y0 : r.y1, r.x0 : r.x1]
     if pixels.shape[:2] != (r.height, r.width):
         raise SizeError(
@@ -173,6 +155,12 @@ def picture(
             f"region {r.width} x {r.height}."
         )
     return np.ascontiguousarray(pixels)
+
+
+def _render(scene: Any, engine: str) -> None:
+    scene.render.engine = engine
+    with values_kept():
+        bpy.ops.render.render(scene=scene.name, write_still=True)
 
 
 def _draw_viewport(scene: Any, layer: str, like_for_like: bool) -> None:

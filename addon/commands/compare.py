@@ -27,6 +27,8 @@ from .parts import Commands, command
 
 def add(commands: Commands) -> None:
     """Add the command."""
+    from ..blender.judges import choices
+
     parser = command(
         commands,
         "compare",
@@ -38,7 +40,7 @@ def add(commands: Commands) -> None:
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)
-    add_judge(parser)
+    add_judge(parser, choices())
     add_page(parser)
     group = parser.add_argument_group("another picture, in place of Blender's")
     group.add_argument(

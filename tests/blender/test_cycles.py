@@ -10,10 +10,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.cycles import FILTER_WIDTH
+from reference_tracer.blender.judges import JUDGES
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.render import render
 
+RADIUS = JUDGES["cycles"].sample_radius
 SCENES = (
     "exercise_perspective",
     "exercise_orthographic",
@@ -35,7 +36,7 @@ def cycles_passes(rendered) -> dict[str, np.ndarray]:
     layer = bpy.context.view_layer
     layer.use_pass_z = layer.use_pass_normal = layer.use_pass_object_index = True
     scene.cycles.samples, scene.cycles.pixel_filter_type = 1, "BLACKMAN_HARRIS"
-    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 0.01
+    scene.cycles.pixel_filter_type, scene.cycles.filter_width = "BOX", 2 * RADIUS
     scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
     return rendered("CYCLES")[layer.name]
 
@@ -87,7 +88,7 @@ def test_depth_normal_and_object_index(name, opened, rendered, export):
 
     depth = passes["Depth"][inside][:, 0].astype(float)
     farthest = np.abs(frame.position[inside]).max() + np.abs(scene.camera.origin).max()
-    allowed = FILTER_WIDTH / 2 * depth_slope(scene, frame)[inside] + ROUNDING * farthest
+    allowed = RADIUS * depth_slope(scene, frame)[inside] + ROUNDING * farthest
     assert (np.abs(depth - frame.t[inside]) <= allowed).all()
     assert np.median(allowed / frame.t[inside]) < 1e-4  # or it would hold nothing
 
@@ -140,7 +141,7 @@ def test_cycles_picture_has_no_unexplained_pixel(name, opened, compare):
     opened(name, WIDTH)
     comparison = compare(judge="CYCLES")
     assert comparison.blender["source"] == "cycles"
-    assert comparison.blender["sample_radius"] == FILTER_WIDTH / 2
+    assert comparison.blender["sample_radius"] == RADIUS
     pixels = comparison.pixels
     assert pixels["unexplained"] == pixels["not_decidable"] == 0
     assert pixels["differ"] <= 0.02 * pixels["total"]

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import viewport
 from reference_tracer.blender.camera import export_camera
+from reference_tracer.blender.judges import JUDGES, find
 from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.compare.comparison import SizeError
 
@@ -24,12 +25,12 @@ def scene(build):
     return scene
 
 
-def pictured(scene, source="workbench", like_for_like=True):
+def pictured(scene, judge="workbench", like_for_like=True):
     camera = export_camera(scene)
     layer = bpy.context.view_layer.name
     with temporary_scene(scene) as copy:
         viewport.prepare(copy, like_for_like)
-        return viewport.picture(copy, layer, source, camera, like_for_like)
+        return viewport.picture(copy, layer, JUDGES[judge], camera, like_for_like)
 
 
 @pytest.mark.parametrize(
@@ -37,8 +38,7 @@ def pictured(scene, source="workbench", like_for_like=True):
 )
 def test_the_judge_in_background(judge, source):
     assert bpy.app.background
-    assert viewport.choose_source(judge) == source
-    assert source in viewport.SAMPLE_RADIUS
+    assert find(judge, bpy.app.background) is JUDGES[source]
 
 
 def test_row_0_is_the_bottom_row(scene, build):
@@ -139,7 +139,7 @@ def test_a_picture_of_another_size_is_an_error(scene):
         viewport.prepare(copy, True)
         copy.render.resolution_x = 64
         with pytest.raises(SizeError, match="64 x 54 pixels, the camera's region 96 x 54"):
-            viewport.picture(copy, bpy.context.view_layer.name, "workbench", camera, True)
+            viewport.picture(copy, bpy.context.view_layer.name, JUDGES["workbench"], camera, True)
 
 
 def test_the_viewport_needs_a_window_and_says_so(scene):

@@ -1,0 +1,85 @@
+"""A judge is one record: what is added there is seen everywhere, and nothing else is drawn."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import bpy
+import pytest
+from reference_tracer.blender.judges import JUDGES, find
+from reference_tracer.scene import SceneError
+
+# A Blender of its own, in which the records have one more before anything else reads them.
+ADDED = """
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from reference_tracer.blender import judges
+
+drawn = []
+
+@contextmanager
+def set_up(judge, scene, layer):
+    drawn.append((judge.name, layer))
+    yield
+
+judges.JUDGES["draft"] = judges.Judge(
+    "draft", "Draft", "A quick picture", 7, "BLENDER_WORKBENCH", frozenset(), set_up,
+    sample_radius=0.25,
+)
+
+import bpy
+import reference_tracer
+from reference_tracer import cli
+from reference_tracer.blender import commands, operators
+
+reference_tracer.register()
+out = Path(sys.argv[1])
+bpy.ops.wm.open_mainfile(filepath=sys.argv[2], load_ui=False)
+stored = bpy.context.scene.reference_tracer
+stored.judge = "DRAFT"
+item = stored.bl_rna.properties["judge"].enum_items["DRAFT"]
+assert (item.name, item.description, item.value) == ("Draft", "A quick picture", 7)
+assert "Draft" in operators.REFERENCE_TRACER_OT_compare_all.bl_description
+bpy.context.scene.render.resolution_percentage = 10
+assert bpy.ops.reference_tracer.compare(directory=str(out / "stored")) == {"FINISHED"}
+stored.judge = "AUTO"
+commands.run(["compare", "--judge", "draft", "--out", str(out / "named")])
+assert len(drawn) == 4, drawn  # its picture, and whose surfaces it shows
+commands.run(["compare", "--judge", "all", "--out", str(out / "all")])
+cli.main(["compare", "--help"])
+"""
+
+
+def test_what_is_added_is_seen_everywhere(tmp_path, opened):
+    path = opened("suzanne") and bpy.data.filepath
+    done = subprocess.run(
+        [sys.executable, "-c", ADDED, tmp_path, path], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "{auto,workbench,cycles,draft,all}" in "".join(done.stdout.split())
+    for folder in ("stored", "named", "all/draft"):
+        found = json.loads((tmp_path / folder / "comparison.json").read_text(encoding="utf-8"))
+        assert found["blender"]["source"] == "draft"
+        assert found["blender"]["sample_radius"] == 0.25
+        assert found["pixels"]["unexplained"] == 0 < found["pixels"]["agree"]
+    table = json.loads((tmp_path / "all" / "engines.json").read_text(encoding="utf-8"))
+    assert [row["engine"] for row in table["engines"]] == ["workbench", "cycles", "draft"]
+
+
+@pytest.mark.parametrize("name", ["EEVEE", "viewport "])
+def test_one_that_is_unknown_is_refused(name, opened, compare):
+    """In place of a picture by another."""
+    opened("suzanne", 32)
+    with pytest.raises(SceneError, match=rf"no judge '{name}'.*workbench, cycles"):
+        compare(judge=name)
+
+
+def test_a_record_is_found_by_its_name():
+    for name, judge in JUDGES.items():
+        assert judge.name == name
+        assert find(name.upper(), background=True) is judge
+    assert find("AUTO", background=True) is JUDGES["workbench"]
+    assert find("AUTO", background=False).needs_window
