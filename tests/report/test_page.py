@@ -17,6 +17,7 @@ from PIL import Image
 from reference_tracer.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.files import write as write_folder
+from reference_tracer.report.files import write_failure
 from reference_tracer.report.page import document, packing, surfaces
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.frame import Frame
@@ -149,9 +150,59 @@ def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
     held = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
     own.validate(held)
-    for broken in (held | {"verdict": "fine"}, {k: v for k, v in held.items() if k != "pixels"}):
+    for broken in (
+        held | {"verdict": "fine"},
+        held | {"verdict": "failed"},
+        {k: v for k, v in held.items() if k != "pixels"},
+    ):
         with pytest.raises(jsonschema.ValidationError):
             own.validate(broken)
+
+
+def test_every_result_of_the_self_check_is_in_the_schema(differing):
+    from dataclasses import replace
+
+    from reference_tracer.compare.self_check import FaultRow
+
+    rows = [
+        FaultRow("a", "text", 5, 5, 5, 1),
+        FaultRow("b", "text", 5, 5, 5, 0),
+        FaultRow("c", "text", 5, 5, 5, 0, within_rounding=True),
+        FaultRow("d", "text", note="there is nothing to get wrong"),
+    ]
+    results = ["caught", "missed", "within rounding", "cannot be seen here"]
+    assert [row.result for row in rows] == results
+    held = replace(differing, self_check=tuple(rows)).to_dict()
+    own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
+    own.validate(json.loads(document.json_text(held)))
+    of_row = own.schema["$defs"]["compared"]["properties"]["self_check"]["items"]
+    assert of_row["properties"]["result"]["enum"] == results
+    held["self_check"][0]["result"] = "fine"
+    with pytest.raises(jsonschema.ValidationError):
+        own.validate(held)
+
+
+def test_a_failure_is_as_the_schema_says(tmp_path):
+    write_failure(tmp_path, ValueError("no camera"))
+    held = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
+    own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
+    own.validate(held)
+    for broken in (
+        held | {"verdict": "agree"},
+        held | {"error": {"type": "ValueError"}},
+        held | {"pixels": {}},
+        {k: v for k, v in held.items() if k != "error"},
+    ):
+        with pytest.raises(jsonschema.ValidationError):
+            own.validate(broken)
+
+
+def test_a_page_is_of_no_failure(differing, tmp_path):
+    write_failure(tmp_path, ValueError("no camera"))
+    failure = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
+    held = json.loads(document.json_text(content(differing)))
+    with pytest.raises(jsonschema.ValidationError):
+        validator().validate(held | {"comparison": failure})
 
 
 def test_the_schema_finds_what_is_wrong(differing):
