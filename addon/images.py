@@ -1,19 +1,23 @@
 """Arrays <-> picture files, and the way from linear colour to what a screen shows.
 
 Pictures are (h, w, 4), row 0 at the bottom; files are written with their first row on top.
-PNG needs Pillow and EXR needs OpenEXR, the extra `images`; inside Blender, Blender writes them.
+A PNG is written with zlib alone. The extra `images` has what the rest takes: Pillow reads a PNG,
+OpenEXR reads and writes an EXR.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import struct
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-SavePng = Callable[[Path, NDArray[np.uint8]], None]  # (h, w, 4) pictures, row 0 at the bottom
+_LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
+_UP = 2  # PNG's filter: the difference from the row above
+_RGBA = 6  # PNG's colour type
 
 
 class MissingLibraryError(RuntimeError):
@@ -61,18 +65,36 @@ def curve_undone(stored: NDArray[np.floating]) -> NDArray[np.float64]:
 
 
 def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
-    """Write an (h, w, 4) uint8 picture.
+    """Write an (h, w, 4) uint8 sRGB picture, row 0 at the bottom.
 
     Raises
     ------
-    MissingLibraryError
-        If Pillow is not installed.
+    OSError
+        If the file cannot be written.
     """
-    try:
-        from PIL import Image
-    except ImportError:
-        raise _missing("PNG files", "Pillow") from None
-    Image.fromarray(np.ascontiguousarray(picture[::-1])).save(path)
+    Path(path).write_bytes(png(picture))
+
+
+def png(picture: NDArray[np.uint8]) -> bytes:
+    """Return an (h, w, 4) uint8 sRGB picture, row 0 at the bottom, as the content of a PNG file.
+
+    Source: the PNG specification, third edition (W3C): 8 bits a channel; every row is filtered by
+    its difference from the one above.
+    """
+    height, width = picture.shape[:2]
+    rows = np.empty((height, 1 + 4 * width), np.uint8)
+    rows[:, 0] = _UP
+    flat = picture[::-1].reshape(height, -1)
+    rows[0, 1:] = flat[0]
+    rows[1:, 1:] = flat[1:] - flat[:-1]  # modulo 256, as the filter wants it
+    header = struct.pack(">2I5B", width, height, 8, _RGBA, 0, 0, 0)
+    chunks = (b"IHDR", header), (b"IDAT", zlib.compress(rows, _LEVEL)), (b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*chunk) for chunk in chunks)
+
+
+def _chunk(kind: bytes, content: bytes) -> bytes:
+    body = kind + content
+    return struct.pack(">I", len(content)) + body + struct.pack(">I", zlib.crc32(body))
 
 
 def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:

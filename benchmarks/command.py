@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from reference_tracer import images
 from reference_tracer.arguments import INTERRUPTED, add_bench
 from reference_tracer.commands.parts import Commands, command, write_study
 from reference_tracer.report import folders
@@ -34,7 +33,5 @@ def run(options: argparse.Namespace) -> int:
         with progress_bar() as progress:
             bench, baseline = measured(options, progress)
         print(report.table(bench, baseline))
-        write_study(
-            options.out, lambda: report.write(options.out, bench, images.save_png, baseline)
-        )
+        write_study(options.out, lambda: report.write(options.out, bench, baseline))
     return INTERRUPTED if bench.interrupted else 0

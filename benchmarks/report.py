@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from reference_tracer.images import SavePng
+from reference_tracer import images
+from reference_tracer.report.folders import replacing_file
 from reference_tracer.scene import SceneError
 
 from .plot import picture
@@ -45,16 +45,12 @@ def to_dict(bench: Bench) -> dict[str, Any]:
 
 def write_json(directory: str | Path, bench: Bench) -> None:
     """Write `bench.json`; whoever reads it meanwhile, or stops us, finds a whole one."""
-    target = Path(directory) / JSON
     text = json.dumps(to_dict(bench), indent=2, allow_nan=False)
-    unfinished = target.with_suffix(".part")
-    unfinished.write_text(text + "\n", encoding="utf-8")
-    os.replace(unfinished, target)
+    with replacing_file(Path(directory) / JSON) as new:
+        new.write_text(text + "\n", encoding="utf-8")
 
 
-def write(
-    directory: str | Path, bench: Bench, save_png: SavePng, baseline: Bench | None = None
-) -> None:
+def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) -> None:
     """Write `bench.json`, `bench.txt` and `bench.png`, in this order.
 
     Parameters
@@ -62,8 +58,6 @@ def write(
     directory : path
         Made where it is not there.
     bench : Bench
-    save_png : callable
-        Writes an (h, w, 4) uint8 picture, row 0 at the bottom: `images.save_png`.
     baseline : Bench, optional
         What the table compares with.
 
@@ -80,7 +74,7 @@ def write(
     write_json(directory, bench)
     (directory / TABLE).write_text(table(bench, baseline) + "\n", encoding="utf-8")
     if bench.rows:
-        save_png(directory / PLOT, picture(bench))
+        images.save_png(directory / PLOT, picture(bench))
 
 
 def load(path: str | Path) -> Bench:

@@ -8,7 +8,14 @@ import numpy as np
 import OpenEXR
 import pytest
 from PIL import Image
-from reference_tracer.images import MissingLibraryError, save_exr, save_png, to_display
+from reference_tracer.images import (
+    MissingLibraryError,
+    load,
+    png,
+    save_exr,
+    save_png,
+    to_display,
+)
 
 
 def opaque(values):
@@ -52,9 +59,13 @@ def picture(rng):
     return rng.integers(0, 256, (5, 7, 4), dtype=np.uint8)
 
 
-def test_png_has_row_0_at_the_bottom(picture, tmp_path):
+@pytest.mark.parametrize("shape", [(1, 1), (5, 7), (40, 30)])
+def test_png_has_row_0_at_the_bottom(shape, rng, tmp_path):
+    picture = rng.integers(0, 256, (*shape, 4), dtype=np.uint8)
     save_png(tmp_path / "p.png", picture)
-    assert np.array_equal(np.asarray(Image.open(tmp_path / "p.png"))[::-1], picture)
+    with Image.open(tmp_path / "p.png") as read:
+        assert (read.format, read.mode, read.size) == ("PNG", "RGBA", shape[::-1])
+        assert np.array_equal(np.asarray(read)[::-1], picture)
 
 
 def test_exr_holds_every_pass(tmp_path, rng):
@@ -87,10 +98,25 @@ def test_exr_holds_every_pass(tmp_path, rng):
 
 
 @pytest.mark.parametrize(
-    "save, library, module", [(save_png, "Pillow", "PIL"), (save_exr, "OpenEXR", "OpenEXR")]
+    "use, library, module",
+    [
+        (lambda path: save_exr(path / "p.exr", {}), "OpenEXR", "OpenEXR"),
+        (lambda path: load(path / "given.exr"), "OpenEXR", "OpenEXR"),
+        (lambda path: load(path / "given.png"), "Pillow", "PIL"),
+    ],
 )
-def test_missing_library_says_how_to_get_it(save, library, module, picture, tmp_path, monkeypatch):
+def test_missing_library_says_how_to_get_it(use, library, module, tmp_path, monkeypatch):
+    for name in ("given.exr", "given.png"):
+        (tmp_path / name).touch()
     monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(MissingLibraryError, match=rf"{library}.*pip install"):
-        save(tmp_path / "p", picture if save is save_png else {"color": picture})
-    assert not list(tmp_path.iterdir())
+        use(tmp_path)
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_png_is_written_without_a_library(picture, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "PIL", None)
+    save_png(tmp_path / "p.png", picture)
+    assert (tmp_path / "p.png").read_bytes() == png(picture)
+    with pytest.raises(OSError, match="nowhere"):
+        save_png(tmp_path / "nowhere" / "p.png", picture)

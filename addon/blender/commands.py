@@ -28,7 +28,8 @@ from ..commands import explain
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import SizeError
-from ..report import files, page
+from ..report import comparison as comparison_report
+from ..report import page
 from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.certified.certainty import AssumptionError
@@ -98,7 +99,7 @@ def _compare(options: Any) -> int:
         return compare_open_file(options)
     except Exception as error:
         with suppress(OSError):  # where it is the folder that cannot be written
-            files.write_failure(bpy.path.abspath(options.out), error)
+            comparison_report.write_failure(bpy.path.abspath(options.out), error)
         raise
 
 

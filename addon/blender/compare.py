@@ -20,12 +20,12 @@ from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.known import Known
 from ..compare.shown import Shown, numbered
 from ..manifest import Manifest
-from ..report import files, folders, page
+from ..report import comparison as comparison_report
+from ..report import folders, page
 from ..scene import Scene
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
-from . import images
 from .alternatives import alternatives
 from .animation import values_kept
 from .camera import export_camera
@@ -197,7 +197,7 @@ def _written(folder: Path, work: Work[Comparison], trade: bool, extremes: bool) 
         comparison = yield from scaled(work, 0.0, share)
         finding = page.extras(comparison, trade, extremes)
         extras = yield from scaled(finding, share, 1 - share)
-        files.write(folder, comparison, images.save_png, extras)
+        comparison_report.write(folder, comparison, extras)
     yield 1.0
     return comparison
 
@@ -208,7 +208,7 @@ def _failure_written(folder: Path) -> Iterator[None]:
         yield
     except Exception as error:
         with suppress(OSError):  # which may be what the error is
-            files.write_failure(folder, error)
+            comparison_report.write_failure(folder, error)
         raise
 
 

@@ -12,10 +12,10 @@ import bpy
 
 from ..arguments import words
 from ..compare.engines import EngineRow
-from ..report import files, page
+from ..report import comparison as comparison_report
+from ..report import page
 from ..scene import SceneError
 from ..tracer.progress import Work, scaled
-from . import images
 from .compare import Gathered, gather, made
 from .judges import JUDGES
 
@@ -71,7 +71,7 @@ def _compared(
         if folder:
             finding = page.extras(comparison)
             extras = yield from scaled(finding, (number + part) * share, (1 - part) * share)
-            files.write(folder / engine, comparison, images.save_png, extras)
+            comparison_report.write(folder / engine, comparison, extras)
     if folder:
-        files.write_engines(folder, rows)
+        comparison_report.write_engines(folder, rows)
     return tuple(rows)

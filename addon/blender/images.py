@@ -1,8 +1,7 @@
-"""Arrays -> images in Blender, and PNG files through it."""
+"""Arrays -> images in Blender."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -50,23 +49,3 @@ def show_in_editor(context: Any, image: Any) -> None:
         if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
             area.spaces.active.image = image
             break
-
-
-def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
-    """Write an (h, w, 4) uint8 picture, row 0 at the bottom.
-
-    Raises
-    ------
-    OSError
-        If Blender cannot write the file.
-    """
-    height, width = picture.shape[:2]
-    image = bpy.data.images.new("Reference Tracer File", width, height, alpha=True)
-    try:
-        image.pixels.foreach_set((picture.astype(np.float32) / 255).ravel())
-        image.filepath_raw, image.file_format = str(path), "PNG"
-        image.save()
-    except RuntimeError as error:
-        raise OSError(f"cannot write {path}: {error}") from error
-    finally:
-        bpy.data.images.remove(image)

@@ -16,7 +16,6 @@ from ..study.scenarios.sweeps import ALL
 from ..study.trade import NAMES, Trade
 from ..tracer.progress import Work
 from ..tracer.settings import Method
-from . import images
 from .compare import export_open_file
 
 EVERY = "ALL"  # in place of a scenario's name
@@ -39,7 +38,7 @@ def trade(context: Any, width: int | None = None, samples: int = tradeoff.SAMPLE
 def write_trade(folder: Path, found: Trade) -> None:
     """Write what `reftrace trade` writes; without Matplotlib all but the plot."""
     try:
-        trade_report.write(folder, found, images.save_png)
+        trade_report.write(folder, found)
     except MissingLibraryError as error:
         print(f"Reference Tracer: {error}")
 
@@ -62,7 +61,7 @@ def chosen(name: str) -> Sequence[Scenario]:
 def write_extremes(folder: Path, rows: Sequence[extremes.Row]) -> None:
     """Write what `reftrace extremes` writes; without Matplotlib all but the pictures."""
     try:
-        extremes_report.write(folder, rows, images.save_png)
+        extremes_report.write(folder, rows)
     except MissingLibraryError as error:
         print(f"Reference Tracer: {error}")
 

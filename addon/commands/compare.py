@@ -17,7 +17,8 @@ from ..compare.known import Known
 from ..compare.shown import Shown
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
-from ..report import files, folders, page
+from ..report import comparison as comparison_report
+from ..report import folders, page
 from ..report.progress_bar import progress_bar
 from ..scene import Camera, Scene, SceneError
 from ..scene_files import diagnosed
@@ -76,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
             return _with_blender(options)
         except Exception as error:
             with suppress(OSError):
-                files.write_failure(options.out, error)
+                comparison_report.write_failure(options.out, error)
             raise
 
 
@@ -119,7 +120,7 @@ def _against(options: argparse.Namespace) -> int:
             comparison = result_of(_file(options, picture, about), progress)
         finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
-    files.write(options.out, comparison, images.save_png, extras)
+    comparison_report.write(options.out, comparison, extras)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")
     return EXIT_CODES[comparison.verdict]

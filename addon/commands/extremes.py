@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from .. import images
 from ..report import folders
 from ..report.progress_bar import progress_bar
 from ..tracer.progress import result_of
@@ -34,5 +33,5 @@ def run(options: argparse.Namespace) -> int:
         with progress_bar() as progress:
             rows = result_of(extremes.measure(rays=options.rays), progress)
         print(report.breaking_table(rows))
-        write_study(options.out, lambda: report.write(options.out, rows, images.save_png))
+        write_study(options.out, lambda: report.write(options.out, rows))
     return 0

@@ -6,7 +6,6 @@ import argparse
 from contextlib import nullcontext
 from pathlib import Path
 
-from .. import images
 from ..arguments import add_camera, settings_from
 from ..opening import SOURCES, load
 from ..report import folders
@@ -46,5 +45,5 @@ def run(options: argparse.Namespace) -> int:
             trade = result_of(work, progress)
         print(report.table(trade))
         if options.out:
-            write_study(options.out, lambda: report.write(options.out, trade, images.save_png))
+            write_study(options.out, lambda: report.write(options.out, trade))
     return 0

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..images import SavePng
+from .. import images
 from ..study.extreme_rows import NAMES, BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
@@ -163,7 +163,7 @@ def _row(row: Row) -> dict[str, Any]:
     return found
 
 
-def write(directory: str | Path, rows: Sequence[Row], save_png: SavePng) -> None:
+def write(directory: str | Path, rows: Sequence[Row]) -> None:
     """Write `extremes.txt`, `extremes.json` and the pictures, all or none.
 
     Parameters
@@ -171,8 +171,6 @@ def write(directory: str | Path, rows: Sequence[Row], save_png: SavePng) -> None
     directory : path
         Made where it is not there.
     rows : sequence of Row
-    save_png : callable
-        Writes an (h, w, 4) uint8 picture, row 0 at the bottom: `images.save_png`, or Blender's own.
 
     Raises
     ------
@@ -188,7 +186,7 @@ def write(directory: str | Path, rows: Sequence[Row], save_png: SavePng) -> None
         (new / TABLE).write_text(text, encoding="utf-8")
         (new / JSON).write_text(content + "\n", encoding="utf-8")
         for name, picture in pictures(rows):
-            save_png(new / f"{name}.png", picture)
+            images.save_png(new / f"{name}.png", picture)
 
 
 def picture_names() -> list[str]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..images import SavePng
+from .. import images
 from ..study.trade import Row, Trade
 from .folders import replacing
 from .tables import columns
@@ -94,7 +94,7 @@ def _is_finite(value: float | None) -> bool:
     return value is not None and bool(np.isfinite(value))
 
 
-def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
+def write(directory: str | Path, trade: Trade) -> None:
     """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.png`, all or none.
 
     Parameters
@@ -102,8 +102,6 @@ def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
     directory : path
         Made where it is not there.
     trade : Trade
-    save_png : callable
-        Writes an (h, w, 4) uint8 picture, row 0 at the bottom: `images.save_png`, or Blender's own.
 
     Raises
     ------
@@ -116,4 +114,4 @@ def write(directory: str | Path, trade: Trade, save_png: SavePng) -> None:
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         (new / JSON).write_text(text + "\n", encoding="utf-8")
-        save_png(new / PLOT, picture(trade))
+        images.save_png(new / PLOT, picture(trade))

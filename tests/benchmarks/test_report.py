@@ -57,7 +57,7 @@ def bench():
 
 
 def test_the_json_and_back(bench, tmp_path):
-    write(tmp_path, bench, images.save_png)
+    write(tmp_path, bench)
     text = (tmp_path / JSON).read_text(encoding="utf-8")
     data = json.loads(text, parse_constant=pytest.fail)
     assert data["schema"] == SCHEMA == "reference_tracer.bench/1"
@@ -136,7 +136,7 @@ def test_without_matplotlib_the_rest_is_there(bench, tmp_path, monkeypatch):
     (tmp_path / PLOT).write_text("an earlier one")
     monkeypatch.setattr(report, "picture", missing)
     with pytest.raises(images.MissingLibraryError):
-        write(tmp_path, bench, images.save_png)
+        write(tmp_path, bench)
     assert (tmp_path / JSON).is_file() and (tmp_path / TABLE).is_file()
     assert not (tmp_path / PLOT).exists()
 

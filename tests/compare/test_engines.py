@@ -13,7 +13,7 @@ from reference_tracer.compare.engines import EngineRow
 from reference_tracer.compare.known import Known
 from reference_tracer.compare.shown import Shown, numbered
 from reference_tracer.manifest import Manifest
-from reference_tracer.report import files
+from reference_tracer.report.comparison import write_engines
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
@@ -60,7 +60,7 @@ def test_the_table_and_the_json(rows, tmp_path):
     assert engines.worst(rows) == "differences"
     assert engines.worst(rows[:1]) == "agree"
     assert engines.worst([rows[0], rows[2]]) == "warnings"
-    files.write_engines(tmp_path, rows)
+    write_engines(tmp_path, rows)
     held = json.loads((tmp_path / "engines.json").read_text(encoding="utf-8"))
     assert held["schema"] == engines.SCHEMA and held["verdict"] == "differences"
     assert [row["engine"] for row in held["engines"]] == ["workbench", "cycles", "eevee"]

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.images import MissingLibraryError, save_png
+from reference_tracer.images import MissingLibraryError
 from reference_tracer.report import extreme_plots
 from reference_tracer.report.extremes import (
     breaking_table,
@@ -56,7 +56,7 @@ def strict(text):
 
 
 def test_the_folder(rows, tmp_path):
-    write(tmp_path / "new", rows, save_png)
+    write(tmp_path / "new", rows)
     names = {path.name for path in (tmp_path / "new").iterdir()}
     assert names == {"extremes.txt", "extremes.json", *(f"{n}.png" for n in picture_names())}
     text = (tmp_path / "new" / "extremes.txt").read_text(encoding="utf-8")
@@ -106,7 +106,7 @@ def test_without_matplotlib_all_else_is_written(rows, tmp_path, monkeypatch):
     (tmp_path / "breaking_points.png").write_text("of an earlier run")
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(MissingLibraryError, match="Matplotlib"):
-        write(tmp_path, rows, save_png)
+        write(tmp_path, rows)
     assert {path.name for path in tmp_path.iterdir()} == {"extremes.txt", "extremes.json"}
 
 

@@ -91,7 +91,7 @@ def test_table_keeps_its_columns_apart(trade):
 
 @pytest.fixture
 def folder(trade, tmp_path):
-    write(tmp_path / "new" / "out", trade, images.save_png)
+    write(tmp_path / "new" / "out", trade)
     return tmp_path / "new" / "out"
 
 
@@ -120,7 +120,7 @@ def test_json(folder, trade):
 
 def test_json_is_strict_whatever_was_measured(tmp_path, trade):
     odd = replace(trade.rows[0], largest_t_error=float("inf"), coverage_error=float("nan"))
-    write(tmp_path, replace(trade, rows=[odd, *trade.rows[1:]]), lambda path, picture: None)
+    write(tmp_path, replace(trade, rows=[odd, *trade.rows[1:]]))
     held = strict((tmp_path / JSON).read_text(encoding="utf-8"))["rows"][0]
     assert held["largest_t_error"] is None and held["coverage_error"] is None
 
@@ -180,7 +180,7 @@ def test_without_matplotlib_all_else_is_written(trade, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     (tmp_path / PLOT).touch()
     with pytest.raises(images.MissingLibraryError, match=r"pip install 'reference_tracer\[plots\]"):
-        write(tmp_path, trade, images.save_png)
+        write(tmp_path, trade)
     assert sorted(p.name for p in tmp_path.iterdir()) == sorted([TABLE, JSON])
 
 

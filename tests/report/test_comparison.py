@@ -9,9 +9,9 @@ import pytest
 from PIL import Image
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.comparison import SCHEMA, compare
-from reference_tracer.images import save_png, to_display
+from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.report.files import write, write_failure
+from reference_tracer.report.comparison import write, write_failure
 from reference_tracer.report.pictures import CAUSE_COLORS, difference
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
@@ -50,7 +50,7 @@ def comparison(compared):
 
 @pytest.fixture
 def folder(comparison, tmp_path):
-    write(tmp_path / "new" / "out", comparison, save_png)
+    write(tmp_path / "new" / "out", comparison)
     return tmp_path / "new" / "out"
 
 
@@ -106,7 +106,7 @@ def test_json_of_a_picture_that_is_not_finite(compared, tmp_path):
     def change(picture):
         picture[0, 0], picture[0, 1] = np.nan, np.inf
 
-    write(tmp_path, compared(change), save_png)
+    write(tmp_path, compared(change))
     assert strict(tmp_path)["metrics"]["largest_difference"]["value"] > 0
     assert sorted(p.name for p in tmp_path.iterdir()) == NAMES
 
@@ -115,12 +115,12 @@ def test_what_json_cannot_hold_is_an_error(comparison, tmp_path):
     """Rather than a file that other readers refuse."""
     comparison.blender["gamma"] = float("nan")
     with pytest.raises(ValueError, match="JSON"):
-        write(tmp_path, comparison, save_png)
+        write(tmp_path, comparison)
     assert not (tmp_path / "comparison.json").exists()
 
 
 def test_writing_again_replaces(folder, compared):
-    write(folder, compared(lambda picture: None), save_png)
+    write(folder, compared(lambda picture: None))
     assert strict(folder)["verdict"] == "agree"
     assert np.array_equal(png(folder, "blender.png"), png(folder, "traced.png"))
     assert sorted(p.name for p in folder.iterdir()) == NAMES
@@ -146,7 +146,7 @@ def test_a_failure_leaves_no_older_pictures(folder):
 def test_a_folder_that_cannot_be_written(comparison, tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(OSError, match="file"):
-        write(tmp_path / "file", comparison, save_png)
+        write(tmp_path / "file", comparison)
 
 
 def test_every_cause_has_a_colour_of_its_own(comparison):

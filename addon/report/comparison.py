@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import images
 from ..compare import engines
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.engines import EngineRow
-from ..images import SavePng, to_display
 from . import page
 from .folders import replacing
 from .pictures import difference
@@ -26,7 +26,6 @@ _NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 def write(
     directory: str | Path,
     comparison: Comparison,
-    save_png: SavePng,
     extras: page.Extras | None = None,
 ) -> None:
     """Write the pictures, `frame.npz`, `page.html` and `comparison.json`.
@@ -38,8 +37,6 @@ def write(
     directory : path
         Made where it is not there.
     comparison : Comparison
-    save_png : callable
-        Writes an (h, w, 4) uint8 picture, row 0 at the bottom: `images.save_png`, or Blender's own.
     extras : page.Extras, optional
         What the page shows beside the comparison.
 
@@ -53,7 +50,7 @@ def write(
     causes = comparison.causes
     with replacing(Path(directory), _NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
-            save_png(new / f"{name}.png", to_display(color))
+            images.save_png(new / f"{name}.png", images.to_display(color))
         np.savez_compressed(
             new / ARRAYS,
             **comparison.frame.passes(),
