@@ -5,7 +5,12 @@
 
 PYTHON_IN_VENV := .venv/bin/python
 
-.PHONY: help demo test test-browser test-gui torture bench docs lint extension clean
+# Two workers for two cores, and one more, since the tests in a window mostly wait.
+WORKERS := 3
+PYTEST := $(PYTHON_IN_VENV) -m pytest
+SHARED := -n $(WORKERS) --no-loadscope-reorder
+
+.PHONY: help demo check test test-browser test-gui torture bench docs lint extension clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -13,32 +18,29 @@ help: ## list the commands
 demo: .venv/.stamp ## trace a sample scene, have Blender render it, compare: out/demo/page.html
 	.venv/bin/reftrace compare sample_scenes/suzanne.blend --trade --out out/demo
 
-# The tests in a browser and in a window come last, each as a make of its own: they need what only
-# root can install, and where that is not possible the run says so and is still a success.
-test: lint ## run all tests, those in a browser and in a window too where that is possible
-	$(PYTHON_IN_VENV) -m pytest
-	@if reason=$$(tools/browser.sh check); then \
-		$(MAKE) --no-print-directory test-browser; \
-	else \
-		echo; echo "NOT RUN: the tests of the page in a browser ($$reason)"; \
-	fi
-	@if reason=$$(tools/whole_blender.sh check); then \
-		$(MAKE) --no-print-directory test-gui; \
-	else \
-		echo; echo "NOT RUN: the tests in a whole Blender with a window ($$reason)"; \
-	fi
+check: lint ## check the style, run the fast tests that need neither Blender nor a browser: a minute
+	$(PYTEST) $(SHARED) --ignore tests/blender -q \
+		-m "not blender and not browser and not gui and not slow and not torture"
+
+# What the tests in a browser and in a window need, only root can install: where that is not
+# possible they are skipped, the run says so and is still a success.
+test: lint extension ## run all tests, those in a browser and in a window too where that is possible
+	@for tool in browser whole_blender; do \
+		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
+	done
+	$(PYTEST) $(SHARED) -rs -m "not torture"
 
 test-browser: .venv/.stamp ## run the tests of the page in a headless Chromium; root installs it
 	tools/browser.sh setup
-	$(PYTHON_IN_VENV) -m pytest -m browser
+	$(PYTEST) -m browser
 
 test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
 	tools/whole_blender.sh setup
-	$(PYTHON_IN_VENV) -m pytest -m gui
+	$(PYTEST) -m gui
 
 # What `make test` samples, at its full length.
 torture: .venv/.stamp ## run the long tests, too long for every day: the suites at their full size
-	$(PYTHON_IN_VENV) -m pytest -m torture
+	$(PYTEST) -m torture
 
 bench: .venv/.stamp ## measure speed beside embreex, Cycles and others, half an hour: out/bench
 	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \

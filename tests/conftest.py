@@ -10,6 +10,28 @@ from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWin
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Keep the tests of a file in one worker, and all that share the window's Blender."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Together(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            file = nodeid.split("::")[0]
+            return "tests/gui" if file.startswith("tests/gui/") else file
+
+    return Together(config, log)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Begin with the window's tests, which take longest; mark what needs Blender by its folder."""
+    items.sort(key=lambda item: not item.nodeid.startswith("tests/gui/"))
+    for item in items:
+        if item.nodeid.startswith("tests/blender/"):
+            item.add_marker("blender")
+
+
 class Make:
     """Builders of scenes; cameras look along -Z from the origin, Y up, unless told otherwise."""
 

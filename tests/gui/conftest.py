@@ -1,4 +1,7 @@
-"""A whole Blender with the built extension installed, in a root folder and home of its own."""
+"""A whole Blender with the built extension installed, in a root folder and home of its own.
+
+One start of it plays the stories of all tests that are to be run: `@pytest.mark.story(NAME)`.
+"""
 
 import json
 import shutil
@@ -34,21 +37,26 @@ class Blender:
         ]
         return subprocess.run(command, capture_output=True, text=True, timeout=timeout)
 
-    def story(self, name, scene="suzanne", file="stories"):
-        """Play a story of a file in the real window; returns what it noted."""
-        result = OUT / f"{name}.json"
-        done = self.run(
-            f"/project/sample_scenes/{scene}.blend",
-            "--python-exit-code",
-            "9",
-            "--python",
-            f"/project/tests/gui/{file}.py",
-            "--",
-            name,
-        )
-        log = done.stdout + done.stderr
-        (OUT / f"{name}.log").write_text(log)
-        assert result.exists(), log[-3000:]
+    def play(self, stories):
+        """Play stories in the real window, one after another; one that ends Blender is the last.
+
+        The others are then played by another Blender. What is missing is found by `noted`.
+        """
+        waiting = list(stories)
+        for name in waiting:
+            (OUT / f"{name}.json").unlink(missing_ok=True)
+        while waiting:
+            done = self.run("--python", "/project/tests/gui/play.py", "--", *waiting, timeout=1800)
+            played = [name for name in waiting if (OUT / f"{name}.json").exists()]
+            log = done.stdout + done.stderr
+            for name in waiting[: len(played) + 1]:
+                (OUT / f"{name}.log").write_text(log)
+            waiting = waiting[len(played) + 1 :]
+
+    def noted(self, story):
+        """Return what a story that was played has noted."""
+        result = OUT / f"{story}.json"
+        assert result.exists(), (OUT / f"{story}.log").read_text()[-3000:]
         noted = json.loads(result.read_text())
         assert "error" not in noted, noted["error"]
         return noted
@@ -57,6 +65,9 @@ class Blender:
 @pytest.fixture(scope="session")
 def blender():
     """Give the whole Blender, with the extension from dist/ installed by Blender itself."""
+    check = subprocess.run([WHOLE_BLENDER, "check"], capture_output=True, text=True)
+    if check.returncode:
+        pytest.skip(check.stdout.strip())
     [package] = (PROJECT / "dist").glob("reference_tracer-*.zip")
     blender = Blender()
     done = blender.run(
@@ -70,3 +81,17 @@ def blender():
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return blender
+
+
+@pytest.fixture(scope="session")
+def played(blender, request):
+    """Play the stories of all tests of this run, in one Blender."""
+    marks = (item.get_closest_marker("story") for item in request.session.items)
+    blender.play(dict.fromkeys(mark.args[0] for mark in marks if mark))
+    return blender
+
+
+@pytest.fixture
+def noted(played, request):
+    """Give what the test's story has noted."""
+    return played.noted(request.node.get_closest_marker("story").args[0])

@@ -1,20 +1,14 @@
-"""What a user does with the pixel inspector, played in Blender's window: see `story.py`."""
+"""What a user does with the pixel inspector, played in its window: see `play.py`."""
 
 import subprocess
-import sys
-from pathlib import Path
 
 import bpy
-
-sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
-
 from story import (
     compared,
     data_blocks,
     invoke,
     module,
     noted,
-    play,
     press,
     press_compare,
     result,
@@ -241,4 +235,5 @@ def other_file():
     noted["ended"] = running()
 
 
-play((in_images, in_render, in_view, other_file))
+SCENE = "suzanne"
+STORIES = (in_images, in_render, in_view, other_file)

@@ -1,10 +1,7 @@
-"""The button that opens the page, pressed inside Blender's window."""
+"""The button that opens the page, pressed inside Blender's window: see `play.py`."""
 
 import os
-import sys
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
 import bpy
 from story import (
@@ -14,7 +11,6 @@ from story import (
     invoke,
     noted,
     open_tab,
-    play,
     press_compare,
     screenshot,
     settings,
@@ -53,4 +49,5 @@ def page():
     noted["unchanged"] = before == (settings(), data_blocks())
 
 
-play((page,))
+SCENE = "suzanne"
+STORIES = (page,)

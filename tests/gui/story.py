@@ -1,22 +1,16 @@
-"""What stories share: the window, the keyboard, waiting, and what must stay as it was.
-
-A story is a generator: it yields how many seconds to wait, and Blender draws and handles events
-meanwhile. What it notes is written to out/gui/NAME.json when it ends, and Blender quits.
-"""
+"""What stories share: the window, the keyboard, waiting, and what must stay as it was."""
 
 import hashlib
-import json
 import subprocess
 import sys
 import time
-import traceback
 from pathlib import Path
 
 import bpy
 
 OUT = Path("/project/out/gui")
 SIDEBAR_TAB = ("1308", "233")  # ours, in a window of 1600 x 900
-noted = {}
+noted = {}  # what the story that is played has found; see play.py
 
 
 def window():
@@ -86,7 +80,7 @@ def render_result():
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def until(condition, seconds=60):
+def until(condition, seconds=300):
     """Wait for something; an error if it does not come."""
     end = time.monotonic() + seconds
     while not condition():
@@ -151,22 +145,3 @@ def show_panel():
             area.spaces.active.show_region_ui = True
         if area.type == "PROPERTIES":
             area.spaces.active.context = "RENDER"
-
-
-def play(stories):
-    """Play the story that the command line names."""
-    name = sys.argv[sys.argv.index("--") + 1]
-    story = next(s for s in stories if s.__name__ == name)()
-
-    def go():
-        try:
-            return next(story)
-        except StopIteration:
-            pass
-        except BaseException:
-            noted["error"] = traceback.format_exc()
-        (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
-        bpy.ops.wm.quit_blender()
-        return None
-
-    bpy.app.timers.register(go, first_interval=2, persistent=True)

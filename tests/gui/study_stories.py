@@ -1,23 +1,19 @@
-"""What a user does with the two studies, played in Blender's window: see `story.py`."""
+"""What a user does with the two studies, played in its window: see `play.py`."""
 
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from importlib.util import find_spec
-from pathlib import Path
 
 import bpy
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
-
 from story import (
     compared,
     data_blocks,
     invoke,
     noted,
     open_tab,
-    play,
     press,
     render_result,
     result,
@@ -33,11 +29,24 @@ TRADE, EXTREMES = "study.trade.Trade", "study.extreme_rows.BreakingPoint"
 SMALL = {"width": 48, "samples": 2}
 
 
-def add_matplotlib():
+_lent = {}  # modules, kept since not all can be loaded twice
+
+
+@contextmanager
+def matplotlib_lent():
     """Lend Blender the Matplotlib of the project's environment, if it has the same Python."""
     version = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    sys.path.append(f"/project/.venv/lib/{version}/site-packages")
+    folder = f"/project/.venv/lib/{version}/site-packages"
+    sys.path.append(folder)
+    sys.modules.update(_lent)
     noted["matplotlib"] = find_spec("matplotlib") is not None
+    try:
+        yield
+    finally:
+        sys.path.remove(folder)
+        for name, module in list(sys.modules.items()):
+            if (getattr(module, "__file__", None) or "").startswith(folder):
+                _lent[name] = sys.modules.pop(name)
 
 
 def note_changes(before):
@@ -100,7 +109,7 @@ def study(name, kind, **options):
     def found():
         return result(kind)
 
-    yield from until(found, 280)
+    yield from until(found)
     yield 1
     note_changes(before)
     noted["lines"] = list(result(kind).lines)
@@ -117,11 +126,11 @@ def trade():
 
 def trade_with_plot():
     """With Matplotlib the plot is an image, and the image editor shows it."""
-    add_matplotlib()
     for area in window().screen.areas:
         if area.type == "DOPESHEET_EDITOR":
             area.type = "IMAGE_EDITOR"
-    yield from study("trade", TRADE, **SMALL)
+    with matplotlib_lent():
+        yield from study("trade", TRADE, **SMALL)
     noted["shown"] = [
         a.spaces.active.image.name
         for a in window().screen.areas
@@ -132,8 +141,8 @@ def trade_with_plot():
 
 def extremes():
     """All scenarios with few rays, and the maps as images."""
-    add_matplotlib()
-    yield from study("extremes", EXTREMES, rays=24)
+    with matplotlib_lent():
+        yield from study("extremes", EXTREMES, rays=24)
     yield from show_image("Reference Tracer Map Size And Distance", "extremes_map")
     noted["points"] = [
         [p.scenario, p.method, p.precision, p.never] for p in result(EXTREMES).content
@@ -195,4 +204,5 @@ def extreme_scene():
     noted["user"] = user
 
 
-play((trade, trade_with_plot, extremes, trade_escape, extremes_escape, extreme_scene))
+SCENE = "exercise_triangle"
+STORIES = (trade, trade_with_plot, extremes, trade_escape, extremes_escape, extreme_scene)

@@ -5,12 +5,8 @@ import pytest
 pytestmark = pytest.mark.gui
 
 
-def story(blender, name):
-    return blender.story(name, file="inspector_stories")
-
-
-def test_clicks_in_the_comparisons_images(blender):
-    noted = story(blender, "in_images")
+@pytest.mark.story("in_images")
+def test_clicks_in_the_comparisons_images(noted):
     assert len(noted["running"]) == 1  # by a click on its button
     for name in ("Traced", "Difference", "Blender"):
         x, y, seen, t = noted[name]["pixel"]
@@ -25,8 +21,8 @@ def test_clicks_in_the_comparisons_images(blender):
     assert noted["text_begins"].startswith("# The ray through pixel (600, 200) of suzanne.blend")
 
 
-def test_clicks_in_a_render(blender):
-    noted = story(blender, "in_render")
+@pytest.mark.story("in_render")
+def test_clicks_in_a_render(noted):
     whole, cropped, border = noted["clicks"]
     assert whole[2][:2] == [480, 270]
     # The border is 240 to 720 by 108 to 486; its middle is pixel (240, 189) of what is rendered.
@@ -35,8 +31,8 @@ def test_clicks_in_a_render(blender):
     assert whole[2][2:] == border[2][2:]  # the same ray
 
 
-def test_clicks_in_the_camera_view(blender):
-    noted = story(blender, "in_view")
+@pytest.mark.story("in_view")
+def test_clicks_in_the_camera_view(noted):
     for clicked, found in noted["clicks"]:
         # A pixel of the picture is about as large as one of the screen here.
         assert abs(found[0] - clicked[0]) <= 1 and abs(found[1] - clicked[1]) <= 1
@@ -52,7 +48,7 @@ def test_clicks_in_the_camera_view(blender):
     assert noted["left"] == {}
 
 
-def test_another_file_ends_it(blender):
-    noted = story(blender, "other_file")
+@pytest.mark.story("other_file")
+def test_another_file_ends_it(noted):
     assert noted["running"] and noted["left"] == []
     assert noted["again"] == ["RUNNING_MODAL"] and noted["ended"] == []

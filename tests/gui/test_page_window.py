@@ -8,8 +8,8 @@ import pytest
 pytestmark = pytest.mark.gui
 
 
-def test_the_button_writes_the_page_and_opens_it(blender):
-    noted = blender.story("page", file="page_stories")
+@pytest.mark.story("page")
+def test_the_button_writes_the_page_and_opens_it(noted, blender):
     assert not noted["before"] and noted["pressed"] == ["RUNNING_MODAL"]
     assert noted["address"].startswith("file:///") and noted["address"].endswith("/page.html")
     assert noted["unchanged"]

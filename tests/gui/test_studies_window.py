@@ -13,16 +13,6 @@ PICTURES = {
 }
 
 
-@pytest.fixture
-def story(blender):
-    """Play a study's story, in a scene of few triangles."""
-
-    def play(name):
-        return blender.story(name, scene="exercise_triangle", file="study_stories")
-
-    return play
-
-
 def assert_ran(noted, name):
     """It ran while the interface was alive, alone, and changed nothing but our own images."""
     assert noted["pressed"] == ["RUNNING_MODAL"]
@@ -34,8 +24,8 @@ def assert_ran(noted, name):
     assert all(spread > 0 for _, spread in noted["images"].values())
 
 
-def test_trade_without_matplotlib_shows_its_table(story):
-    noted = story("trade")
+@pytest.mark.story("trade")
+def test_trade_without_matplotlib_shows_its_table(noted):
     assert_ran(noted, "trade")
     assert noted["rows"] == 9
     assert noted["images"] == {}
@@ -44,9 +34,9 @@ def test_trade_without_matplotlib_shows_its_table(story):
     assert "-m pip install matplotlib" in why and "reftrace trade" in why
 
 
-def test_trade_shows_its_plot(story):
+@pytest.mark.story("trade_with_plot")
+def test_trade_shows_its_plot(noted):
     """With the Matplotlib of the project's environment, where it fits Blender's Python."""
-    noted = story("trade_with_plot")
     assert_ran(noted, "trade")
     if noted["matplotlib"]:
         assert noted["images"].keys() == {"Reference Tracer Trade"} == set(noted["shown"])
@@ -55,8 +45,8 @@ def test_trade_shows_its_plot(story):
         assert "-m pip install matplotlib" in noted["lines"][1]
 
 
-def test_extremes_shows_its_table_and_maps(story):
-    noted = story("extremes")
+@pytest.mark.story("extremes")
+def test_extremes_shows_its_table_and_maps(noted):
     assert_ran(noted, "extremes")
     assert noted["images"].keys() == (PICTURES if noted["matplotlib"] else set())
     assert "Certified gets no ray wrong" in noted["lines"][0]
@@ -65,9 +55,14 @@ def test_extremes_shows_its_table_and_maps(story):
     assert not all(never for _, _, _, never in noted["points"])
 
 
-@pytest.mark.parametrize("name", ["trade", "extremes"])
-def test_escape_leaves_nothing(name, story):
-    noted = story(f"{name}_escape")
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=pytest.mark.story(f"{name}_escape"))
+        for name in ("trade", "extremes")
+    ],
+)
+def test_escape_leaves_nothing(name, noted):
     assert noted["running"] == [f"REFERENCE_TRACER_OT_{name}"]
     assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
     assert noted["changed"] == noted["new"] == {}
@@ -76,8 +71,8 @@ def test_escape_leaves_nothing(name, story):
     assert noted["can_begin"]
 
 
-def test_a_scenario_is_opened_compared_and_undone(story):
-    noted = story("extreme_scene")
+@pytest.mark.story("extreme_scene")
+def test_a_scenario_is_opened_compared_and_undone(noted):
     assert noted["pressed"] == ["FINISHED"]
     assert noted["scene"] == noted["comparison"]["scene"]["scene"] != noted["user"]
     assert set(noted["view"]) == {"CAMERA"}

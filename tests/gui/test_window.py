@@ -5,8 +5,8 @@ import pytest
 pytestmark = pytest.mark.gui
 
 
-def test_button_leaves_three_images_and_nothing_else(blender):
-    noted = blender.story("compare")
+@pytest.mark.story("compare")
+def test_button_leaves_three_images_and_nothing_else(noted):
     comparison = noted["comparison"]
     assert comparison["blender"]["source"] == "viewport"
     assert comparison["pixels"]["unexplained"] == 0
@@ -23,8 +23,8 @@ def test_button_leaves_three_images_and_nothing_else(blender):
     assert noted["after_undo"] == []  # one step
 
 
-def test_every_engine_in_one_table(blender):
-    noted = blender.story("engines")
+@pytest.mark.story("engines")
+def test_every_engine_in_one_table(noted):
     assert [row["engine"] for row in noted["rows"]] == ["viewport", "workbench", "cycles"]
     for row in noted["rows"]:
         assert row["verdict"] == "agree" and row["pixels"]["unexplained"] == 0
@@ -32,8 +32,8 @@ def test_every_engine_in_one_table(blender):
     assert noted["changed"] == noted["new"] == {}
 
 
-def test_as_it_is_names_what_the_window_adds(blender):
-    noted = blender.story("compare_as_is")
+@pytest.mark.story("compare_as_is")
+def test_as_it_is_names_what_the_window_adds(noted):
     comparison = noted["comparison"]
     assert comparison["blender"]["settings"]["anti_aliasing"] == noted["preference"] != "OFF"
     assert "anti-aliasing" in {u["feature"] for u in comparison["scene"]["unmodelled"]}
@@ -41,39 +41,39 @@ def test_as_it_is_names_what_the_window_adds(blender):
     assert comparison["verdict"] == "warnings"
 
 
-def test_escape_stops_a_comparison_and_changes_nothing(blender):
-    noted = blender.story("compare_escape")
+@pytest.mark.story("compare_escape")
+def test_escape_stops_a_comparison_and_changes_nothing(noted):
     assert any("compare" in name.lower() for name in noted["running"])
     assert noted["same"], noted["changed"]
     assert not noted["compared"]
 
 
-def test_another_file_ends_a_comparison(blender):
-    noted = blender.story("compare_another_file")
+@pytest.mark.story("compare_another_file")
+def test_another_file_ends_a_comparison(noted):
     assert noted["running"] and not noted["left"]
     assert noted["comparison"]["scene"]["file"] == "exercise_triangle.blend"
     assert noted["comparison"]["verdict"] == "agree"
 
 
-def test_error_is_reported_and_changes_nothing(blender):
-    noted = blender.story("compare_error")
+@pytest.mark.story("compare_error")
+def test_error_is_reported_and_changes_nothing(noted):
     assert "panoramic" in noted["message"] or "pano" in noted["message"]
     assert noted["same"]
 
 
-def test_f12_shows_the_traced_picture(blender):
-    noted = blender.story("f12")
+@pytest.mark.story("f12")
+def test_f12_shows_the_traced_picture(noted):
     assert noted["result"]
     assert "IMAGE_EDITOR" in noted["areas"]
 
 
-def test_escape_stops_f12(blender):
-    noted = blender.story("f12_escape")
+@pytest.mark.story("f12_escape")
+def test_escape_stops_f12(noted):
     assert noted["seconds_to_stop"] < 5  # not a measurement: it stopped long before the end
 
 
-def test_every_sample_scene_agrees_with_the_viewport(blender):
-    noted = blender.story("scenes")
+@pytest.mark.story("scenes")
+def test_every_sample_scene_agrees_with_the_viewport(noted):
     assert len(noted) == 12 and noted["default_cube"]["verdict"] == "agree"
     assert {name: c["pixels"]["unexplained"] for name, c in noted.items()} == dict.fromkeys(
         noted, 0
@@ -87,6 +87,6 @@ def test_every_sample_scene_agrees_with_the_viewport(blender):
     assert noted["far_away"]["pixels"]["not_decidable"] > 0
 
 
-def test_f12_says_why_it_cannot(blender):
-    noted = blender.story("f12_error")
+@pytest.mark.story("f12_error")
+def test_f12_says_why_it_cannot(noted):
     assert "models perspective and orthographic cameras" in noted["reports"]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
+import subprocess
+from pathlib import Path
 
 import pytest
 from reference_tracer.images import to_display
@@ -12,15 +14,19 @@ from reference_tracer.report.page import document
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.progress import result_of
 
+BROWSER = Path(__file__).resolve().parents[2] / "tools" / "browser.sh"
 NAMES = "chromium", "chromium-browser", "google-chrome"
 SIZE = {"width": 1280, "height": 1300}  # the stage is whole in it
 NOT_BAD = ("data:", "blob:")  # addresses that are no network
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def chromium():
     from playwright.sync_api import sync_playwright
 
+    check = subprocess.run([BROWSER, "check"], capture_output=True, text=True)
+    if check.returncode:
+        pytest.skip(check.stdout.strip())
     path = next(filter(None, map(shutil.which, NAMES)), None)
     assert path, "no Chromium: tools/browser.sh setup installs one"
     options = ["--no-sandbox"] if os.geteuid() == 0 else []

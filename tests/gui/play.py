@@ -1,0 +1,69 @@
+"""Play stories in Blender's window: `blender --python play.py -- NAME...`, then quit.
+
+A story is a generator: it yields how many seconds to wait, and Blender draws and handles events
+meanwhile. What it notes is written to out/gui/NAME.json when it ends. All stories share one
+Blender, and each begins with its sample scene opened anew, as if Blender had been started with it.
+"""
+
+import json
+import sys
+import time
+import traceback
+from pathlib import Path
+
+import bpy
+
+sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
+
+import inspector_stories
+import page_stories
+import stories
+import study_stories
+from story import OUT, noted, window
+
+STORIES = {
+    story.__name__: (module.SCENE, story)
+    for module in (stories, inspector_stories, page_stories, study_stories)
+    for story in module.STORIES
+}
+
+
+def played(names):
+    """Play one story after another, each until its end or its first error."""
+    for name in names:
+        scene, story = STORIES[name]
+        began = time.monotonic()
+        noted.clear()
+        try:
+            yield from opened(scene)
+            yield from story()
+        except Exception:
+            noted["error"] = traceback.format_exc()
+        print(f"story {name}: {time.monotonic() - began:.1f} s", flush=True)
+        (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
+
+
+def opened(scene):
+    """Open a sample scene with the window that it was saved with, and nothing of the last story."""
+    manager = bpy.context.window_manager
+    for kept in ("reference_tracer", "reference_tracer_inspector"):
+        manager.property_unset(kept)
+    bpy.ops.wm.open_mainfile(filepath=f"/project/sample_scenes/{scene}.blend")
+    yield 1
+    assert len(bpy.context.window_manager.windows) == 1
+    assert not window().modal_operators
+    yield 0.5
+
+
+going = played(sys.argv[sys.argv.index("--") + 1 :])
+
+
+def go():
+    """Go on with the story, and say when to come again."""
+    try:
+        return next(going)
+    except StopIteration:
+        bpy.ops.wm.quit_blender()
+
+
+bpy.app.timers.register(go, first_interval=2, persistent=True)
