@@ -117,19 +117,6 @@ def check(options: argparse.Namespace) -> None:
     settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
 
 
-def add_bench(parser: argparse.ArgumentParser) -> None:
-    """Add which scenes are measured, how often, and what the result is compared with."""
-    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="by default all")
-    parser.add_argument("--quick", action="store_true", help="fewer and smaller: under 2 minutes")
-    parser.add_argument(
-        "--out", default="out/bench", metavar="DIR", help="folder for what is found (%(default)s)"
-    )
-    parser.add_argument(
-        "--baseline", metavar="FILE", help="bench.json of an earlier run: say what has changed"
-    )
-    parser.add_argument("--repeats", type=int, metavar="N", help="rounds (default 5; quick 3)")
-
-
 def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
     """Return the stored settings with what the options say in their place.
 

@@ -84,8 +84,11 @@ def _add_missing(commands: Commands, name: str) -> None:
             "the project installs it"
         )
 
-    parser = commands.add_parser(name, help="(not installed here)", add_help=False)
-    parser.add_argument("rest", nargs="...")
+    # Without a prefix of options, all that follows is positional, --help too.
+    parser = commands.add_parser(
+        name, help="(not installed here)", add_help=False, prefix_chars="\0"
+    )
+    parser.add_argument("rest", nargs="*")
     parser.set_defaults(run=run)
 
 

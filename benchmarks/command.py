@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from reference_tracer.arguments import INTERRUPTED, add_bench
+from reference_tracer.arguments import INTERRUPTED
 from reference_tracer.commands.parts import Commands, command, write_study
 from reference_tracer.report import folders
 from reference_tracer.report.progress_bar import progress_bar
@@ -13,15 +13,22 @@ from reference_tracer.report.progress_bar import progress_bar
 
 def add(commands: Commands) -> None:
     """Add the command."""
-    add_bench(
-        command(
-            commands,
-            "bench",
-            run,
-            "measure the speed of the tracer beside embreex, Cycles and others",
-            "reftrace bench --quick --out out/bench",
-        )
+    parser = command(
+        commands,
+        "bench",
+        run,
+        "measure the speed of the tracer beside embreex, Cycles and others",
+        "reftrace bench --quick --out out/bench",
     )
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="by default all")
+    parser.add_argument("--quick", action="store_true", help="fewer and smaller: under 2 minutes")
+    parser.add_argument(
+        "--out", default="out/bench", metavar="DIR", help="folder for what is found (%(default)s)"
+    )
+    parser.add_argument(
+        "--baseline", metavar="FILE", help="bench.json of an earlier run: say what has changed"
+    )
+    parser.add_argument("--repeats", type=int, metavar="N", help="rounds (default 5; quick 3)")
 
 
 def run(options: argparse.Namespace) -> int:

@@ -1,6 +1,6 @@
-"""Judgements of students' files -> a table, `judge.json`, and the page `judge.html`.
+"""Judgements of students' files -> `judge.json`, and the page `judge.html`.
 
-`judge_page.py` has the page; `judge.schema.json` describes the JSON.
+`page.py` has the page; `judge.schema.json` describes the JSON.
 """
 
 from __future__ import annotations
