@@ -1,14 +1,19 @@
-"""The options that the command lines share: `reftrace`, and `blender --command`."""
+"""The options of the command lines, `reftrace` and `blender --command`, and what each must be."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
+from .explain.candidates import LIMIT
+from .explain.output import WRITERS
 from .scene import Camera, SceneError, ViewWindow, check_size
+from .scene_files import MESH_SUFFIXES
 from .tracer.settings import Method, Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
@@ -23,6 +28,14 @@ EXIT_CODES = """exit codes:
   130  interrupted by Ctrl-C"""
 CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale"  # see add_camera
 _PLAIN = ", ".join(m for m in Method if m.is_plain)
+
+# What a number must be, by its option, where the type alone does not say it.
+_RANGES = {
+    **dict.fromkeys(("width", "height", "rays", "limit"), (lambda v: v >= 1, "at least 1")),
+    **dict.fromkeys(("filter", "dither"), (lambda v: 0 <= v < np.inf, "a number of at least 0")),
+    "angle": (lambda v: 0 < v < 180, "between 0 and 180 degrees"),
+    "ortho_scale": (lambda v: v > 0, "above 0, as an orthographic scale is"),
+}
 
 
 class Parser(argparse.ArgumentParser):
@@ -75,12 +88,7 @@ def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
         action=argparse.BooleanOptionalAction,
         help="draw once more, a colour an object, to know whose surface each pixel shows",
     )
-    add_self_check(group)
-
-
-def add_self_check(parser: argparse._ActionsContainer) -> None:
-    """Add whether the comparison is to be tested with known faults."""
-    parser.add_argument(
+    group.add_argument(
         "--self-check",
         action="store_true",
         default=None,
@@ -100,21 +108,79 @@ def add_page(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_pixel(parser: argparse.ArgumentParser) -> None:
+    """Add which pixel is explained, and where that is written."""
+    parser.add_argument(
+        "--pixel", type=int, nargs=2, metavar=("X", "Y"), help="0 0 is the picture's lower left"
+    )
+    endings = ", ".join(WRITERS)
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE", help=f"{endings}; without it, Markdown is printed"
+    )
+    parser.add_argument(
+        "--reproducer",
+        type=Path,
+        metavar="FILE.json",
+        help="write the pixel's ray and all that it may meet: `reftrace explain FILE.json` "
+        "derives it again, without the scene",
+    )
+    parser.add_argument(
+        "--limit", type=int, metavar="N", help=f"show so many triangles at most (default {LIMIT})"
+    )
+    parser.set_defaults(endings={"out": tuple(WRITERS), "reproducer": (".json",)})
+
+
 def check(options: argparse.Namespace) -> None:
     """Find what is wrong with the options themselves, before any work.
 
     Raises
     ------
     SceneError
-        If a number is out of range, or a method does not come in the precision.
+        If a number is out of range, a file has another ending than it should, an option would not
+        be heard, one that is needed is missing, or a method does not come in the precision.
     """
-    for name in ("width", "height", "rays"):
+    for name, (holds, must) in _RANGES.items():
         value = getattr(options, name, None)
-        if value is not None and value < 1:
-            raise SceneError(f"--{name} is {value}; it must be at least 1")
-    scene = getattr(options, "scene", None)
-    stores = scene is None or scene.suffix.lower() == ".blend"  # a method, which may be plain
+        if value is not None and not holds(value):
+            shown = f"{value:g}" if isinstance(value, float) else value
+            raise SceneError(f"{_typed(name)} is {shown}; it must be {must}")
+    for name, endings in getattr(options, "endings", {}).items():
+        path = getattr(options, name)
+        if path and path.suffix.lower() not in endings:
+            raise SceneError(f"'{path}' must end in {' or '.join(endings)}")
+    for names, why in _unheard(options):
+        refuse(options, names, why)
+    if hasattr(options, "pixel"):
+        _check_pixel(options)
+    # A .blend stores a method, which may be plain; so may the file that is open in Blender.
+    stores = _suffix(options) in (None, ".blend")
     settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
+
+
+def _unheard(options: argparse.Namespace) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Yield options that the others leave without a meaning, and why."""
+    if hasattr(options, "against"):
+        if options.against is None:
+            yield ("filter", "dither"), "is for a picture of --against"
+        else:
+            why = "is for Blender's picture, not for one of --against"
+            yield ("judge", "identity", "as_is"), why
+    if hasattr(options, "pixel") and _suffix(options) == ".json":
+        why = f"is not for '{options.scene}', which is one pixel by itself"
+        yield ("pixel", "limit", *CAMERA_OPTIONS), why
+
+
+def _check_pixel(options: argparse.Namespace) -> None:
+    if options.out and options.reproducer and options.out.resolve() == options.reproducer.resolve():
+        raise SceneError(f"--out and --reproducer are the same file, '{options.out}'")
+    if options.pixel is None and _suffix(options) != ".json":
+        raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
+
+
+def _suffix(options: argparse.Namespace) -> str | None:
+    """Return the ending of the scene's file, None where no file is named."""
+    scene = getattr(options, "scene", None)
+    return scene and scene.suffix.lower()
 
 
 def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
@@ -201,22 +267,50 @@ def add_camera(
     parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
 
 
-def camera_from(options: argparse.Namespace, width: int, height: int) -> Camera | None:
-    """Return the camera that the options place, None for none.
+def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None, tuple[int, int]]:
+    """Return the camera that the options place for the meshes of a file, and its picture's size.
+
+    The camera is None where they place none; the size is in pixels, width and height.
 
     Raises
     ------
     SceneError
-        If they place one that sees nothing, or say how it looks but not where it stands.
+        If they place one that sees nothing, say how it looks but not where it stands, or the file
+        has a camera of its own.
     """
+    if path.suffix.lower() not in MESH_SUFFIXES:
+        why = f"is for meshes: '{path}' has its own camera"
+        if options.heard:
+            why += "; --width sets the size of its picture, and the height follows"
+        refuse(options, tuple(sorted(set(CAMERA_OPTIONS) - set(options.heard))), why)
+        return None, options.default_size
+    width, height = size = (
+        options.width or options.default_size[0],
+        options.height or options.default_size[1],
+    )
     check_size(width, height)
     if options.eye is None:
         refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
-        return None
-    angle = 50.0 if options.angle is None else options.angle
-    if not 0 < angle < 180:
-        raise SceneError(f"--angle is {angle:g}; it must be between 0 and 180 degrees.")
-    eye, target = np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0))
+        return None, size
+    half = options.ortho_scale and options.ortho_scale / 2
+    if half is None:
+        half = np.tan(np.radians(50.0 if options.angle is None else options.angle) / 2)
+    matrix, distance = _looking(np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0)))
+    camera = Camera(
+        matrix,
+        ViewWindow(-half * width / height, half * width / height, -half, half),
+        width,
+        height,
+        orthographic=options.ortho_scale is not None,
+        clip_start=distance * 1e-3,
+        clip_end=distance * 1e3,
+        name="--eye",
+    )
+    return camera, size
+
+
+def _looking(eye: NDArray, target: NDArray) -> tuple[NDArray[np.float64], float]:
+    """Return world_from_camera of a camera that looks at a point, Z up, and its distance."""
     backward = eye - target
     up = np.array((0.0, 1.0, 0.0) if not backward[:2].any() else (0.0, 0.0, 1.0))
     right = np.cross(up, backward)
@@ -226,38 +320,15 @@ def camera_from(options: argparse.Namespace, width: int, height: int) -> Camera 
         raise SceneError("--eye and --target are the same point: move one of them.")
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
-    orthographic = options.ortho_scale is not None
-    if orthographic and not options.ortho_scale > 0:
-        raise SceneError(
-            f"--ortho-scale is {options.ortho_scale:g} (orthographic scale); it must be above 0."
-        )
-    half = options.ortho_scale / 2 if orthographic else np.tan(np.radians(angle) / 2)
-    distance = float(np.linalg.norm(backward))
-    return Camera(
-        matrix,
-        ViewWindow(-half * width / height, half * width / height, -half, half),
-        width,
-        height,
-        orthographic=orthographic,
-        clip_start=distance * 1e-3,
-        clip_end=distance * 1e3,
-        name="--eye",
-    )
-
-
-def camera_options(options: argparse.Namespace) -> tuple[str, ...]:
-    """Return the camera's options that were given, as they are typed."""
-    out: list[str] = []
-    for name in CAMERA_OPTIONS:
-        value = getattr(options, name, None)
-        if value is not None:
-            values = value if isinstance(value, list) else [value]
-            out += [f"--{name.replace('_', '-')}", *map(repr, values)]
-    return tuple(out)
+    return matrix, float(np.linalg.norm(backward))
 
 
 def refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
-    """Raise a SceneError for an option that would not be heard."""
+    """Raise a SceneError for an option that is given, but would not be heard."""
     for name in names:
-        if getattr(options, name, None) is not None:
-            raise SceneError(f"--{name.replace('_', '-')} {why}")
+        if getattr(options, name, None) not in (None, False):
+            raise SceneError(f"{_typed(name)} {why}")
+
+
+def _typed(name: str) -> str:
+    return f"--{name.replace('_', '-')}"

@@ -7,7 +7,7 @@ import traceback
 from importlib.metadata import entry_points
 
 from . import __version__, images, interrupts
-from .arguments import EXIT_CODES, INPUT_ERROR, INTERRUPTED, SIZES_DIFFER, Parser, check, words
+from .arguments import EXIT_CODES, INPUT_ERROR, INTERRUPTED, SIZES_DIFFER, Parser, words
 from .commands import compare, explain, export, extremes, trace, trade
 from .commands.parts import Commands
 from .compare.comparison import SizeError
@@ -39,7 +39,6 @@ def main(argv: list[str] | None = None) -> int:
     options = _parser().parse_args(argv)
     try:
         with interrupts.heard():
-            check(options)
             return options.run(options)
     except KeyboardInterrupt:
         print("reftrace: interrupted", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""A file that the user names -> the scene in it.
+"""A file that the user names, and a camera for meshes -> the scene in it.
 
 A .blend is opened with the `bpy` module, in the one function here that imports it; scenes and
 meshes from other files need no Blender.
@@ -6,58 +6,53 @@ meshes from other files need no Blender.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from . import interrupts
-from .arguments import CAMERA_OPTIONS, camera_from, refuse
-from .scene import Scene, SceneError
+from .scene import Camera, Scene, SceneError
 from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, scene_of_meshes
 from .tracer.settings import Settings
 
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
 
 
-def load(options: argparse.Namespace) -> tuple[Scene, Settings]:
-    """Return the scene of the file `options.scene`, with the settings that it stores.
+def load(
+    path: Path, camera: Camera | None = None, size: tuple[int, int] = (960, 540)
+) -> tuple[Scene, Settings]:
+    """Return the scene of a file, with the settings that it stores.
+
+    Parameters
+    ----------
+    path : Path
+        A .blend, a .npz, or a mesh.
+    camera : Camera, optional
+        For meshes, which have none; by default one that frames them.
+    size : (int, int)
+        Width and height of its picture, in pixels.
 
     Raises
     ------
     SceneError, OSError
-        If there is no such scene, or the options don't fit it.
+        If there is no such scene, or it cannot be read.
     """
-    path = options.scene
     if not path.is_file():
         raise SceneError(f"there is no file '{path}'")
     suffix = path.suffix.lower()
-    if suffix not in MESH_SUFFIXES:
-        own = set(CAMERA_OPTIONS) - set(options.heard)
-        why = f"is for meshes: '{path}' has its own camera"
-        if "width" in options.heard:
-            why += "; --width sets the size of its picture, and the height follows"
-        refuse(options, tuple(sorted(own)), why)
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
-        width, height = (
-            default if (value := getattr(options, name)) is None else value
-            for name, default in zip(("width", "height"), options.default_size, strict=True)
-        )
-        meshes = load_meshes(path)
-        return scene_of_meshes(
-            meshes, camera_from(options, width, height), width, height
-        ), Settings()
-    if suffix == ".blend":
-        with open_blend(path) as blender:
-            from .blender.compare import export_open_file
+        return scene_of_meshes(load_meshes(path), camera, *size), Settings()
+    if suffix != ".blend":
+        raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+    with open_blend(path) as blender:
+        from .blender.compare import export_open_file
 
-            scene, manifest, settings = export_open_file(blender.context)
-        print(*manifest.lines(), sep="\n")
-        return scene, settings
-    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+        scene, manifest, settings = export_open_file(blender.context)
+    print(*manifest.lines(), sep="\n")
+    return scene, settings
 
 
 @contextmanager

@@ -11,11 +11,12 @@ from pathlib import Path
 
 from reference_tracer.arguments import (
     AGREE,
+    CAMERA_OPTIONS,
     DIFFERENCES,
     INPUT_ERROR,
     WARNINGS,
     add_camera,
-    camera_options,
+    camera_from,
     printable,
 )
 from reference_tracer.commands.parts import Commands, command, write_study
@@ -127,7 +128,7 @@ def _work(
 
     subjects = []
     for k, (name, scene, path) in enumerate(scenes):
-        work = prepare(name, scene, str(path), options.pixels, camera_options(options))
+        work = prepare(name, scene, str(path), options.pixels, _camera_options(options))
         subjects.append((yield from scaled(work, 0.3 * k / len(scenes), 0.3 / len(scenes))))
     hard = (yield from scaled(extreme_scenes(), 0.3, 0.3)) if options.extremes else []
     judging = judge_all(students, make_checks(), subjects, hard, limits)
@@ -151,9 +152,19 @@ def _opened(paths: Sequence[Path], options: argparse.Namespace) -> list[Named]:
 
     out = []
     for name, path in zip(stems(paths), paths, strict=True):
-        options.scene = path
-        out.append((name, load(options)[0], path))
+        out.append((name, load(path, *camera_from(options, path))[0], path))
     return out
+
+
+def _camera_options(options: argparse.Namespace) -> tuple[str, ...]:
+    """Return the camera's options that were given, as they are typed."""
+    out: list[str] = []
+    for name in CAMERA_OPTIONS:
+        value = getattr(options, name, None)
+        if value is not None:
+            values = value if isinstance(value, list) else [value]
+            out += [f"--{name.replace('_', '-')}", *map(repr, values)]
+    return tuple(out)
 
 
 def _check(options: argparse.Namespace) -> None:

@@ -19,17 +19,19 @@ from ..arguments import (
     Parser,
     add_judge,
     add_page,
+    add_pixel,
     add_settings,
     check,
+    printable,
     settings_from,
     words,
 )
-from ..commands import explain
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..compare.comparison import SizeError
+from ..explain.candidates import LIMIT, gather
 from ..report import comparison as comparison_report
-from ..report import page
+from ..report import page, pixel
 from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.certified.certainty import AssumptionError
@@ -80,7 +82,7 @@ def _parser() -> Parser:
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
     sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES)
     sub.set_defaults(run=_explain)
-    explain.add_options(sub)
+    add_pixel(sub)
     sub = command(
         "trade",
         _trade,
@@ -104,11 +106,12 @@ def _compare(options: Any) -> int:
 
 
 def _explain(options: Any) -> int:
-    explain.check_options(options)
     _check_open()
     scene, _, _ = export_open_file(bpy.context)
     source = bpy.path.basename(bpy.data.filepath)
-    return explain.finish(options, explain.pixel_of(options, scene, source))
+    found = gather(scene, *options.pixel, options.limit or LIMIT, source)
+    print(printable(pixel.write(found, options.out, options.reproducer)), end="")
+    return AGREE
 
 
 def _trade(options: Any) -> int:

@@ -12,18 +12,14 @@ from typing import Any
 
 import bpy
 
-from .judges import Judge
-
 DRAWN = "reference_tracer_drawn"  # a custom property of what the add-on itself draws in a scene
 
-_copies: dict[str, tuple[str, Judge | None]] = {}  # name of a temporary scene: the user's, judge
+_copies: dict[str, tuple[str, Any]] = {}  # name of a temporary scene: the user's, judge
 _collections: dict[str, list[Any]] = {}  # name of a temporary scene: copies of collections in it
 
 
 @contextmanager
-def temporary_scene(
-    scene: Any, layer: str | None = None, judge: Judge | None = None
-) -> Iterator[Any]:
+def temporary_scene(scene: Any, layer: str | None = None, judge: Any = None) -> Iterator[Any]:
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
     Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in it. The 'Render
@@ -69,7 +65,7 @@ def is_temporary(scene: Any) -> bool:
     return scene.name_full in _copies
 
 
-def judge_of(scene: Any) -> Judge | None:
+def judge_of(scene: Any) -> Any:
     """Return whose picture a temporary scene is for; None for a scene of the user's."""
     return _copies.get(scene.name_full, (None, None))[1]
 

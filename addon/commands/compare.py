@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .. import images
-from ..arguments import add_camera, add_judge, add_page, add_settings, refuse, settings_from
+from ..arguments import add_camera, add_judge, add_page, add_settings, camera_from, settings_from
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.known import Known
 from ..compare.shown import Shown
@@ -38,6 +39,7 @@ def add(commands: Commands) -> None:
         "reftrace compare scene.blend --out out/\n"
         "  reftrace compare scene.npz --against student.png --out out/",
         "scene.blend; with --against also scene.npz or a mesh",
+        _failure_written,
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)
@@ -68,13 +70,17 @@ def add(commands: Commands) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare; the exit code is the verdict's."""
+    return _with_blender(options) if options.against is None else _against(options)
+
+
+@contextmanager
+def _failure_written(options: argparse.Namespace) -> Iterator[None]:
+    """Make the folder, and say there why there is no comparison if there is none."""
     if options.out.startswith("//"):  # here it is the shell's: Blender's is beside the file
         options.out = os.path.realpath(options.out)
     with folders.made(Path(options.out)):
         try:
-            if options.against is not None:
-                return _against(options)
-            return _with_blender(options)
+            yield
         except Exception as error:
             with suppress(OSError):
                 comparison_report.write_failure(options.out, error)
@@ -82,7 +88,6 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _with_blender(options: argparse.Namespace) -> int:
-    refuse(options, ("filter", "dither"), "is for a picture of --against")
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -97,13 +102,6 @@ def _with_blender(options: argparse.Namespace) -> int:
 
 def _against(options: argparse.Namespace) -> int:
     """Compare with a picture of unknown make."""
-    refuse(options, ("judge", "identity"), "is for Blender's picture, not for one of --against")
-    if options.as_is:
-        raise SceneError("--as-is is for Blender's picture, not for one of --against")
-    for name in ("filter", "dither"):
-        value = getattr(options, name)
-        if value is not None and not 0 <= value < np.inf:
-            raise SceneError(f"--{name} is {value:g}; it must be a number of at least 0")
     picture = images.load(options.against)
     about = {
         "version": None,
@@ -144,7 +142,7 @@ def _blend(
 def _file(
     options: argparse.Namespace, picture: images.Picture, about: dict[str, Any]
 ) -> Work[Comparison]:
-    scene, stored = load(options)
+    scene, stored = load(options.scene, *camera_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     return (
         yield from trace_and_compare(

@@ -23,17 +23,15 @@ def add(commands: Commands) -> None:
         "scene.blend",
     )
     parser.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
+    parser.set_defaults(endings={"out": (".npz",)})
 
 
 def run(options: argparse.Namespace) -> int:
     """Export, and write the scene."""
-    if options.out.suffix.lower() != ".npz":
-        raise SceneError(f"'{options.out}' must end in .npz")
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
-    options.heard = ()
     with folders.made_for_file(options.out):
-        scene, _ = load(options)
+        scene, _ = load(options.scene)
         with folders.replacing_file(options.out) as new:
             save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")

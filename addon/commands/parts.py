@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..arguments import EXIT_CODES, Parser
+from ..arguments import EXIT_CODES, Parser, check
 from ..images import MissingLibraryError
 
 Commands = Any  # what argparse's add_subparsers returns, which has no public name
@@ -21,8 +22,9 @@ def command(
     text: str,
     example: str,
     source: str | None = None,
+    around: Callable[[argparse.Namespace], AbstractContextManager[Any]] = nullcontext,
 ) -> Parser:
-    """Add a command and return its parser.
+    """Add a command, which checks its options first, and return its parser.
 
     Parameters
     ----------
@@ -34,14 +36,22 @@ def command(
         Does the work, and returns the exit code.
     source : str, optional
         What its SCENE may be; without it, the command takes none.
+    around
+        Gives what lasts as long as the command, its check included.
     """
+
+    def checked(options: argparse.Namespace) -> int:
+        with around(options):
+            check(options)
+            return run(options)
+
     parser = commands.add_parser(
         name,
         help=text,
         description=text[0].upper() + text[1:] + ".",
         epilog=f"example:\n  {example}\n\n{EXIT_CODES}",
     )
-    parser.set_defaults(run=run)
+    parser.set_defaults(run=checked)
     if source:
         parser.add_argument("scene", type=Path, metavar="SCENE", help=source)
     return parser

@@ -6,11 +6,10 @@ import argparse
 from pathlib import Path
 
 from .. import images
-from ..arguments import add_camera, add_settings, settings_from
+from ..arguments import add_camera, add_settings, camera_from, settings_from
 from ..opening import SOURCES, load
 from ..report import folders
 from ..report.progress_bar import progress_bar
-from ..scene import SceneError
 from ..tracer.render import render
 from .parts import Commands, command
 
@@ -28,22 +27,20 @@ def add(commands: Commands) -> None:
         SOURCES,
     )
     parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
+    parser.set_defaults(endings={"out": (".png", ".exr")})
     add_settings(parser)
     add_camera(parser)
 
 
 def run(options: argparse.Namespace) -> int:
     """Trace, and write the picture."""
-    suffix = options.out.suffix.lower()
-    if suffix not in (".png", ".exr"):
-        raise SceneError(f"'{options.out}' must end in .png or .exr")
     with folders.made_for_file(options.out):
-        scene, stored = load(options)
+        scene, stored = load(options.scene, *camera_from(options, options.scene))
         settings = settings_from(options, stored)
         with progress_bar() as progress:
             frame = render(scene, settings, progress)
         with folders.replacing_file(options.out) as new:
-            if suffix == ".png":
+            if options.out.suffix.lower() == ".png":
                 images.save_png(new, images.to_display(frame.color))
             else:
                 images.save_exr(new, frame.passes())

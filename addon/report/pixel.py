@@ -1,0 +1,27 @@
+"""The derivation of a pixel, as a file or to be printed: what `explain` gives."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..explain import reproducer
+from ..explain.derivation import derive_pixel
+from ..explain.document import answer_sentence
+from ..explain.output import WRITERS
+from ..explain.pixel import Pixel
+from . import folders
+
+
+def write(pixel: Pixel, out: Path | None = None, again: Path | None = None) -> str:
+    """Derive a pixel, and write it to `out` by that file's ending; return what is to be printed.
+
+    That is the derivation as Markdown, without `out`. To `again` goes the pixel's own JSON, from
+    which it can be derived without the scene.
+    """
+    derivation = derive_pixel(pixel)
+    if again:
+        folders.write_text(again, reproducer.text(pixel))
+    if not out:
+        return WRITERS[".md"](derivation)
+    folders.write_text(out, WRITERS[out.suffix.lower()](derivation))
+    return f"{answer_sentence(derivation)} {out}\n"
