@@ -41,12 +41,12 @@ class Row:
         Triangles and rays that are not finite in this precision, and so are left out.
     largest_t_error : float or None
         In ulp of the certified t (float64), over rays that see the same surface; None without one.
-        For the certified row, against the exact t of the judged rays: at most 1/2.
+        For the certified row, against the oracle's exact t: at most 1/2.
     exact : float or None
-        For the certified row: share of the pairs of a ray and a triangle that whole numbers
+        For the certified row: share of the pairs of a ray and a triangle that integers
         decided.
     judged : int
-        For the certified row: rays that whole numbers judged.
+        For the certified row: rays about which the oracle was asked.
     """
 
     scenario: str

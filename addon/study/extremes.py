@@ -1,9 +1,9 @@
 """Numerical stability: what each method makes of each scenario, against exact arithmetic.
 
 In come scenarios; out go rows, one for each scale, method and precision. The plain methods are held
-against the certified picture. What is certified is itself judged by what it has no part in: the
-whole numbers of `judge.py`, on a sample of the rays with every triangle; and, where it is known how
-often a ray must cross the scene's surfaces, even or odd, on all rays.
+against the certified picture. What is certified is itself held against what it has no part in: the
+oracle, on a sample of the rays with every triangle; and, where it is known how often a ray must
+cross the scene's surfaces, even or odd, on all rays.
 """
 
 from __future__ import annotations
@@ -24,13 +24,14 @@ from ..tracer.render import render
 from ..tracer.settings import Method, Precision, Settings
 from ..tracer.triangle import METHODS
 from .extreme_rows import BreakingPoint, Row, breaking_points
+from .oracle import scene_sights
 from .scenarios.scenario import Scenario
 from .scenarios.sweeps import ALL
-from .truth import Truth, crossings, judge_sample, keys, number, pixel_rays, sample, truth_of
+from .truth import Truth, crossings, keys, number, pixel_rays, sample, truth_of
 
 __all__ = ["BreakingPoint", "Row", "breaking_points", "measure"]
 
-JUDGED = 16  # rays of a scene, with every triangle: a twentieth of a second
+JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 PLAIN = tuple(Settings(m, p) for m in METHODS for p in Precision)
 
 
@@ -45,7 +46,7 @@ def measure(
     rays : int, optional
         About as many of each scene, instead of its own number.
     judged : int
-        Rays of each scene that whole numbers judge.
+        Rays of each scene about which the oracle is asked.
 
     Returns
     -------
@@ -145,14 +146,14 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
         missed |= count % 2 != scenario.odd
     worst = None
     pixels = sample(frame, judged)
-    for pixel, (name, t, crossed) in zip(pixels.tolist(), judge_sample(scene, pixels), strict=True):
+    for pixel, sight in zip(pixels.tolist(), scene_sights(scene, pixels), strict=True):
         given = int(frame.instance_index.flat[pixel]), int(frame.triangle_index.flat[pixel])
-        right = given == name
-        missed[pixel] = count[pixel] < crossed or (not right and not sees[pixel])
+        right = given == sight.seen
+        missed[pixel] = count[pixel] < sight.crossings or (not right and not sees[pixel])
         wrong[pixel] = not right and sees[pixel]
-        doubled[pixel] = count[pixel] > crossed
-        if right and t is not None:
-            worst = max(worst or 0.0, _ulps(float(frame.t.flat[pixel]), t))
+        doubled[pixel] = count[pixel] > sight.crossings
+        if right and sight.t is not None:
+            worst = max(worst or 0.0, _ulps(float(frame.t.flat[pixel]), sight.t))
     statistics = frame.statistics
     return Row(
         scenario.name,

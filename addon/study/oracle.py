@@ -1,113 +1,287 @@
-"""What one ray sees of some triangles, decided with Python's whole numbers: no rounding anywhere.
+"""The exact oracle: what a ray sees, decided with Python's integers alone, without any rounding.
 
-Every float is a whole number times a power of two. Scaled by one power for all, the ray and the
-corners become integers, and the signs that decide a hit are exact. Where a ray meets an edge or
-two surfaces at once, the tracer's rule speaks of a ray moved infinitely little, from the direction
-d to d + (e, e^2, e^3). Here that ray is really moved: e is a power of two, smaller than any
-difference that numbers of this size can have. So nothing here is the tracer's own exact path: no
-error bound, no symbolic rule, no culling. Some microseconds a triangle.
+It is written apart from the tracer's own exact arithmetic: Cramer's rule in place of edge
+functions, every triangle with every ray in place of candidates, and a ray that is really moved (see
+`moved_rays.py`) in place of a rule for signs that are zero. It takes the stored rays and the world
+vertices as they are: they are the scene. Every float is an integer times a power of two, so that
+all that is computed from them is an integer, too. A pair takes some ten microseconds.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from itertools import product
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tracer.hits import NOTHING
+from ..scene import Scene
+from ..tracer.camera import camera_rays, film_positions
+from ..tracer.hits import NOTHING, NOWHERE, Name
+from ..tracer.vector import transform_points
+from .moved_rays import (
+    THE_RULE,
+    Surface,
+    common,
+    cross,
+    crosses,
+    dot,
+    meet,
+    move,
+    moved,
+    nearest,
+    sub,
+    turning_planes,
+)
 
-Whole = list[int]  # a vector of integers
+OUTSIDE, EDGE, INSIDE = -1, 0, 1
+AT_ONCE = 1 << 16  # pairs: some hundred MiB of integers
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What a ray sees: the triangle's index or NOTHING, its exact t, and how many it crosses."""
+@dataclass(frozen=True, eq=False)
+class Intersections:
+    """Exact intersections of n lines with n triangles, pair by pair.
 
-    triangle: int
-    t: Fraction | None
-    crossings: int
+    Parameters
+    ----------
+    side : (n,) int8
+        Where the stored line passes: INSIDE, at the EDGE, or OUTSIDE, which is also a line that is
+        parallel to the triangle or lies in its plane.
+    hit : (n,) bool
+        Whether the moved line meets the triangle.
+    numerator, denominator : (n,) object
+        Integers: t = `numerator` / `denominator` * 2^`shift`.
+    shift : (n,) int64
+    """
+
+    side: NDArray[np.int8]
+    hit: NDArray[np.bool_]
+    numerator: NDArray[np.object_]
+    denominator: NDArray[np.object_]
+    shift: NDArray[np.int64]
+
+    def t(self, k: int) -> Fraction:
+        """Return the t of a pair that is not OUTSIDE."""
+        return Fraction(self.numerator[k], self.denominator[k]) * Fraction(2) ** int(self.shift[k])
+
+    def within(self, start: float = 0.0, end: float = np.inf) -> NDArray[np.bool_]:
+        """Return which pairs meet at start <= t <= end; not at t = 0 where the ray begins there."""
+        if start == 0 and end == np.inf:  # the sign says it
+            return (self.side != OUTSIDE) & (self.numerator * self.denominator > 0)
+        met = np.zeros(len(self.side), bool)
+        for k in np.flatnonzero(self.side != OUTSIDE):
+            met[k] = _within(self.t(k), start, end)
+        return met
 
 
-def judge_ray(
-    origin: NDArray[np.float64],
-    direction: NDArray[np.float64],
-    corners: NDArray[np.float64],
-    start: float = 0.0,
-    end: float = np.inf,
-) -> Verdict:
-    """Return what the moved ray sees between `start` and `end`, both inclusive.
+def _within(t: Fraction, start: float, end: float) -> bool:
+    return start <= t <= end and not t == start == 0
 
-    Of coplanar triangles it sees the first. A triangle that has no area, whose plane holds the
-    origin, or that the ray as it stands is parallel to, is never seen.
+
+def intersect_pairs(
+    origins: NDArray[np.float64], directions: NDArray[np.float64], corners: NDArray[np.float64]
+) -> Intersections:
+    """Intersect n rays (3, n) and n triangles (3 corners, 3, n), pair by pair."""
+    parts = []
+    for at in range(0, corners.shape[2], AT_ONCE):
+        part = slice(at, at + AT_ONCE)
+        lengths, scale = integers(np.concatenate((origins[:, part], *corners[:, :, part])))
+        d, direction_scale = integers(directions[:, part])
+        o, *points = lengths.reshape(4, 3, -1)
+        det, u, v, numerator = meet(o, d, *points)
+        rest = det - u - v
+        front = det > 0
+        weights = [np.where(front, w, -w) for w in (u, v, rest)]
+        closed = (det != 0) & np.all([w >= 0 for w in weights], axis=0)
+        inside = closed & np.all([w > 0 for w in weights], axis=0)
+        hit = inside.copy()
+        for k in np.flatnonzero(closed & ~inside):
+            column = [[int(x) for x in w[:, k]] for w in (o, d, *points)]
+            origin, direction, [surface] = moved(
+                *column[:2], [Surface(NOWHERE, column[2:])], THE_RULE
+            )
+            hit[k] = crosses(origin, direction, surface)
+        side = np.where(inside, INSIDE, np.where(closed, EDGE, OUTSIDE)).astype(np.int8)
+        parts.append((side, hit, numerator, det, scale - direction_scale))
+    return Intersections(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def integers(values: NDArray[np.float64]) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
+    """Return floats (k, n) as integers and the exponent of each column: float = integer * 2^e."""
+    mantissa, exponent = np.frexp(values)
+    exponent = np.where(mantissa == 0, 5000, exponent.astype(np.int64))  # zero has none
+    least = exponent.min(axis=0)
+    exponent = np.where(mantissa == 0, least, exponent)
+    whole = (mantissa * 2.0**53).astype(np.int64)
+    shifted = whole.astype(object) << (exponent - least).astype(object)
+    return shifted, np.where(least == 5000, 0, least - 53)
+
+
+class Meeting(NamedTuple):
+    """One surface that the stored ray meets within the clip range."""
+
+    t: Fraction
+    at_edge: bool
+    hit: bool  # by the moved ray
+    surface: Surface  # in floats or fractions
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """What one ray sees.
 
     Parameters
     ----------
     origin, direction : (3,) float64
+    seen : Name
+        What the ray that the rule moves sees first, NOWHERE for nothing.
+    t : Fraction or None
+        Where the stored ray meets it.
+    crossings : int
+        How many surfaces the moved ray crosses within the clip range.
+    front : tuple of Surface
+        All that the textbook leaves open: what the closed triangles have nearest, and what they
+        have at their edges before that.
+    covered : bool
+        Whether something is seen however the ray is moved.
+    """
+
+    origin: NDArray[np.float64]
+    direction: NDArray[np.float64]
+    seen: Name
+    t: Fraction | None
+    crossings: int
+    front: tuple[Surface, ...]
+    covered: bool
+
+    @property
+    def touched(self) -> frozenset[Name]:
+        """The names of `front`, and NOWHERE if the ray may pass all of it."""
+        return frozenset(s.name for s in self.front) | (set() if self.covered else {NOWHERE})
+
+    @cached_property
+    def may(self) -> frozenset[Name]:
+        """What any ray sees that is infinitesimally moved, to whichever side."""
+        if len(self.touched) == 1:
+            return self.touched
+        o, d, surfaces = in_integers(self.origin, self.direction, self.front)
+        found = {self.seen}
+        for normal in turning_planes(o, d, surfaces):
+            along = cross(normal, d)  # d moved along it stays on the boundary; `normal` leaves it
+            for s, r in product((1, -1), repeat=2):
+                beside = [s * x for x in along], [r * x for x in normal]
+                by = (move([0, 0, 0], beside, beside),)  # one way: o, if it moves, goes with d
+                found.add(nearest(o, d, surfaces, by))
+        return frozenset(found)
+
+
+def scene_sights(scene: Scene, pixels: NDArray[np.integer] | None = None) -> list[Sight]:
+    """Return what the rays through the pixels' centres see, row by row from the lowest.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its triangles that have a corner that is not finite in world space are left out.
+    pixels : (n,) int, optional
+        Only these, by their number in the region.
+    """
+    camera = scene.camera
+    x, y = film_positions(camera.region, 0.0, 0.0)
+    rays = camera_rays(camera, x, y)
+    o, d = (np.broadcast_to(v, (3, len(x))) for v in (rays.origins, rays.directions))
+    if pixels is not None:
+        o, d = o[:, pixels], d[:, pixels]
+    names, corners = [], [np.zeros((3, 3, 0))]
+    for i, instance in enumerate(scene.instances):
+        mesh = scene.meshes[instance.mesh]
+        with np.errstate(over="ignore", invalid="ignore"):
+            world = transform_points(instance.world_from_object, mesh.vertices.T)
+        own = world[:, mesh.triangles.T].transpose(1, 0, 2)
+        finite = np.flatnonzero(np.isfinite(own).all(axis=(0, 1)))
+        corners.append(own[:, :, finite])
+        names += [(i, int(k)) for k in finite]
+    planes = [
+        ((len(scene.instances) + i, NOTHING), plane.point, plane.normal)
+        for i, plane in enumerate(scene.planes)
+    ]
+    clip = camera.clip_start, camera.clip_end
+    return sights(o, d, np.concatenate(corners, axis=2), names, planes, *clip)
+
+
+def sights(
+    origins: NDArray[np.float64],
+    directions: NDArray[np.float64],
+    corners: NDArray[np.float64],
+    names: Sequence[Name] | None = None,
+    planes: Sequence[tuple[Name, Sequence[float], Sequence[float]]] = (),
+    start: float = 0.0,
+    end: float = np.inf,
+) -> list[Sight]:
+    """Return what n rays see of m triangles and of infinite planes, all with all.
+
+    Parameters
+    ----------
+    origins, directions : (3, n) float64
     corners : (3 corners, 3 components, m) float64
+    names : sequence of Name, optional
+        Of the triangles; without them (0, index).
+    planes : sequence
+        The name, a point and the normal of each.
     start, end : float
-        As t, so in lengths of the direction.
+        The clip range, both inclusive: as t, so in lengths of the direction.
     """
-    (along,), fine = _integers(direction[None])
-    flat = corners.transpose(2, 0, 1).reshape(-1, 3)
-    points, coarse = _integers(np.concatenate((origin[None], flat)))
-    o = points[0]
-    points = [_sub(p, o) for p in points[1:]]
-    moved = _moved(along, points)
-    unit = Fraction(2) ** (coarse - fine)  # of t, where both are integers
-    seen, found, crossings = None, Verdict(NOTHING, None, 0), 0
-    for k, (a, b, c) in enumerate(zip(points[::3], points[1::3], points[2::3], strict=True)):
-        towards = [_cross(p, _sub(q, p)) for p, q in ((a, b), (b, c), (c, a))]
-        edges = [_dot(along, m) for m in towards]
-        if min(edges) < 0 < max(edges):
-            continue  # and however little it is moved
-        n = _cross(_sub(b, a), _sub(c, a))
-        height, slope = _dot(a, n), _dot(along, n)
-        if height == 0 or slope == 0:
-            continue
-        edges = [_dot(moved, m) for m in towards]
-        t = height * unit / slope
-        if min(edges) <= 0 <= max(edges) or not start <= t <= end:
-            continue
-        crossings += 1
-        depth = Fraction(height, _dot(moved, n))  # of the moved ray, in units of its own
-        if seen is None or depth < seen:
-            seen, found = depth, Verdict(k, t, 0)
-    return Verdict(found.triangle, found.t, crossings)
+    count, n = corners.shape[2], origins.shape[1]
+    names = names or [(0, k) for k in range(count)]
+    found: list[list[Meeting]] = [[] for _ in range(n)]
+    step = max(1, AT_ONCE // max(count, 1))
+    for at in range(0, n if count else 0, step):
+        ray = np.repeat(np.arange(at, min(at + step, n)), count)
+        triangle = np.tile(np.arange(count), len(ray) // count)
+        result = intersect_pairs(origins[:, ray], directions[:, ray], corners[:, :, triangle])
+        for k in np.flatnonzero(result.within(start, end)):
+            surface = Surface(names[triangle[k]], corners[:, :, triangle[k]])
+            meeting = Meeting(result.t(k), result.side[k] == EDGE, bool(result.hit[k]), surface)
+            found[ray[k]].append(meeting)
+    for k, meetings in enumerate(found):
+        o, d = ([Fraction(float(x)) for x in v[:, k]] for v in (origins, directions))
+        for name, point, normal in planes:
+            p, w = ([Fraction(float(x)) for x in v] for v in (point, normal))
+            if dot(d, w) and _within(t := dot(sub(p, o), w) / dot(d, w), start, end):
+                meetings.append(Meeting(t, False, True, Surface(name, [p], w)))
+    return [_sight(origins[:, k], directions[:, k], m) for k, m in enumerate(found)]
 
 
-def _moved(along: Whole, points: list[Whole]) -> Whole:
-    """Return along + (e, e^2, e^3), scaled to integers, with e small enough for all signs.
+def _sight(o: NDArray[np.float64], d: NDArray[np.float64], meetings: list[Meeting]) -> Sight:
+    sure = min((m.t for m in meetings if not m.at_edge), default=None)
+    front = [m for m in meetings if sure is None or m.t == sure or (m.at_edge and m.t < sure)]
+    surfaces = tuple(m.surface for m in front)
+    if len(front) == 1 and sure is not None:
+        seen = front[0].surface.name
+    else:
+        seen = nearest(*in_integers(o, d, surfaces), THE_RULE) if front else NOWHERE
+    t = next((m.t for m in front if m.surface.name == seen), None)
+    return Sight(o, d, seen, t, sum(m.hit for m in meetings), surfaces, sure is not None)
 
-    With coordinates below 2^l, a corner's cross products stay below 2^(2 l + 1), a height below
-    2^(3 l + 5), and what orders two triangles by their t below 2^(5 l + 8): an integer times e^k
-    then never outweighs one that is not zero times e^(k - 1).
+
+def in_integers(
+    o: NDArray[np.float64], d: NDArray[np.float64], surfaces: Sequence[Surface]
+) -> tuple[list[int], list[int], list[Surface]]:
+    """Return a ray and surfaces in integers, with one scale for all lengths.
+
+    The direction and a plane's normal have scales of their own, which cancel.
     """
-    size = max((abs(x) for p in points for x in p), default=0).bit_length() + 1
-    bits = 5 * size + 10
-    return [(x << 3 * bits) + (1 << k * bits) for x, k in zip(along, (2, 1, 0), strict=True)]
-
-
-def _integers(vectors: NDArray[np.float64]) -> tuple[list[Whole], int]:
-    """Return floats (n, 3) as integers and an exponent e: each float is its integer times 2^e."""
-    mantissa, exponent = np.frexp(vectors)
-    whole = (mantissa * 2.0**53).astype(np.int64)
-    least = int(exponent[whole != 0].min()) if whole.any() else 0
-    shift = np.where(whole != 0, exponent - least, 0)
-    return [
-        [m << e for m, e in zip(row, by, strict=True)]
-        for row, by in zip(whole.tolist(), shift.tolist(), strict=True)
-    ], least - 53
-
-
-def _sub(a: Whole, b: Whole) -> Whole:
-    return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-
-
-def _dot(a: Whole, b: Whole) -> int:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Whole, b: Whole) -> Whole:
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    o, *points = common([o, *(p for s in surfaces for p in s.points)])
+    rest = iter(points)
+    whole = [
+        Surface(
+            s.name,
+            [next(rest) for _ in s.points],
+            None if s.own_normal is None else common([s.own_normal])[0],
+        )
+        for s in surfaces
+    ]
+    return o, common([d])[0], whole

@@ -1,14 +1,12 @@
-"""The truth of a scene: its certified picture, all that each ray crosses, and who judges that.
+"""The truth of a scene: its certified picture, and all that each certified ray crosses.
 
-In comes a scene; out go the certified frame and the triangles that every certified ray crosses, or
-what the whole numbers of `judge.py`, which have no part in either, say of a sample of the rays.
+The oracle, which has no part in either, is asked about a sample of the rays.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +17,10 @@ from ..tracer.candidates import Pairs
 from ..tracer.certified.certainty import Certainty
 from ..tracer.certified.contest import decide
 from ..tracer.frame import Frame
-from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import candidates, film_positions, plan
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import Method, Precision, Settings
-from ..tracer.world import batches, world_triangles
-from .oracle import judge_ray
 
 CERTIFIED = Settings(Method.CERTIFIED)
 
@@ -106,32 +101,9 @@ def keys(scene: Scene, pixel: NDArray, name: NDArray) -> NDArray[np.int64]:
 
 
 def sample(frame: Frame, count: int) -> NDArray[np.intp]:
-    """Return pixels to judge: half of them anywhere, half where whole numbers had to decide."""
+    """Return pixels to ask about: half of them anywhere, half where integers had to decide."""
     rng = np.random.default_rng(count)
     anywhere = rng.permutation(frame.certainty.size)
     hard = rng.permutation(np.flatnonzero(frame.certainty >= Certainty.EXACT))[: count // 2]
     rest = anywhere[~np.isin(anywhere, hard)][: count - len(hard)]
     return np.sort(np.concatenate((hard, rest)))
-
-
-def judge_sample(
-    scene: Scene, pixels: NDArray[np.intp]
-) -> Iterator[tuple[Name, Fraction | None, int]]:
-    """Yield what each ray of a sample sees, by name, its t, and how many triangles it crosses."""
-    camera = scene.camera
-    rays = pixel_rays(camera, Precision.FLOAT64)
-    o, d = (
-        np.broadcast_to(v, (3, camera.region.width * camera.region.height))
-        for v in (rays.origins, rays.directions)
-    )
-    worlds = [world_triangles(scene, batch, np.float64) for batch in batches(scene)]
-    corners = np.concatenate([w.corners for w in worlds], axis=2)
-    names = [n for w in worlds for n in zip(w.instance.tolist(), w.triangle.tolist(), strict=True)]
-    finite = np.isfinite(corners).all(axis=(0, 1))
-    order = sorted(np.flatnonzero(finite).tolist(), key=names.__getitem__)
-    corners = corners[:, :, order]
-    for pixel in pixels.tolist():
-        verdict = judge_ray(o[:, pixel], d[:, pixel], corners, camera.clip_start, camera.clip_end)
-        seen = verdict.triangle
-        name = (NOTHING, NOTHING) if seen == NOTHING else names[order[seen]]
-        yield name, verdict.t, verdict.crossings

@@ -16,6 +16,7 @@ from .certified.reasons import Reason, sentences
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Name = tuple[int, int]  # instance and triangle
+NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 
 
 @dataclass

@@ -1,4 +1,4 @@
-"""The study of numerical stability: what is counted, who judges it, and where methods break."""
+"""The study of numerical stability: what is counted, against what, and where methods break."""
 
 from __future__ import annotations
 
@@ -176,7 +176,7 @@ def tampered(frame, **changes):
     return replace(frame, **values)
 
 
-def test_the_judge_finds_what_is_wrong_with_a_certified_frame(truth):
+def test_the_oracle_finds_what_is_wrong_with_a_certified_frame(truth):
     frame = truth[1].frame
     assert faults([judged_row(truth)]) == []
     assert judged_row(truth, tampered(frame, triangle_index=0)).wrong >= 15
@@ -195,7 +195,7 @@ def test_all_rays_are_held_against_how_often_they_must_cross(truth):
     assert judged_row(truth, count=0 * count, odd=None).missed == 16
 
 
-def test_the_sample_has_what_whole_numbers_decided(truth):
+def test_the_sample_has_what_integers_decided(truth):
     frame = truth[1].frame
     certainty = np.full_like(frame.certainty, Certainty.BOUND)
     certainty.flat[[3, 70, 100]] = Certainty.EXACT, Certainty.AMBIGUOUS, Certainty.EXACT

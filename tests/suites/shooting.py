@@ -12,12 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.contest import decide
 from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.triangle import METHODS
-
-from ..judge import judge_pairs
 
 AT_ONCE = 1 << 20  # pairs looked at by the cull, some tens of MiB
 DECIDED = 1 << 17  # pairs decided together
@@ -45,19 +44,19 @@ class Crossings:
         Of a mesh whose triangles are counter-clockwise from outside it is 1 inside, 0 outside.
         The sign is that of det in whole numbers: the side from which the ray as stored comes.
         """
-        result = judge_pairs(
+        result = intersect_pairs(
             self.origins[:, self.ray],
             self.directions[:, self.ray],
             self.corners[..., self.triangle],
         )
-        signs = np.where(result.towards < 0, 1, -1)  # det = -d . (e1 x e2)
+        signs = np.where(result.denominator < 0, 1, -1)  # det = -d . (e1 x e2)
         total = np.zeros(self.directions.shape[1], np.intp)
         np.add.at(total, self.ray, signs)
         return total
 
     def nearest(self) -> NDArray[np.intp]:
         """The nearest triangle of each ray, (n,), -1 for none: by the exact t, then the index."""
-        result = judge_pairs(
+        result = intersect_pairs(
             self.origins[:, self.ray],
             self.directions[:, self.ray],
             self.corners[..., self.triangle],

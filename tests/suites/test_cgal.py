@@ -14,10 +14,10 @@ from itertools import permutations
 
 import numpy as np
 import pytest
+from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.contest import decide, nearest
 
-from ..judge import EDGE, judge_pairs, sights
 from .meshes import bumpy_sphere, corners_of
 
 LOOPS = pytest.mark.parametrize("loops", [2000, pytest.param(200_000, marks=pytest.mark.torture)])
@@ -44,7 +44,7 @@ def test_static_filters(rng, loops, kind):
     """200,000 loops of 6 orders each take half a minute under `make torture`."""
     o, end, *corners = points(rng, loops, kind)
     corners, rays = np.stack(corners), Rays(o, end - o)
-    result = judge_pairs(o, end - o, corners)
+    result = intersect_pairs(o, end - o, corners)
     truth = result.within() & result.hit
     decisions = [decide(rays, corners[list(order)]) for order in permutations(range(3))]
     for decision in decisions:
@@ -64,11 +64,11 @@ def test_the_plane_of_three_points_and_a_fourth(rng, kind):
     o += (2.0**-40 if kind == "moved" else 0) * rng.choice((-1, 1), o.shape)
     d = rng.normal(size=o.shape)
     decision = decide(Rays(o, d), np.stack(corners))
-    result = judge_pairs(o, d, np.stack(corners))
+    result = intersect_pairs(o, d, np.stack(corners))
     assert np.array_equal(decision.hit, result.within() & result.hit)
     assert 0.3 < decision.hit.mean() < 0.6
     away = decide(Rays(o, -d), np.stack(corners)).hit
-    on = result.depth == 0
+    on = result.numerator == 0
     assert np.array_equal(decision.hit[~on], ~away[~on])  # from beside it, one of the two ways
     assert not (decision.hit | away)[on].any()
 
@@ -85,6 +85,6 @@ def test_first_hit_is_the_least_of_all():
     assert [(int(i), int(k)) for i, k in zip(seen.instance, seen.triangle, strict=True)] == expected
     hit = np.flatnonzero(seen.triangle >= 0)
     assert 100 < len(hit) < 900
-    result = judge_pairs(o[:, hit], d[:, hit], corners[:, :, seen.triangle[hit]])
+    result = intersect_pairs(o[:, hit], d[:, hit], corners[:, :, seen.triangle[hit]])
     assert seen.t[hit].tolist() == [float(result.t(k)) for k in range(len(hit))]
     assert (seen.t[seen.triangle < 0] == np.inf).all()

@@ -19,12 +19,12 @@ from itertools import product
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, drop_non_finite
+from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.contest import nearest
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Settings
 
-from ..judge import judge
 from .meshes import EMBREE_CENTRE, corners_of, embree_sphere, grid
 from .shooting import crossings
 
@@ -142,7 +142,7 @@ def test_garbage(rng, make, scenes, judged):
             assert ((frame.instance_index >= 0) <= (frame.t <= 1e38)).all()
             if number < judged:
                 names = zip(frame.instance_index.ravel(), frame.triangle_index.ravel(), strict=True)
-                assert [s.seen for s in judge(scene)] == [tuple(map(int, n)) for n in names]
+                assert [s.seen for s in scene_sights(scene)] == [tuple(map(int, n)) for n in names]
     assert refused > 15 * scenes
     assert seen > scenes
 

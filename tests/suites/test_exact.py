@@ -10,10 +10,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from reference_tracer.study.oracle import EDGE, intersect_pairs
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.contest import decide, nearest
 
-from ..judge import EDGE, judge_pairs
 from .families import FAMILIES, at_any_size, generic, whole_numbers
 
 torture = pytest.mark.torture
@@ -32,7 +32,7 @@ def test_a_million_pairs(family, chunks):
         o, d, corners = at_any_size(rng, *family(rng, CHUNK), how)
         decision = decide(Rays(o, d), corners)
         shape = (3, CHUNK)
-        result = judge_pairs(np.broadcast_to(o, shape), np.broadcast_to(d, shape), corners)
+        result = intersect_pairs(np.broadcast_to(o, shape), np.broadcast_to(d, shape), corners)
         met = result.within()
         wrong = (decision.hit != (met & result.hit)) | (
             decision.edge != (met & (result.side == EDGE))
@@ -68,7 +68,7 @@ def test_t_is_correctly_rounded(rng, shared, lengths, directions):
             o, d = target - away[:, :1] * rng.uniform(0.5, 2, 400), d[:, :1]
         seen = nearest(Rays(o, d), corners)
         o, d = (np.broadcast_to(v, (3, 400)) for v in (o, d))
-        result = judge_pairs(o, d, corners.repeat(400, axis=2))
+        result = intersect_pairs(o, d, corners.repeat(400, axis=2))
         hit = np.flatnonzero(result.within() & result.hit)
         assert np.array_equal(hit, np.flatnonzero(seen.triangle == 0))
         assert all(is_nearest_float(seen.t[k], result.t(k)) for k in hit)
@@ -107,7 +107,7 @@ def test_the_clip_range_is_exact_at_its_ends(rng):
     told = 0
     for family in (generic, whole_numbers):
         o, d, corners = family(rng, 3000)
-        result = judge_pairs(o, d, corners)
+        result = intersect_pairs(o, d, corners)
         hit = np.flatnonzero(result.within() & result.hit)[:100]
         assert len(hit) == 100
         for k in hit:

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.scene import Mesh, ViewWindow
+from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.certified.contest import nearest
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Settings
 
-from ..judge import judge_pairs
 from .meshes import corners_of, stairs
 from .shooting import crossings
 
@@ -116,7 +116,7 @@ def test_a_mesh_in_any_pose(make, rng):
     assert (found.counts % 2 == 0).all() and (found.counts > 0).mean() > 0.3
     assert np.array_equal(found.nearest().reshape(100, 100), frame.triangle_index)
     hit = np.flatnonzero(frame.triangle_index.ravel() >= 0)
-    result = judge_pairs(
+    result = intersect_pairs(
         o[:, hit],
         d[:, hit],
         corners[:, :, frame.triangle_index.ravel()[hit]],

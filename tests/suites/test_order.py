@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.contest import nearest
 
-from ..judge import sights
 from .families import FAMILIES, SIZES, at_any_size
 
 torture = pytest.mark.torture

@@ -16,12 +16,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.contest import decide, nearest
 from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.vector import cross, dot
 
-from ..judge import judge_pairs
 from .meshes import bumpy_sphere, corners_of, on_sphere, snapped
 from .shooting import crossings, decided
 
@@ -114,7 +114,7 @@ def spawned(rng, corners, each):
 
 def nearest_of_its_own(o, d, corners):
     """t of each ray with the triangle of its number, rounded; inf where it misses."""
-    result = judge_pairs(o, d, corners)
+    result = intersect_pairs(o, d, corners)
     hit = result.within() & result.hit
     return np.array([float(result.t(k)) if hit[k] else np.inf for k in range(len(hit))])
 
@@ -126,7 +126,7 @@ def test_reintersect_is_what_whole_numbers_say(rng, triangles, each):
     count = again = 0
     for at in range(0, some.shape[2], 40):
         points, d, corners = spawned(rng, some[:, :, at : at + 40], each)
-        result = judge_pairs(points, d, corners)
+        result = intersect_pairs(points, d, corners)
         for end in (np.inf, 1.0):
             given = decide(Rays(points, d), corners, 0.0, end)
             assert np.array_equal(given.hit, result.hit & result.within(0.0, end))
@@ -148,8 +148,8 @@ def test_a_ray_does_not_meet_the_surface_that_it_begins_on(rng):
     d[:, ::2] = snapped(d[:, ::2], 3)
     d[0, ::10] = d[1, ::10] = 0.0
     d[2, (d == 0).all(axis=0)] = 1
-    result = judge_pairs(points, d, corners)
-    assert (result.depth == 0).all()  # truly on the surface
+    result = intersect_pairs(points, d, corners)
+    assert (result.numerator == 0).all()  # truly on the surface
     for end in (np.inf, 1.0):
         assert not decide(Rays(points, d), corners, 0.0, end).hit.any()
     assert decide(Rays(points, d), corners, -1.0, 1.0).hit.mean() > 0.3  # it is met, at t = 0

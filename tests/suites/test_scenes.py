@@ -1,6 +1,6 @@
-"""Whole pictures against the judge: every pixel's surface, its t, and what else it might have been.
+"""Whole pictures against the oracle: every pixel's surface, its t, and what else it may be.
 
-The judge takes every ray with every triangle; so candidates, tiles and batches are judged, too.
+The oracle takes every ray with every triangle, so candidates, tiles and batches are tested, too.
 """
 
 from __future__ import annotations
@@ -11,18 +11,19 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
+from reference_tracer.study.oracle import intersect_pairs, scene_sights
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
-from ..judge import NOTHING, judge, judge_pairs
 from .meshes import box, closed_fan, grid
 
 
 def matches(scene):
-    """Check a certified picture against the judge; return the picture and the judge's answers."""
-    frame, answers = render(scene, Settings("certified")), judge(scene)
+    """Check a certified picture against the oracle; return the picture and the oracle's answers."""
+    frame, answers = render(scene, Settings("certified")), scene_sights(scene)
     names = list(zip(frame.instance_index.ravel(), frame.triangle_index.ravel(), strict=True))
     assert [tuple(map(int, name)) for name in names] == [a.seen for a in answers]
     certainty = frame.certainty.ravel()
@@ -58,7 +59,7 @@ def check_t(scene, frame):
         corners = mesh.vertices[mesh.triangles[triangle[k]]].astype(np.float64)
         a, b, c = corners.T
         world = np.stack([m[i, 0] * a + m[i, 1] * b + m[i, 2] * c + m[i, 3] for i in range(3)])
-        result = judge_pairs(o[:, [k]], d[:, [k]], world.T[:, :, None])
+        result = intersect_pairs(o[:, [k]], d[:, [k]], world.T[:, :, None])
         assert t[k] == float(result.t(0))
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
+from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
-from ..judge import judge
 from .rational import t_of_pixels
 
 CERTIFIED = Settings("certified")
@@ -58,8 +58,8 @@ def names_of(frame: Frame) -> list[tuple[int, int]]:
 
 
 def check(scene: Scene, settings: Settings = CERTIFIED) -> Frame:
-    """Assert that every pixel is as the judge says; returns the frame."""
-    frame, truth = render(scene, settings), judge(scene)
+    """Assert that every pixel is as the oracle says; returns the frame."""
+    frame, truth = render(scene, settings), scene_sights(scene)
     names = names_of(frame)
     assert names == [s.seen for s in truth]
     assert np.array_equal(frame.t.ravel(), t_of_pixels(scene, names))

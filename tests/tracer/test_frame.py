@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Mesh
+from reference_tracer.tracer.hits import NOWHERE
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Precision, Settings
 
-from ..judge import NONE
 from .pictures import CERTIFIED, mess, names_of
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -67,4 +67,4 @@ def test_vertices_that_are_not_finite_in_world_space_are_refused(make):
         assert any("2 triangles were left out" in line for line in frame.statistics.required())
     assert not render(scene, CERTIFIED).statistics.refused
     alone = replace(broken, instances=broken.instances[1:])
-    assert set(names_of(render(alone, CERTIFIED))) == {NONE}
+    assert set(names_of(render(alone, CERTIFIED))) == {NOWHERE}

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
+from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer import plane, render, world
 from reference_tracer.tracer.camera import Rays, camera_rays
@@ -20,7 +21,6 @@ from reference_tracer.tracer.triangle import METHODS
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import WorldTriangles
 
-from ..judge import judge
 from .pictures import names_of
 from .rational import t_of_pixels
 
@@ -99,7 +99,7 @@ def test_brute_force(mess, settings):
 
 def test_certified_and_auto_against_exact_brute_force(mess):
     """Every ray with every triangle in whole numbers, with a rule written apart."""
-    truth = judge(mess)
+    truth = scene_sights(mess)
     names = [s.seen for s in truth]
     t = t_of_pixels(mess, names)
     for settings in PROVEN:

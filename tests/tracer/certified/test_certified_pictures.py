@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.hits import NOTHING, NOWHERE
 from reference_tracer.tracer.render import render
 
-from ...judge import NONE, NOTHING
 from ..pictures import CERTIFIED, check, mess, names_of
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -45,7 +45,7 @@ def test_brute_force(make, rng, orthographic, whole):
     ids="{:.0e}".format,
 )
 def test_no_scale_is_too_small_or_too_large(make, orthographic, whole, scale):
-    """Culling, too, keeps every hit: the picture is that of scale 1, the judge's."""
+    """Culling, too, keeps every hit: the picture is that of scale 1, the oracle's."""
     scene = mess(make, np.random.default_rng(3), orthographic, whole, scale)
     frame = check(scene)
     if np.log2(scale) % 1 == 0:
@@ -138,5 +138,5 @@ def test_a_ray_through_every_corner_of_a_grid(make):
     frame = check(make.scene(camera, grid))
     assert (frame.instance_index == 0).all() and (frame.t == 2).all()
     assert (frame.certainty == Certainty.AMBIGUOUS).all()
-    assert all(len(names) == 6 and NONE not in names for names in frame.ties.values())
+    assert all(len(names) == 6 and NOWHERE not in names for names in frame.ties.values())
     assert (np.abs(np.sort(frame.barycentrics) - (0, 0, 1)) == 0).all()

@@ -1,6 +1,6 @@
 """The nearest hit, proven: as exact arithmetic has it, ray by ray and pair by pair.
 
-The judge is written apart (`tests/judge.py`): all rays with all triangles, in whole numbers, and
+The oracle is written apart (`study/oracle.py`): all rays with all triangles, in integers, and
 the ray of the rule truly moved.
 """
 
@@ -10,17 +10,17 @@ from collections import Counter
 
 import numpy as np
 import pytest
+from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.certified import contest as certified
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.contest import Contest, decide, nearest
 from reference_tracer.tracer.certified.reasons import Reason
-from reference_tracer.tracer.hits import Hits, Statistics
+from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import WorldTriangles
 
-from ...judge import EDGE, NONE, judge_pairs, sights
 from ..rational import t_of
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -75,7 +75,7 @@ def share(o, d, what):
 
 
 def check(rays, corners, start=0.0, end=np.inf) -> Hits:
-    """Assert that all is as the judge says."""
+    """Assert that all is as the oracle says."""
     hits = nearest(rays, corners, start, end)
     origins, directions = (
         np.broadcast_to(v, (3, len(hits.t))) for v in (rays.origins, rays.directions)
@@ -84,7 +84,7 @@ def check(rays, corners, start=0.0, end=np.inf) -> Hits:
         name = int(hits.instance[k]), int(hits.triangle[k])
         assert name == truth.seen
         column = origins[:, k], directions[:, k], corners[..., name[1]]
-        assert hits.t[k] == (np.inf if name == NONE else t_of(*column))
+        assert hits.t[k] == (np.inf if name == NOWHERE else t_of(*column))
         ambiguous = hits.certainty[k] == Certainty.AMBIGUOUS
         assert ambiguous == (len(truth.touched) > 1) == (k in hits.ties)
         assert ambiguous or hits.certainty[k] in (Certainty.BOUND, Certainty.EXACT)
@@ -203,7 +203,7 @@ def test_decide(rng, family, shared):
             c = c[..., rng.integers(0, TRIANGLES, RAYS)]
         o = o[:, :1] if shared else o
         found = decide(Rays(o, d), c, start, end)
-        truth = judge_pairs(np.broadcast_to(o, d.shape), d, c)
+        truth = intersect_pairs(np.broadcast_to(o, d.shape), d, c)
         within = truth.within(start, end)
         assert np.array_equal(found.hit, truth.hit & within)
         assert np.array_equal(found.edge, (truth.side == EDGE) & within)

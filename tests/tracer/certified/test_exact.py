@@ -7,11 +7,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.exact import Batch, Meeting, compare, integers
 from reference_tracer.tracer.certified.ties import nearest
 
-from ...judge import sights
 from ..rational import functions, plane_functions, rational, rounded
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -141,7 +141,7 @@ def test_nearest_is_what_the_moved_ray_sees(rng):
 
 
 def sight(corners, direction=(0, 0, -1)):
-    """Return what the one ray from the origin sees, its ties, and the judge's answer."""
+    """Return what the one ray from the origin sees, its ties, and the oracle's answer."""
     o, d = np.zeros((3, 1)), np.array(direction, float)[:, None]
     c = np.array(corners, float).transpose(1, 2, 0)
     batch = Batch(Rays(o, d), c)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Scene
+from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.certified.sweep import chunks as module
 from reference_tracer.tracer.certified.sweep.chunks import Piece, expand, pieces, refused
@@ -14,7 +15,6 @@ from reference_tracer.tracer.certified.sweep.film import Film
 from reference_tracer.tracer.certified.sweep.instance_boxes import InstanceBoxes
 from reference_tracer.tracer.world import Batch, world_triangles
 
-from ....judge import OUTSIDE, judge_pairs
 from ...exact_film import ExactFilm
 from ...hostile import hostile_camera, hostile_triangles
 from ...hostile_scenes import hostile_scene, offsets, scaled_camera
@@ -112,7 +112,7 @@ def test_only_instances_that_no_ray_hits_are_left_out(make):
         y, x = np.indices((r.height, r.width)).reshape(2, -1)
         pixel, which = np.divmod(np.arange(len(x) * len(hidden)), len(hidden))
         o, d = ExactFilm(camera, film.dx, film.dy).rays(x + r.x0, y + r.y0)
-        found = judge_pairs(o[:, pixel], d[:, pixel], corners[..., hidden[which]])
+        found = intersect_pairs(o[:, pixel], d[:, pixel], corners[..., hidden[which]])
         for k in np.flatnonzero(found.side != OUTSIDE):
             assert not camera.clip_start <= found.t(k) <= camera.clip_end, seed
         judged, instances = judged + len(pixel), instances + len(hidden)

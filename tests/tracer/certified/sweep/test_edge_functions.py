@@ -1,6 +1,6 @@
 """Triangles as functions of the pixel are off by no more than they say, and say what is sure.
 
-The judge has fractions of the stored rays and the world vertices (`exact_film.py`).
+What is expected has fractions of the stored rays and the world vertices (`exact_film.py`).
 """
 
 from __future__ import annotations

@@ -8,10 +8,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.scene import Camera
+from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.certified.sweep.film import Film, Vertices
 
-from ....judge import OUTSIDE, judge_pairs
 from ...exact_film import ExactFilm
 from ...hostile import hostile_camera, hostile_triangles
 from ...hostile_scenes import offsets, scaled_camera
@@ -136,7 +136,7 @@ def test_boxes_hold_every_pixel_that_is_hit(make):
         inside = (x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])
         some = np.flatnonzero(~inside | (rng.random(len(k)) < 0.2))
         x, y, k, inside = x[some], y[some], k[some], inside[some]
-        found = judge_pairs(*ExactFilm(camera, film.dx, film.dy).rays(x, y), corners[..., k])
+        found = intersect_pairs(*ExactFilm(camera, film.dx, film.dy).rays(x, y), corners[..., k])
         hit = found.side != OUTSIDE
         assert not (hit & ~inside).any(), seed
         for n in np.flatnonzero(hit):

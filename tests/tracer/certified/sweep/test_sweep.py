@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.scene import Mesh, Region, Scene
+from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import render
 from reference_tracer.tracer.certified import resolve, settle
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -20,13 +21,12 @@ from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
-from ....judge import judge
 from ...hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...rational import t_of_pixels
 
 pytestmark = pytest.mark.filterwarnings("error")
 SEEDS, PARTS = 2000, 4
-SAMPLE = 200  # seeds that the judge decides
+SAMPLE = 200  # seeds that the oracle decides
 DIVIDED = 80
 ARRAYS = ("t", "instance", "triangle", "s", "certainty")
 
@@ -77,13 +77,13 @@ def test_as_a_contest_of_every_ray_with_every_triangle(make, part):
     assert min(count.values()) > 100 and count["BOUND"] > 0.4 * count["pixels"], count
 
 
-def test_as_the_judge_has_it(make):
+def test_as_the_oracle_has_it(make):
     """In whole numbers, by a rule written apart; every pixel of every scene."""
     ambiguous, hits = 0, 0
     for seed in range(10_000, 10_000 + SAMPLE):
         rng = np.random.default_rng(seed)
         scene = hostile_scene(make, rng, finite=True)
-        found, truth = swept(scene), judge(scene)
+        found, truth = swept(scene), scene_sights(scene)
         names = list(zip(found.instance.tolist(), found.triangle.tolist(), strict=True))
         assert names == [s.seen for s in truth], seed
         assert np.array_equal(found.t, t_of_pixels(scene, names)), seed
