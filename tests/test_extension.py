@@ -4,6 +4,7 @@ import os
 import runpy
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -11,6 +12,8 @@ import pytest
 
 PROJECT = Path(__file__).parent.parent
 BUILD_SCRIPT = PROJECT / "tools" / "build_extension.py"
+MANIFEST = tomllib.loads((PROJECT / "blender_manifest.toml").read_text(encoding="utf-8"))
+LEFT_OUT = MANIFEST["build"]["paths_exclude_pattern"]
 
 # Runs in a Blender of its own: installs the zip, uses it, and takes it out again.
 INSTALL = """
@@ -34,6 +37,12 @@ except TypeError:
 """
 
 
+def left_out(file: Path) -> bool:
+    """Whether the manifest leaves a file of the add-on out of the zip."""
+    path = "/" + file.relative_to(PROJECT).as_posix()
+    return any(path == p or (p.endswith("/") and path.startswith(p)) for p in LEFT_OUT)
+
+
 @pytest.fixture(scope="module")
 def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("dist")
@@ -51,7 +60,7 @@ def test_zip_holds_the_extension_and_nothing_else(package: Path):
     code = {
         file.relative_to(PROJECT).as_posix()
         for file in (PROJECT / "addon").rglob("*")
-        if file.is_file() and "__pycache__" not in file.parts
+        if file.is_file() and "__pycache__" not in file.parts and not left_out(file)
     }
     top = {"__init__.py", "blender_manifest.toml", "LICENSE", "README.md", "CHANGELOG.md"}
     assert code and code <= names

@@ -1,7 +1,11 @@
-"""One direction: only `addon/blender/` knows Blender, and no import runs up a floor."""
+"""One direction: only `addon/blender/` knows Blender, and no import runs up a floor or in a circle.
+
+And the extension ships what Blender can reach, with nothing that its platform's reviewers reject.
+"""
 
 import ast
-from collections.abc import Iterator
+import tomllib
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -16,11 +20,12 @@ FLOORS = {
     "interrupts": 0,
     "tracer": 1,
     "scene_files": 1,
-    "arguments": 1,
+    "methods": 1,
     "compare": 2,
     "study": 2,
     "explain": 2,
     "report": 3,
+    "arguments": 3,
     "blender": 4,
     "opening": 4,
     "commands": 4,
@@ -87,12 +92,159 @@ def violations(path: str, source: str) -> list[str]:
     return found
 
 
+def name_of(file: Path) -> str:
+    """The dotted path within addon of a file; that of a package, of its __init__.py."""
+    parts = file.relative_to(ADDON).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+FILES = {name_of(file): file for file in sorted(ADDON.rglob("*.py"))}
+
+
+def imported(name: str, source: str, known: Mapping[str, object]) -> set[str]:
+    """Which modules of addon a module names in its imports, wherever these stand."""
+    is_package = name in FILES and FILES[name].name == "__init__.py"
+    package = name.split(".") if name else []
+    package = package if is_package else package[:-1]
+    found = set()
+    for statement, _ in imports(ast.parse(source)):
+        if not isinstance(statement, ast.ImportFrom) or not statement.level:
+            continue
+        base = package[: len(package) + 1 - statement.level]
+        base += statement.module.split(".") if statement.module else []
+        for alias in statement.names:
+            inner = ".".join((*base, alias.name))
+            found.add(inner if inner in known else ".".join(base))
+    return found & known.keys() - {name}
+
+
+GRAPH = {name: imported(name, file.read_text("utf-8"), FILES) for name, file in FILES.items()}
+
+
+def reached(graph: Mapping[str, set[str]], start: set[str]) -> set[str]:
+    """What is imported in the end, the packages that it stands in included."""
+    found: set[str] = set()
+    todo = list(start)
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            todo += graph[name]
+            todo += [name.rpartition(".")[0]] if name else []
+    return found
+
+
+def circle(graph: Mapping[str, set[str]]) -> list[str]:
+    """Modules that import one another in a circle, the first of them last again; [] for none."""
+    done: set[str] = set()
+
+    def search(name: str, path: list[str]) -> list[str]:
+        if name in path:
+            return [*path[path.index(name) :], name]
+        if name in done:
+            return []
+        done.add(name)
+        for other in sorted(graph[name]):
+            if found := search(other, [*path, name]):
+                return found
+        return []
+
+    return next((found for name in graph if (found := search(name, []))), [])
+
+
+def test_no_import_runs_in_a_circle():
+    """Not within a floor either, and not by waiting inside a function."""
+    assert not circle(GRAPH)
+
+
+def test_a_circle_is_found():
+    assert circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == ["b", "c", "b"]
+    assert circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
+
+
+def test_the_tracer_knows_the_scene_and_nothing_of_blender():
+    start = {name for name in GRAPH if name.split(".")[0] == "tracer"}
+    assert start
+    # The package itself imports Blender's part once it is registered there.
+    units = {name.split(".")[0] for name in reached(GRAPH | {"": set()}, start)}
+    assert units <= {"", "scene", "manifest", "methods", "tracer"}
+
+
+def registered() -> set[str]:
+    """The modules that registration.py imports by their names."""
+    tree = ast.parse(FILES["blender.registration"].read_text("utf-8"))
+    [value] = [
+        node.value
+        for node in tree.body
+        if isinstance(node, ast.Assign) and node.targets[0].id == "MODULES"
+    ]
+    names = {n.value for n in ast.walk(value) if isinstance(n, ast.Constant)}
+    return {f"blender.{name}" for name in names}
+
+
+def shipped() -> dict[str, Path]:
+    """The modules that the manifest leaves in the extension's zip."""
+    manifest = tomllib.loads((ADDON.parent / "blender_manifest.toml").read_text("utf-8"))
+    out = [p for p in manifest["build"]["paths_exclude_pattern"] if p.startswith("/addon/")]
+    assert out
+    for pattern in out:
+        assert (ADDON.parent / pattern[1:]).exists(), f"{pattern} leaves out nothing"
+    return {
+        name: file
+        for name, file in FILES.items()
+        if not f"/{file.relative_to(ADDON.parent).as_posix()}".startswith(tuple(out))
+    }
+
+
+def test_the_zip_holds_what_blender_can_reach_and_nothing_else():
+    assert registered() <= GRAPH.keys()
+    assert shipped().keys() == reached(GRAPH, {""} | registered())
+
+
+# A dotted name within a module, or a module: what an extension must not do.
+FORBIDDEN = {"subprocess", "threading", "multiprocessing", "exec", "eval", "sys.path"}
+
+
+def forbidden(source: str) -> set[str]:
+    """Which forbidden names a module has."""
+    found = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            own = node.module if isinstance(node, ast.ImportFrom) and not node.level else ""
+            names = [f"{own}.{a.name}" if own else a.name for a in node.names]
+            found |= {n for n in names if n == "sys.path"} | {n.split(".")[0] for n in names}
+        elif isinstance(node, ast.Name):
+            found.add(node.id)
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            found.add(f"{node.value.id}.{node.attr}")
+    return found & FORBIDDEN
+
+
+def test_what_is_shipped_starts_and_runs_nothing():
+    found = {n: forbidden(file.read_text("utf-8")) for n, file in shipped().items()}
+    assert not {name: names for name, names in found.items() if names}
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "import subprocess",
+        "def f():\n    import threading as t",
+        "from multiprocessing.pool import Pool",
+        "exec('1')",
+        "import sys\nsys.path.append('x')",
+        "from sys import path",
+    ],
+)
+def test_what_is_forbidden_is_found(source: str):
+    assert forbidden(source)
+
+
 def test_imports_keep_to_the_structure():
-    files = sorted(ADDON.rglob("*.py"))
-    assert files
+    assert FILES
     found = [
         violation
-        for file in files
+        for file in FILES.values()
         for violation in violations(
             file.relative_to(ADDON).as_posix(), file.read_text(encoding="utf-8")
         )

@@ -1,17 +1,17 @@
-"""A comparison in words: what a person wants to know first, a fact a line."""
+"""A comparison in words: what a person wants to know first, a fact a line.
+
+In comes a `comparison.Comparison`, which imports this module: it is not imported here.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from .cause import DESCRIPTIONS, Cause
 from .self_check import table
 
-if TYPE_CHECKING:
-    from .comparison import Comparison
 
-
-def lines(comparison: Comparison) -> list[str]:
+def lines(comparison: Any) -> list[str]:
     """Return what was compared, and what came of it."""
     p, m, statistics = comparison.pixels, comparison.metrics, comparison.frame.statistics
     psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
@@ -35,7 +35,7 @@ def lines(comparison: Comparison) -> list[str]:
     ]
 
 
-def _other(comparison: Comparison) -> str:
+def _other(comparison: Any) -> str:
     """Name the picture that is compared."""
     about = comparison.blender
     if "picture" in about:
@@ -43,7 +43,7 @@ def _other(comparison: Comparison) -> str:
     return f"Blender's {about['source']} picture"
 
 
-def _evidence(comparison: Comparison) -> list[str]:
+def _evidence(comparison: Any) -> list[str]:
     """Say what else was found out of the pixels that differ."""
     p, causes = comparison.pixels, comparison.causes
     inside, rim = p["interior"], p["boundary"]

@@ -8,17 +8,15 @@ from __future__ import annotations
 
 import json
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from .answers import Answer
 from .arithmetic import FLOATS, Arithmetic, Number
+from .derivation import Derivation, Quantity, Test
 from .digits import exact_text, text, ulps
 from .judgement import SENTENCES
-
-if TYPE_CHECKING:
-    from .answers import Answer
-    from .derivation import Derivation, Quantity, Test
 
 SCHEMA = "reference_tracer.derivation/1"
 

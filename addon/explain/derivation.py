@@ -21,7 +21,6 @@ from ..tracer.hits import Name
 from . import textbook
 from .answers import Answer, certified_answer, plain_answers
 from .arithmetic import Arithmetic, Number
-from .as_json import to_dict
 from .candidates import LIMIT, gather
 from .formulas import CAMERA, COLOR, PLANE, RAY, STORED, TRIANGLE, Formula
 from .judgement import Judgement, judge
@@ -100,10 +99,6 @@ class Derivation:
         """Return what a reader calls what has this name."""
         found = self.named(name)
         return found.title if found else "nothing"
-
-    def to_dict(self) -> dict:
-        """Return what JSON can hold of it: see `as_json.py`."""
-        return to_dict(self)
 
 
 def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Derivation:

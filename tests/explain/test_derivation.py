@@ -111,7 +111,7 @@ def test_an_edge_is_ambiguous(one_triangle):
     assert found.certified.ties == {(0, 0), (1, 0)}
     assert [t.judgements[Arithmetic.EXACT].accepted for t in found.tests] == [True, True]
     assert "may be said to see" in markdown.text(found)
-    assert len(found.to_dict()["certified"]["may_be_seen"]) == 2
+    assert len(as_json.to_dict(found)["certified"]["may_be_seen"]) == 2
 
 
 def test_the_limit_keeps_what_is_seen_and_what_is_tied(one_triangle):

@@ -142,7 +142,7 @@ def from_json(steps, kind):
 def test_json(derivations):
     for d in derivations:
         content = json.loads(as_json.text_of(d))
-        assert content == json.loads(json.dumps(d.to_dict()))
+        assert content == json.loads(json.dumps(as_json.to_dict(d)))
         camera, pixel = content["camera"], content["pixel"]
         size = camera["width"], camera["height"], pixel["column"], pixel["row"]
         for kind in ("float32", "float64", "exact"):
