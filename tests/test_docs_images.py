@@ -33,7 +33,7 @@ def test_draw_culling(make, tmp_path: Path):
     # 10 x 10 pixels: those of the squares' four sides and of the diagonal, which all are left.
     assert (squares["triangles"], squares["pixels left"]) == (4, 36 + 8)
     assert squares["pixels decided"] == 256 - squares["pixels left"]
-    assert squares["by whole numbers"] == squares["pixels left"]
+    assert squares["by integers"] == squares["pixels left"]
     assert sphere["triangles"] == 20 * 4**4 and spheres["triangles"] == 64 * 20 * 4
     assert 0 < squares["bound (median)"] < 1e-9
     for found in sphere, spheres:
@@ -42,7 +42,7 @@ def test_draw_culling(make, tmp_path: Path):
         assert (
             found["not dropped whole"] <= found["with a pixel in their box"] <= found["triangles"]
         )
-    for name in "culling", "slabs":
+    for name in "culling", "depth_bins":
         target = tmp_path / f"{name}.png"
         assert target.stat().st_size <= 300_000
         picture = np.asarray(Image.open(target).convert("RGB"))

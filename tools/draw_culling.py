@@ -2,7 +2,7 @@
 
     python tools/draw_culling.py [SCENE.npz ...] [--width 1920] [--detail 8] [--out docs/images]
 
-Writes culling.png and slabs.png: small scenes that the tracer's own sweep goes through; needs
+Writes culling.png and depth_bins.png: small scenes that the tracer's own sweep goes through; needs
 Matplotlib. Prints the table, as Markdown, of the scenes that are given (`reftrace export` makes
 them) and of two that are built here.
 """
@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from culling import cells, scenes, slabs
+from culling import cells, depth_bins, scenes
 from culling.watched import Counts, count
 from reference_tracer.images import save_png
 from reference_tracer.scene import Scene
@@ -32,7 +32,7 @@ COLUMNS = (
     "bound (median)",
     "pixels decided",
     "pixels left",
-    "by whole numbers",
+    "by integers",
 )
 
 
@@ -62,7 +62,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=PROJECT / "docs" / "images", metavar="DIR")
     options = parser.parse_args()
     save_png(options.out / "culling.png", cells.picture())
-    save_png(options.out / "slabs.png", slabs.picture())
+    save_png(options.out / "depth_bins.png", depth_bins.picture())
     print("|", " | ".join(COLUMNS), "|")
     print("|" + "---|" * len(COLUMNS))
     for name, scene in counted(options.scenes, options.width, options.detail):

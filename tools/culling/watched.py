@@ -62,7 +62,7 @@ class Counts:
     computed: int = 0  # pixels of boxes and of cells, in which the four functions were computed
     pairs: int = 0  # of them, not surely outside an edge
     left: int = 0  # pixels that the sweep did not decide
-    by_numbers: int = 0  # of them, by whole numbers or by the rule of ties
+    by_numbers: int = 0  # of them, by integers or by the rule of ties
     bounds: list[NDArray] = field(default_factory=list)  # how far from an edge is sure, in pixels
 
     @property
@@ -131,7 +131,7 @@ class Watched(sweep.Sweep):
 
 
 def watch(scene: Scene) -> Watched:
-    """Sweep a small scene, which is one piece, closely."""
+    """Sweep a small scene, which is one chunk, closely."""
     region = scene.camera.region
     swept = Watched(scene, Film(scene.camera), region, Statistics(), closely=True)
     for _ in sweep.quiet(swept.steps(sweep._TRIANGLES)):

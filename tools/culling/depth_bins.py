@@ -1,4 +1,4 @@
-"""slabs.png: a scene from above, slab by slab, and what the depth buffer has hidden by then."""
+"""depth_bins.png: a scene from above, bin by bin, and what the depth buffer has hidden by then."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ def picture() -> NDArray[np.uint8]:
     for number, (look, after) in enumerate(zip(swept.looks, seen, strict=True)):
         row, column = divmod(number, 2)
         axes = figure.add_subplot(grid[row, 2 + column])
-        draw_slab(axes, number, look, after)
+        draw_bin(axes, number, look, after)
         if row == rows - 1:
-            axes.set_xlabel("grey: a sure hit before this slab", fontsize=14, color=plots.INK)
+            axes.set_xlabel("grey: a sure hit before this bin", fontsize=14, color=plots.INK)
     return plots.pixels(figure)
 
 
 def draw_from_above(axes: Axes, swept: Watched) -> None:
-    title = "Triangles seen from above, by slab (grey: hidden)"
+    title = "Triangles seen from above, by depth bin (grey: hidden)"
     plots.plain_axes(axes, title, "column of pixels", "depth of the nearest corner, m")
     for number, look in enumerate(swept.looks):
         x, depth = (look.boxes.low[0] + look.boxes.high[0]) / 2, 1 / look.nearest
@@ -57,7 +57,7 @@ def draw_from_above(axes: Axes, swept: Watched) -> None:
         axes.axhline(depth.max(), color=plots.INK, lw=0.7)
 
 
-def draw_slab(axes: Axes, number: int, look: Look, after: NDArray[np.bool_]) -> None:
+def draw_bin(axes: Axes, number: int, look: Look, after: NDArray[np.bool_]) -> None:
     count, hidden = len(look.nearest), len(look.nearest) - len(look.open)
     image = np.ones((HEIGHT, WIDTH, 3))
     image[look.seen] = to_rgb(BEFORE)
