@@ -95,6 +95,11 @@ def _triangles(rng: np.random.Generator) -> Floats:
     return out[:EACH]
 
 
+def _powers(base: float, exponents: Floats) -> Floats:
+    """Return powers one by one: numpy's last digit depends on the processor's vector unit."""
+    return np.array([base**e for e in exponents.ravel().tolist()]).reshape(exponents.shape)
+
+
 def _towards(rng: np.random.Generator, p: Floats, s: Floats) -> Pairs:
     """Return rays towards points of triangles' planes, from the front, at no small angle."""
     n = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
@@ -102,7 +107,7 @@ def _towards(rng: np.random.Generator, p: Floats, s: Floats) -> Pairs:
     away = rng.normal(size=n.shape)
     away /= np.linalg.norm(away, axis=1, keepdims=True)
     away = n + 0.6 * away
-    length, speed = rng.uniform(2, 6, (len(n), 1)), 2.0 ** rng.uniform(-2, 2, (len(n), 1))
+    length, speed = rng.uniform(2, 6, (len(n), 1)), _powers(2, rng.uniform(-2, 2, (len(n), 1)))
     point = (s[:, :, None] * p).sum(axis=1)
     return point + length * away, -speed * away, p
 
@@ -125,7 +130,7 @@ def _beside(rng: np.random.Generator) -> Floats:
     which = np.arange(EACH)
     s[which, which % 3] = 0
     s /= s.sum(axis=1, keepdims=True)
-    by = np.where(which % 2, 1, -1) * 10 ** rng.uniform(-9, -4, EACH)
+    by = np.where(which % 2, 1, -1) * _powers(10, rng.uniform(-9, -4, EACH))
     s[which, which % 3] = by
     s[which, (which + 1) % 3] -= by
     return s
