@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from statistics import median
+
+from reference_tracer.report.tables import columns
 
 from .rows import Bench, Row
 from .scaling import Scaling, scalings
 
-_PEERS = ("rtree", "bvhtree", "cycles", "workbench")
-_NAMES = {"rtree": "trimesh rtree", "bvhtree": "BVHTree", "cycles": "Cycles 1 spp"}
-_NAMES |= {"workbench": "Workbench"}
+_PEERS = {
+    "rtree": "trimesh rtree",
+    "bvhtree": "BVHTree",
+    "cycles": "Cycles 1 spp",
+    "workbench": "Workbench",
+}
 
 
 def table(bench: Bench, baseline: Bench | None = None) -> str:
@@ -34,18 +39,16 @@ def _certified(bench: Bench) -> list[Row]:
 
 
 def _ours(bench: Bench) -> Iterator[str]:
-    yield (
-        f"{'certified: seconds':<28}{'x MT (least - most)':>21}{'x embreex (least - most)':>25}"
-        f"{'build':>7}{'frame':>8}{'MiB':>6}"
-    )
+    head = "certified", "triangles", "seconds", "x MT (least - most)", "x embreex (the same) "
+    rows: list[Sequence[str] | str] = [(*head, "build", "frame", "MiB")]
 
     def size(row: Row) -> tuple[int, str]:
         return row.pixels, row.camera
 
-    for (_, camera), rows in groupby(sorted(_certified(bench), key=size), key=size):
-        some = list(rows)
-        yield from ("", f"{some[0].width} x {some[0].height} pixels, {camera}")
-        yield from map(_line, some)
+    for (_, camera), group in groupby(sorted(_certified(bench), key=size), key=size):
+        some = list(group)
+        rows += ["", f"{some[0].width} x {some[0].height} pixels, {camera}", *map(_cells, some)]
+    yield from columns(rows, gap=" ")
     yield ""
     yield "MT: Möller–Trumbore in float64. embreex, in float32, traces alone; build: of its tree."
     yield "frame: render() with all passes. MiB: the peak of tracing. ~ is from a sample of rays."
@@ -53,13 +56,13 @@ def _ours(bench: Bench) -> Iterator[str]:
         yield "Everything ran on one core."
 
 
-def _line(r: Row) -> str:
+def _cells(r: Row) -> Sequence[str]:
     sampled = "~" if r.embreex_rays is not None and r.embreex_rays < r.pixels else " "
     return (
-        f"{r.scene:<15}{r.triangles:>9,} {_seconds(r.trace_s):>7}"
-        f"{_ratio(r, 'ratio_to_mt'):>20}{_ratio(r, 'ratio_to_embreex'):>24}{sampled}"
-        f"{_seconds(r.embreex_build_s):>7}{_seconds(r.render_s):>8}{_mib(r.peak_bytes):>6}"
-    ).rstrip()
+        *(r.scene, f"{r.triangles:,}", _seconds(r.trace_s), _ratio(r, "ratio_to_mt")),
+        *(_ratio(r, "ratio_to_embreex") + sampled, _seconds(r.embreex_build_s)),
+        *(_seconds(r.render_s), _mib(r.peak_bytes)),
+    )
 
 
 def _peers(bench: Bench) -> Iterator[str]:
@@ -67,13 +70,11 @@ def _peers(bench: Bench) -> Iterator[str]:
     if not rows:
         return
     yield "the others: seconds (x certified's)"
-    yield f"{'':<33}" + "".join(f"{_NAMES[p]:>16}" for p in _PEERS)
-    for r in rows:
-        cells = (_peer(r, p) for p in _PEERS)
-        yield (
-            f"{r.scene:<15}{f'{r.width} x {r.height}':>12} {r.camera[:5]:<5}"
-            + "".join(f"{cell:>16}" for cell in cells)
-        ).rstrip()
+    cells = [
+        (r.scene, f"{r.width} x {r.height}", r.camera[:5], *(_peer(r, p) for p in _PEERS))
+        for r in rows
+    ]
+    yield from columns([("", "", "", *_PEERS.values()), *cells], left=(0, 2))
     yield "Cycles and Workbench are the whole render, against certified's whole frame."
 
 
@@ -96,11 +97,18 @@ def _stages(bench: Bench) -> Iterator[str]:
         return
     names = list(dict.fromkeys(name for r in rows for name in r.stages))
     yield f"where a frame's time goes, certified, {rows[0].width} x {rows[0].height} pixels"
-    yield f"{'':<30}" + "".join(f"{name[:9]:>10}" for name in names) + f"{'other':>10}"
-    for r in rows:
-        parts = [r.stages.get(name, 0.0) / r.render_s for name in names]
-        parts.append(max(0.0, 1 - sum(parts)))
-        yield f"{r.scene:<16}{r.camera:<14}" + "".join(f"{share:>10.0%}" for share in parts)
+    yield from columns(
+        [
+            ("", "", *(name[:9] for name in names), "other"),
+            *((r.scene, r.camera, *_shares(r, names)) for r in rows),
+        ],
+        left=(0, 1),
+    )
+
+
+def _shares(r: Row, names: Sequence[str]) -> Iterator[str]:
+    parts = [r.stages.get(name, 0.0) / r.render_s for name in names]
+    return (f"{share:.0%}" for share in (*parts, max(0.0, 1 - sum(parts))))
 
 
 def _scaling(bench: Bench) -> Iterator[str]:
@@ -108,18 +116,15 @@ def _scaling(bench: Bench) -> Iterator[str]:
     if not found:
         return
     yield "time grows with (number) ** exponent"
-    yield f"{'':<46}{'trace':>8}{'frame':>8}{'embreex':>9}"
 
     def what(s: Scaling) -> tuple[str, str, str]:
         return s.over, s.what, s.camera
 
-    for (over, name, camera), group in groupby(found, key=what):
+    rows = [("", "", "", "trace", "frame", "embreex")]
+    for named, group in groupby(found, key=what):
         by = {s.of: f"{s.exponent:.2f}" for s in group}
-        yield (
-            f"{over:<10} {name:<20} {camera:<15}"
-            + "".join(f"{by.get(of, '-'):>{w}}" for of, w in (("trace", 8), ("render", 8)))
-            + f"{by.get('embreex', '-'):>9}"
-        )
+        rows.append((*named, *(by.get(of, "-") for of in ("trace", "render", "embreex"))))
+    yield from columns(rows, left=(0, 1, 2))
 
 
 def ratios(new: Bench, old: Bench, name: str) -> dict[tuple, float]:
@@ -130,25 +135,21 @@ def ratios(new: Bench, old: Bench, name: str) -> dict[tuple, float]:
 
 
 def _compared(bench: Bench, baseline: Bench) -> Iterator[str]:
-    of = {n: ratios(bench, baseline, n) for n in ("trace_s", "render_s", "peak_bytes")}
-    control = ratios(bench, baseline, "embreex_trace_s")
-    keys = [r.key for r in bench.rows if any(r.key in found for found in of.values())]
+    compared = "trace_s", "render_s", "peak_bytes", "embreex_trace_s"
+    ours = [ratios(bench, baseline, name) for name in compared]
+    keys = [r.key for r in bench.rows if any(r.key in found for found in ours[:-1])]
     if not keys:
         yield "the baseline has none of these rows"
         return
     yield "against the baseline: new / old, below 1 is better"
-    yield f"{'':<59}{'trace':>8}{'frame':>8}{'memory':>8}{'embreex':>9}"
+    rows = [("", "", "", "", "trace", "frame", "memory", "embreex")]
     for key in keys:
         scene, width, height, camera, method, _ = key
-        cells = (f"{found[key]:>8.2f}" if key in found else f"{'-':>8}" for found in of.values())
-        yield (
-            f"{scene:<15}{f'{width} x {height}':>12} {camera:<13} {method:<16} {''.join(cells)}"
-            + (f"{control[key]:>9.2f}" if key in control else f"{'-':>9}")
-        )
-    middle = [f"{median(found.values()):>8.2f}" if found else f"{'-':>8}" for found in of.values()]
-    yield f"{'median':<59}{''.join(middle)}" + (
-        f"{median(control.values()):>9.2f}" if control else f"{'-':>9}"
-    )
+        cells = (f"{found[key]:.2f}" if key in found else "-" for found in ours)
+        rows.append((scene, f"{width} x {height}", camera, method, *cells))
+    middle = (f"{median(found.values()):.2f}" if found else "-" for found in ours)
+    rows.append(("median", "", "", "", *middle))
+    yield from columns(rows, left=(0, 2, 3))
     yield "embreex does not change with us: what it shows is the machine."
     changed = [
         f"{name} {then} then, {now} now"
