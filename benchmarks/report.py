@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from reference_tracer import images
-from reference_tracer.report.folders import replacing_file
+from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 
 from .plot import picture
@@ -45,9 +45,8 @@ def to_dict(bench: Bench) -> dict[str, Any]:
 
 def write_json(directory: str | Path, bench: Bench) -> None:
     """Write `bench.json`; whoever reads it meanwhile, or stops us, finds a whole one."""
-    text = json.dumps(to_dict(bench), indent=2, allow_nan=False)
-    with replacing_file(Path(directory) / JSON) as new:
-        new.write_text(text + "\n", encoding="utf-8")
+    with folders.replacing_file(Path(directory) / JSON) as new:
+        folders.write_json(new, to_dict(bench))
 
 
 def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) -> None:

@@ -5,12 +5,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from reference_tracer.report.folders import replacing
+from reference_tracer.report.folders import replacing, write_json
 
 from .checks import Group
 from .extremes import held
@@ -119,7 +118,6 @@ def write(directory: str | Path, judgements: Sequence[Judgement]) -> None:
     OSError
         If the folder cannot be written.
     """
-    text = json.dumps(to_dict(judgements), indent=2, allow_nan=False) + "\n"
     with replacing(Path(directory), (PAGE, JSON)) as new:
-        (new / JSON).write_text(text, encoding="utf-8")
+        write_json(new / JSON, to_dict(judgements))
         (new / PAGE).write_text(page(judgements), encoding="utf-8")

@@ -62,7 +62,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     def finish(self, context: Any, result: page.Extras) -> tuple[str, str]:
         """Write the page, and open it."""
         path = self._folder / page.NAME
-        page.write(path, self._comparison, **vars(result))
+        page.write(path, self._comparison, result)
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
         return "INFO", f"The page is {path}"

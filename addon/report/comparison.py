@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +13,7 @@ from ..compare import engines
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.engines import EngineRow
 from . import page
-from .folders import replacing
+from .folders import replacing, write_json
 from .pictures import difference
 
 PICTURES = "traced", "blender", "difference"
@@ -45,7 +43,6 @@ def write(
     OSError
         If the folder cannot be written.
     """
-    text = _json(comparison.to_dict())
     colors = comparison.frame.color, comparison.picture, difference(comparison)
     causes = comparison.causes
     with replacing(Path(directory), _NAMES) as new:
@@ -60,8 +57,8 @@ def write(
             cause_allowed=causes.allowed,
             **_identity(comparison),
         )
-        page.write(new / page.NAME, comparison, **vars(extras or page.Extras()))
-        (new / JSON).write_text(text, encoding="utf-8")
+        page.write(new / page.NAME, comparison, extras)
+        write_json(new / JSON, comparison.to_dict())
 
 
 def _identity(comparison: Comparison) -> dict[str, NDArray]:
@@ -81,14 +78,10 @@ def write_failure(directory: str | Path, error: BaseException) -> None:
         "error": {"type": type(error).__name__, "message": str(error)},
     }
     with replacing(Path(directory), _NAMES) as new:
-        (new / JSON).write_text(_json(content), encoding="utf-8")
+        write_json(new / JSON, content)
 
 
 def write_engines(directory: str | Path, rows: Sequence[EngineRow]) -> None:
     """Write `engines.json`: every engine's picture against the tracer's."""
     with replacing(Path(directory), (ENGINES,)) as new:
-        (new / ENGINES).write_text(_json(engines.to_dict(rows)), encoding="utf-8")
-
-
-def _json(content: dict[str, Any]) -> str:
-    return json.dumps(content, indent=2, allow_nan=False) + "\n"
+        write_json(new / ENGINES, engines.to_dict(rows))

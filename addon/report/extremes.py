@@ -7,7 +7,6 @@ Matplotlib is missing.
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
@@ -19,9 +18,10 @@ from numpy.typing import NDArray
 
 from .. import images
 from ..study.extreme_rows import NAMES, BreakingPoint, Row, breaking_points, written
+from ..study.scenarios.scenario import Map, Scenario
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
-from .folders import replacing
+from .folders import finite, replacing, write_json
 from .tables import columns, percent
 
 SCHEMA = "reference_tracer.extremes/1"
@@ -130,37 +130,17 @@ def to_dict(rows: Sequence[Row]) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "units": _UNITS,
-        "scenarios": [
-            {
-                "name": s.name,
-                "title": s.title,
-                "explanation": s.explanation,
-                "scale": s.scale_name,
-                "unit": s.unit,
-            }
-            for s in SCENARIOS
-        ],
+        "scenarios": [_about(s) | {"scale": s.scale_name, "unit": s.unit} for s in SCENARIOS],
         "maps": [
-            {
-                "name": m.name,
-                "title": m.title,
-                "explanation": m.explanation,
-                "scale": m.rows[0].scale_name,
-                "across": m.across_name,
-            }
-            for m in MAPS
+            _about(m) | {"scale": m.rows[0].scale_name, "across": m.across_name} for m in MAPS
         ],
         "breaking_points": [asdict(p) for p in breaking_points(rows)],
-        "rows": [_row(r) for r in rows],
+        "rows": [asdict(r) | {"largest_t_error": finite(r.largest_t_error)} for r in rows],
     }
 
 
-def _row(row: Row) -> dict[str, Any]:
-    found = asdict(row)
-    error = row.largest_t_error
-    if error is not None and not math.isfinite(error):
-        found["largest_t_error"] = None  # JSON has no infinity
-    return found
+def _about(some: Scenario | Map) -> dict[str, str]:
+    return {"name": some.name, "title": some.title, "explanation": some.explanation}
 
 
 def write(directory: str | Path, rows: Sequence[Row]) -> None:
@@ -179,12 +159,11 @@ def write(directory: str | Path, rows: Sequence[Row]) -> None:
     OSError
         If the folder cannot be written.
     """
-    text = f"{breaking_table(rows)}\n\n\n{table(rows)}\n"
-    content = json.dumps(to_dict(rows), indent=2, allow_nan=False)
     names = TABLE, *(f"{name}.png" for name in picture_names()), JSON
     with replacing(Path(directory), names) as new:
+        text = f"{breaking_table(rows)}\n\n\n{table(rows)}\n"
         (new / TABLE).write_text(text, encoding="utf-8")
-        (new / JSON).write_text(content + "\n", encoding="utf-8")
+        write_json(new / JSON, to_dict(rows))
         for name, picture in pictures(rows):
             images.save_png(new / f"{name}.png", picture)
 
@@ -204,10 +183,10 @@ def pictures(rows: Sequence[Row]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
     MissingLibraryError
         If Matplotlib is not installed.
     """
-    sweeps = {r.scenario: [] for r in rows if r.across is None}
+    sweeps: dict[str, list[Row]] = {}
     for row in rows:
         if row.across is None:
-            sweeps[row.scenario].append(row)
+            sweeps.setdefault(row.scenario, []).append(row)
     if sweeps:
         yield "breaking_points", breaking_picture(rows)
         groups = list(sweeps.values())

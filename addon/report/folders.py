@@ -5,11 +5,14 @@ In come names; out go places to write to. What is written there takes its name o
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from ..images import MissingLibraryError
 
@@ -127,3 +130,20 @@ def write_text(path: Path, text: str) -> None:
     """
     with made_for_file(path), replacing_file(path) as new:
         new.write_text(text, encoding="utf-8", errors="backslashreplace")
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """Write a JSON file, such as other readers take, too.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite: see :func:`finite`.
+    """
+    text = json.dumps(content, indent=2, allow_nan=False)
+    path.write_text(text + "\n", encoding="utf-8")
+
+
+def finite(value: float | None) -> float | None:
+    """Return a number for JSON, which has no infinity and no NaN: None in their place."""
+    return value if value is not None and math.isfinite(value) else None

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from .. import images
 from ..study.trade import Row, Trade
-from .folders import replacing
+from .folders import finite, replacing, write_json
 from .tables import columns
 from .trade_plot import picture
 
@@ -24,8 +21,6 @@ _UNITS = {
     "peak_bytes": "bytes of the working arrays and the picture",
     "coverage_error": "root mean square of linear RGBA against the converged picture",
 }
-
-
 _HEAD = (
     *("method", "precision", "seconds", "(min - max)", "wrong pixels  ", "t error, m", "MiB"),
     "coverage  ",
@@ -79,19 +74,16 @@ def to_dict(trade: Trade) -> dict[str, Any]:
     }
 
 
+_HELD = (  # of a row
+    *("method", "precision", "samples", "width", "height", "seconds", "fastest", "slowest"),
+    *("wrong_pixels", "largest_t_error", "peak_bytes", "coverage_error"),
+    *("best", "best_pixels", "best_coverage"),
+)
+
+
 def _row(r: Row) -> dict[str, Any]:
-    names = (
-        *("method", "precision", "samples", "width", "height", "seconds", "fastest", "slowest"),
-        *("wrong_pixels", "largest_t_error", "peak_bytes", "coverage_error"),
-        *("best", "best_pixels", "best_coverage"),
-    )
-    found = {name: getattr(r, name) for name in names}
-    odd = (n for n in ("largest_t_error", "coverage_error") if not _is_finite(found[n]))
-    return found | dict.fromkeys(odd)  # JSON has no infinity
-
-
-def _is_finite(value: float | None) -> bool:
-    return value is not None and bool(np.isfinite(value))
+    found = {name: getattr(r, name) for name in _HELD}
+    return found | {n: finite(found[n]) for n in ("largest_t_error", "coverage_error")}
 
 
 def write(directory: str | Path, trade: Trade) -> None:
@@ -110,8 +102,7 @@ def write(directory: str | Path, trade: Trade) -> None:
     OSError
         If the folder cannot be written.
     """
-    text = json.dumps(to_dict(trade), indent=2, allow_nan=False)
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
-        (new / JSON).write_text(text + "\n", encoding="utf-8")
+        write_json(new / JSON, to_dict(trade))
         images.save_png(new / PLOT, picture(trade))

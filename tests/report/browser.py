@@ -43,7 +43,7 @@ def show(chromium, tmp_path):
 
     def opened(comparison, hash_="", held=None, script="", ready="html[data-ready]", **options):
         path = tmp_path / "page.html"
-        held = held or content(comparison, **vars(result_of(page.extras(comparison))))
+        held = held or content(comparison, result_of(page.extras(comparison)))
         path.write_text(document.html(held), encoding="utf-8")
         options = {"viewport": SIZE, "color_scheme": "light"} | options
         context = chromium.new_context(**options)

@@ -54,10 +54,9 @@ def validator():
     return jsonschema.Draft202012Validator(own, registry=registry)
 
 
-def whole(comparison, **choices):
+def whole(comparison):
     """Return all that a page can show."""
-    extras = result_of(page.extras(comparison))
-    return content(comparison, **vars(extras) | choices)
+    return content(comparison, result_of(page.extras(comparison)))
 
 
 @pytest.mark.parametrize("kind", ["uint8", "int32", "uint32", "uint64", "float32", "float64"])

@@ -6,7 +6,7 @@ are packed arrays, of which the last are left out where the page would grow beyo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from ...compare.cause import DESCRIPTIONS, Cause
 from ...compare.comparison import Comparison
 from ...explain import html
-from ...explain.derivation import Derivation
 from ...images import MissingLibraryError, to_display
 from ...scene import Camera, Scene
 from ...study.extremes import Row
@@ -28,6 +27,7 @@ from .. import trade as trade_report
 from .. import trade_plot
 from ..pictures import CAUSE_COLORS
 from . import surfaces
+from .extras import Extras
 from .packing import data_uri, packed, size
 
 SCHEMA = "reference_tracer.page/1"
@@ -42,33 +42,22 @@ _CERTAINTY = {
 
 
 def content(
-    comparison: Comparison,
-    trade: Trade | None = None,
-    extremes: Sequence[Row] | None = None,
-    literal: Frame | None = None,
-    derivations: Mapping[tuple[int, int], Derivation] | None = None,
-    left_out: Iterable[str] = (),
-    limit: int = LIMIT,
+    comparison: Comparison, extras: Extras | None = None, limit: int = LIMIT
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
     Parameters
     ----------
     comparison : Comparison
-    trade, extremes : optional
-        Where they were measured.
-    literal : Frame, optional
-        The same scene by the textbook's test taken literally.
-    derivations : dict of Derivation, optional
-        By pixel, (x, y) from the lower left of the picture.
-    left_out : iterable of str
-        Sentences on what the page does not have, and why.
+    extras : Extras, optional
+        What else was found out.
     limit : int
-        Letters that the packed arrays may take.
+        Characters that the packed arrays may take.
     """
     scene, frame = comparison.scene, comparison.frame
+    extras = extras or Extras()
     pixels, missing = _pixels(comparison, limit)
-    missing = [*left_out, *missing]
+    missing = [*extras.left_out, *missing]
     return {
         "schema": SCHEMA,
         "comparison": comparison.to_dict(),
@@ -83,14 +72,14 @@ def content(
             for c, text in _CERTAINTY.items()
         },
         "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
-        "pictures": _pictures(comparison, literal),
+        "pictures": _pictures(comparison, extras.literal),
         "pixels": pixels,
         "derivations": [
             {"pixel": list(pixel), "html": html.fragment(derivation)}
-            for pixel, derivation in (derivations or {}).items()
+            for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(trade, trade_report.to_dict, _trade_plots, missing),
-        "extremes": _study(extremes, _extremes_dict, extremes_report.pictures, missing),
+        "trade": _study(extras.trade, trade_report.to_dict, _trade_plots, missing),
+        "extremes": _study(extras.extremes, _extremes_dict, extremes_report.pictures, missing),
         "left_out": missing,
     }
 

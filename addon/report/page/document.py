@@ -17,12 +17,9 @@ from typing import Any
 
 from ...compare.comparison import Comparison
 from ...explain import html as explained
-from ...explain.derivation import Derivation
-from ...study.extremes import Row
-from ...study.trade import Trade
-from ...tracer.frame import Frame
 from ..folders import replacing_file
 from .content import content
+from .extras import Extras
 
 NAME = "page.html"  # of the file that a comparison leaves
 
@@ -33,25 +30,17 @@ _POLICY = "<!-- policy -->"
 _DATA = '<script type="application/json" id="data"></script>'
 
 
-def write(
-    path: str | Path,
-    comparison: Comparison,
-    trade: Trade | None = None,
-    extremes: Sequence[Row] | None = None,
-    literal: Frame | None = None,
-    derivations: Mapping[tuple[int, int], Derivation] | None = None,
-    left_out: Sequence[str] = (),
-) -> None:
-    """Write a page; see :func:`content.content` for what it is given.
+def write(path: str | Path, comparison: Comparison, extras: Extras | None = None) -> None:
+    """Write the page of a comparison, and of what else was found out.
 
     Raises
     ------
     OSError
         If the file cannot be written.
     """
-    held = content(comparison, trade, extremes, literal, derivations, left_out)
+    text = html(content(comparison, extras))
     with replacing_file(Path(path)) as new:
-        new.write_text(html(held), encoding="utf-8")
+        new.write_text(text, encoding="utf-8")
 
 
 def html(held: Mapping[str, Any]) -> str:

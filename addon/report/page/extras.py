@@ -27,13 +27,13 @@ _LITERAL, _TRADE, _EXTREMES, _DERIVED = 1.0, 6.0, 12.0, 0.5  # shares of the wor
 
 @dataclass(frozen=True, eq=False)
 class Extras:
-    """What `page.write` takes beside a comparison."""
+    """What a page shows beside a comparison, as far as it was found out."""
 
     trade: Trade | None = None
     extremes: Sequence[extremes.Row] | None = None
-    literal: Frame | None = None
-    derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)
-    left_out: tuple[str, ...] = ()
+    literal: Frame | None = None  # the same scene by the textbook's test taken literally
+    derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)  # by pixel (x, y)
+    left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why
 
 
 def extras(
