@@ -5,6 +5,7 @@ In come entries from an exporter; out go lines for people and a dict for JSON.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -94,31 +95,36 @@ class Manifest:
 
     def lines(self) -> list[str]:
         """Return the manifest as a person reads it, a fact a line."""
+        return [text for text, _ in self.facts()]
+
+    def facts(self) -> Iterator[tuple[str, bool]]:
+        """Yield each line, and whether it warns: the picture lacks what the line names."""
         exported = [e for e in self.objects if e.exported]
         total = sum(e.traced_triangles for e in exported)
-        out = [
+        yield (
             f"{len(exported)} of {len(self.objects)} objects exported, {total:,} triangles, "
-            f"{self.evaluation.lower()} evaluation, camera '{self.camera}'"
-        ]
+            f"{self.evaluation.lower()} evaluation, camera '{self.camera}'",
+            False,
+        )
         if not exported:
-            out.append("  note: nothing is exported, so the picture is empty")
+            yield "  note: nothing is exported, so the picture is empty", False
         for e in exported:
             if e.left_out:
-                out.append(f"  {e.name}: {e.left_out} triangles left out (not finite)")
+                yield f"  {e.name}: {e.left_out} triangles left out (not finite)", True
             if e.empty_slots:
-                out.append(f"  {e.name}: {e.empty_slots} empty material slots, shown in grey")
-        out += [
-            f"  skipped {e.name} ({e.type}): {e.reason}"
-            for e in self.objects
-            if not (e.exported or e.outside)
-        ]
+                yield f"  {e.name}: {e.empty_slots} empty material slots, shown in grey", False
+        for e in self.objects:
+            if not (e.exported or e.outside):
+                yield f"  skipped {e.name} ({e.type}): {e.reason}", False
         if unseen := [e for e in self.objects if e.outside]:
-            out.append(
-                f"  outside the view, and not needed: {sum(e.outside for e in unseen):,} instances "
-                f"of {len(unseen):,} objects, {sum(not e.exported for e in unseen):,} of them whole"
+            yield (
+                f"  outside the view, and not needed: {sum(e.outside for e in unseen):,} "
+                f"instances of {len(unseen):,} objects, "
+                f"{sum(not e.exported for e in unseen):,} of them whole",
+                False,
             )
         for u in self.unmodelled:
-            out.append(
-                f"  not modelled: {u.object}: {u.feature}" + (f" ({u.detail})" if u.detail else "")
-            )
-        return out + [f"  note: {n}" for n in self.notes]
+            detail = f" ({u.detail})" if u.detail else ""
+            yield f"  not modelled: {u.object}: {u.feature}{detail}", True
+        for note in self.notes:
+            yield f"  note: {note}", False

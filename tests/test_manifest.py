@@ -114,3 +114,12 @@ def test_an_empty_scene_has_a_manifest():
         "  note: nothing is exported, so the picture is empty",
     ]
     assert empty.to_dict()["objects"] == []
+
+
+def test_what_the_picture_lacks_is_a_warning_whatever_it_is_called(manifest):
+    """Objects may bear any name."""
+    cube, *others = manifest.objects
+    called = replace(manifest, objects=(replace(cube, name="left out, not modelled"), *others))
+    warned = [line for line, warns in called.facts() if warns]
+    assert [line.split()[0] for line in warned] == ["Torn:", "not", "not"]
+    assert [line for line, _ in called.facts()] == called.lines()

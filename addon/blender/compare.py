@@ -26,7 +26,6 @@ from ..scene import Scene
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
-from .alternatives import alternatives
 from .animation import values_kept
 from .camera import export_camera
 from .engine import Certified, export_certified, export_for_render
@@ -35,7 +34,6 @@ from .judges import Judge, find
 from .planes import stand_ins
 from .temporary import temporary_scene
 from .unmodelled import of_shading
-from .view_transforms import view_transforms
 from .viewport import anti_aliasing, picture, prepare, use_view_shading
 
 
@@ -210,29 +208,6 @@ def _failure_written(folder: Path) -> Iterator[None]:
         with suppress(OSError):  # which may be what the error is
             comparison_report.write_failure(folder, error)
         raise
-
-
-def gather_against(
-    context: Any,
-    picture: Shown,
-    about: dict[str, Any],
-    settings: Settings,
-    self_check: bool = False,
-) -> Gathered:
-    """Export the context's scene as a render has it, for a picture that Blender need not have made.
-
-    Raises
-    ------
-    SceneError
-        If the scene cannot be traced.
-    """
-    scene, manifest, _ = export_open_file(context)
-    known = Known(
-        alternatives=alternatives(context, scene, manifest),
-        curves=view_transforms(context.scene, scene),
-        self_check=self_check,
-    )
-    return Gathered(scene, manifest, settings, picture, about, known)
 
 
 def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:

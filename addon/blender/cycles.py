@@ -15,7 +15,7 @@ import numpy as np
 
 from ..scene import GREY, SceneError
 from .colors import WITHOUT_ATTRIBUTE, random_color
-from .copies import colored_copies, drawn
+from .temporary import colored_copies, drawn
 
 SLOTS = 32  # material slots that are told apart: each is some nodes
 

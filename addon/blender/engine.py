@@ -23,7 +23,7 @@ from ..tracer.certified.certainty import AssumptionError
 from ..tracer.frame import Frame
 from ..tracer.render import steps
 from .animation import values_kept
-from .certificate import certify_camera
+from .camera import certify_camera
 from .export import export
 from .temporary import is_temporary
 
@@ -167,11 +167,4 @@ def export_for_render(scene: Any) -> Certified:
         _captured = None
 
 
-def register() -> None:
-    """Register the engine."""
-    bpy.utils.register_class(ReferenceTracerEngine)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    bpy.utils.unregister_class(ReferenceTracerEngine)
+register, unregister = bpy.utils.register_classes_factory((ReferenceTracerEngine,))

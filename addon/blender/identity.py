@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from ..compare.identity import MOST, colors_of, decode
 from ..scene import Camera
-from .copies import colored_copies, drawn
 from .judges import Judge
-from .planes import STANDS_FOR
+from .temporary import STANDS_FOR, colored_copies, drawn
 from .viewport import picture, prepare
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import bpy
@@ -45,7 +46,38 @@ def show(name: str, color: NDArray) -> Any:
 
 def show_in_editor(context: Any, image: Any) -> None:
     """Show an image in the window's first image editor, if there is one."""
+    spaces = (area.spaces.active for area in areas(context, "IMAGE_EDITOR"))
+    if space := next((s for s in spaces if s.mode == "VIEW"), None):
+        space.image = image
+
+
+def show_text(context: Any, name: str, content: str) -> Any:
+    """Put a text into ours of this name, made where it is not there, and show it if it can be.
+
+    One that the user has saved to a file is theirs, and is left as it is.
+    """
+    text = next((t for t in bpy.data.texts if t.get(MARK) == name), None)
+    if text and text.filepath:
+        del text[MARK]
+        text = None
+    if text is None:
+        text = bpy.data.texts.new(name)
+        text[MARK] = name
+    text.from_string(content)
+    if area := next(areas(context, "TEXT_EDITOR"), None):
+        area.spaces.active.text = text
+        area.spaces.active.top = 0
+    return text
+
+
+def areas(context: Any, kind: str) -> Iterator[Any]:
+    """Yield the areas of a type that the context's window shows; without a window, none."""
     for area in context.window.screen.areas if context.window else ():
-        if area.type == "IMAGE_EDITOR" and area.spaces.active.mode == "VIEW":
-            area.spaces.active.image = image
-            break
+        if area.type == kind:
+            yield area
+
+
+def redraw(context: Any) -> None:
+    """Have the context's window drawn again, where there is one."""
+    for area in context.window.screen.areas if context.window else ():
+        area.tag_redraw()

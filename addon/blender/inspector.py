@@ -105,6 +105,7 @@ CLASSES = (
     ReferenceTracerInspector,
     REFERENCE_TRACER_OT_inspect,
 )
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
 @bpy.app.handlers.persistent
@@ -116,8 +117,7 @@ def _file_closes(*_: Any) -> None:
 def register() -> None:
     """Register the operators."""
     bpy.app.handlers.load_pre.append(_file_closes)
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
     bpy.types.WindowManager.reference_tracer_inspector = PointerProperty(
         type=ReferenceTracerInspector
     )
@@ -127,5 +127,4 @@ def unregister() -> None:
     """Undo :func:`register`."""
     del bpy.types.WindowManager.reference_tracer_inspector
     bpy.app.handlers.load_pre.remove(_file_closes)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

@@ -12,14 +12,14 @@ from ..explain.derivation import Derivation, Test
 from ..explain.digits import exact_text, marked, off_text, ulps
 from ..explain.judgement import SENTENCES as REASONS
 from . import results
-from .inspector import REFERENCE_TRACER_OT_inspect
-from .panel_parts import Properties, Sidebar, wrapped
-from .pixel_operators import (
+from .explain import (
     TEXT,
     REFERENCE_TRACER_OT_draw_ray,
     REFERENCE_TRACER_OT_remove_ray,
     REFERENCE_TRACER_OT_save_pixel,
 )
+from .inspector import REFERENCE_TRACER_OT_inspect
+from .panel_parts import both, wrapped
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
@@ -110,33 +110,14 @@ def _number(layout: Any, name: str, value: str, off: str) -> None:
         split.label(text=off)
 
 
-class RENDER_PT_reference_tracer_inspector(Properties, _Inspector, bpy.types.Panel):
-    bl_parent_id = "RENDER_PT_reference_tracer"
-    bl_options = {"DEFAULT_CLOSED"}
-
-
-class VIEW3D_PT_reference_tracer_inspector(Sidebar, _Inspector, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_reference_tracer"
-
-
 class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
     bl_space_type, bl_region_type, bl_category = "IMAGE_EDITOR", "UI", "Reference Tracer"
 
 
 CLASSES = (
-    RENDER_PT_reference_tracer_inspector,
-    VIEW3D_PT_reference_tracer_inspector,
+    *both(_Inspector, "_inspector", bl_options={"DEFAULT_CLOSED"}),
     IMAGE_PT_reference_tracer_inspector,
 )
 
 
-def register() -> None:
-    """Register the panels, below those of `panels.py`."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -18,6 +18,7 @@ from ..arguments import words
 from ..scene import SceneError
 from ..tracer.certified.certainty import AssumptionError
 from ..tracer.progress import Work, result_of
+from .images import redraw
 
 STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
@@ -124,8 +125,7 @@ class LongWork:
 
     def _end(self, context: Any, result: Any) -> set[str]:
         level, text = self.finish(context, result)
-        for area in context.window.screen.areas if context.window else ():
-            area.tag_redraw()
+        redraw(context)
         self.report({level}, text)
         return {"FINISHED"}
 

@@ -203,6 +203,7 @@ CLASSES = (
     REFERENCE_TRACER_OT_extremes,
     REFERENCE_TRACER_OT_extreme_scene,
 )
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
 @bpy.app.handlers.persistent
@@ -215,13 +216,11 @@ def _file_closes(*_: Any) -> None:
 def register() -> None:
     """Register the operators."""
     bpy.app.handlers.load_pre.append(_file_closes)
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     results.forget()
     bpy.app.handlers.load_pre.remove(_file_closes)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

@@ -80,11 +80,4 @@ def _session_folder() -> str:
     return tempfile.mkdtemp(prefix="reference-tracer-")
 
 
-def register() -> None:
-    """Register the operator."""
-    bpy.utils.register_class(REFERENCE_TRACER_OT_open_page)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    bpy.utils.unregister_class(REFERENCE_TRACER_OT_open_page)
+register, unregister = bpy.utils.register_classes_factory((REFERENCE_TRACER_OT_open_page,))

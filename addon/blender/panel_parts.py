@@ -6,6 +6,8 @@ import textwrap
 from collections.abc import Sequence
 from typing import Any
 
+import bpy
+
 from ..study.extreme_rows import NAMES
 
 NARROW = 0.37  # of a table's width: a short name
@@ -23,6 +25,19 @@ class Sidebar:
     """In the 3D view's sidebar, in a tab of its own."""
 
     bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Reference Tracer"
+
+
+def both(part: type, suffix: str = "", **in_properties: Any) -> tuple[type, type]:
+    """Return a part as two panels: in the Render properties, and in the 3D view's sidebar.
+
+    One with a suffix stands within the main one. `in_properties` is of the first alone.
+    """
+    made = []
+    for prefix, place, more in (("RENDER", Properties, in_properties), ("VIEW3D", Sidebar, {})):
+        main = f"{prefix}_PT_reference_tracer"
+        parent = {"bl_parent_id": main} if suffix else {}
+        made.append(type(main + suffix, (place, part, bpy.types.Panel), parent | more))
+    return tuple(made)
 
 
 def short_name(method: str, precision: str) -> str:

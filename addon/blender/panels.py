@@ -15,7 +15,7 @@ from .engine import ENGINE
 from .judges import JUDGES
 from .operators import REFERENCE_TRACER_OT_compare, REFERENCE_TRACER_OT_compare_all
 from .page import REFERENCE_TRACER_OT_open_page
-from .panel_parts import NARROW, Properties, Sidebar, short_name, table, wrapped
+from .panel_parts import NARROW, both, short_name, table, wrapped
 
 # Blender's own panels that this engine has no use for.
 _NOT_OURS = {
@@ -117,33 +117,8 @@ class _Export:
         manifest = results.latest(Comparison, context.scene).content.manifest
         column = self.layout.column(align=True)
         column.scale_y = 0.8
-        for line in manifest.lines():
-            warning = any(word in line for word in ("not modelled", "left out"))
-            column.label(text=line.strip(), icon="ERROR" if warning else "NONE")
-
-
-class RENDER_PT_reference_tracer(Properties, _Main, bpy.types.Panel):
-    pass
-
-
-class RENDER_PT_reference_tracer_result(Properties, _Result, bpy.types.Panel):
-    bl_parent_id = "RENDER_PT_reference_tracer"
-
-
-class RENDER_PT_reference_tracer_export(Properties, _Export, bpy.types.Panel):
-    bl_parent_id = "RENDER_PT_reference_tracer"
-
-
-class VIEW3D_PT_reference_tracer(Sidebar, _Main, bpy.types.Panel):
-    pass
-
-
-class VIEW3D_PT_reference_tracer_result(Sidebar, _Result, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_reference_tracer"
-
-
-class VIEW3D_PT_reference_tracer_export(Sidebar, _Export, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_reference_tracer"
+        for line, warns in manifest.facts():
+            column.label(text=line.strip(), icon="ERROR" if warns else "NONE")
 
 
 class OBJECT_PT_reference_tracer(bpy.types.Panel):
@@ -163,14 +138,12 @@ class OBJECT_PT_reference_tracer(bpy.types.Panel):
 
 
 CLASSES = (
-    RENDER_PT_reference_tracer,
-    RENDER_PT_reference_tracer_result,
-    RENDER_PT_reference_tracer_export,
-    VIEW3D_PT_reference_tracer,
-    VIEW3D_PT_reference_tracer_result,
-    VIEW3D_PT_reference_tracer_export,
+    *both(_Main),
+    *both(_Result, "_result"),
+    *both(_Export, "_export"),
     OBJECT_PT_reference_tracer,
 )
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
 def _shared_panels() -> list[Any]:
@@ -188,8 +161,7 @@ def _shared_panels() -> list[Any]:
 
 def register() -> None:
     """Register the panels."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
     for panel in _shared_panels():
         panel.COMPAT_ENGINES.add(ENGINE)
 
@@ -198,5 +170,4 @@ def unregister() -> None:
     """Undo :func:`register`."""
     for panel in bpy.types.Panel.__subclasses__():
         getattr(panel, "COMPAT_ENGINES", set()).discard(ENGINE)
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

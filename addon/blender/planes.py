@@ -17,11 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Plane, Scene
-from .collections import replace_objects
 from .colors import random_color
+from .temporary import STANDS_FOR, replace_objects
 from .view_volume import corners as volume_corners
-
-STANDS_FOR = "reference_tracer_stands_for"  # a polygon's property: the name of the marked object
 
 
 def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:

@@ -133,12 +133,12 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
 
 
 CLASSES = (ReferenceTracerScene, ReferenceTracerObject)
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
 def register() -> None:
     """Register the property groups."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
     bpy.types.Scene.reference_tracer = PointerProperty(type=ReferenceTracerScene)
     bpy.types.Object.reference_tracer = PointerProperty(type=ReferenceTracerObject)
 
@@ -147,5 +147,4 @@ def unregister() -> None:
     """Undo :func:`register`."""
     del bpy.types.Object.reference_tracer
     del bpy.types.Scene.reference_tracer
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

@@ -6,7 +6,7 @@ import importlib
 
 # Names, so that a module is imported when it is registered and not before.
 MODULES = (
-    *("properties", "engine", "operators", "pixel_operators", "inspector"),
+    *("properties", "engine", "operators", "explain", "inspector"),
     *("page", "panels", "inspector_panels", "study_panels", "commands"),
 )
 

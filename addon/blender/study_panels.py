@@ -19,7 +19,7 @@ from .operators import (
     REFERENCE_TRACER_OT_extremes,
     REFERENCE_TRACER_OT_trade,
 )
-from .panel_parts import NARROW, Properties, Sidebar, short_name, table, wrapped
+from .panel_parts import NARROW, both, short_name, table, wrapped
 from .properties import PRECISIONS
 from .scenario_scene import CHANGED
 
@@ -36,6 +36,7 @@ _HEADS = {  # as short as a fifth of a narrow panel
 
 class _Trade:
     bl_label = "Trade"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
         """Draw the button, and what was measured: the methods, then what no other row beats."""
@@ -78,6 +79,7 @@ def _coverage(row: Row) -> tuple[str, ...]:
 
 class _Extremes:
     bl_label = "Extremes"
+    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
         """Draw the button, the breaking points, and the way to each scene."""
@@ -146,44 +148,21 @@ class ReferenceTracerWindow(bpy.types.PropertyGroup):
     scenario: EnumProperty(name="Scenario", items=SWEEPS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
 
 
-class RENDER_PT_reference_tracer_trade(Properties, _Trade, bpy.types.Panel):
-    bl_parent_id = "RENDER_PT_reference_tracer"
-    bl_options = {"DEFAULT_CLOSED"}
-
-
-class RENDER_PT_reference_tracer_extremes(Properties, _Extremes, bpy.types.Panel):
-    bl_parent_id = "RENDER_PT_reference_tracer"
-    bl_options = {"DEFAULT_CLOSED"}
-
-
-class VIEW3D_PT_reference_tracer_trade(Sidebar, _Trade, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_reference_tracer"
-    bl_options = {"DEFAULT_CLOSED"}
-
-
-class VIEW3D_PT_reference_tracer_extremes(Sidebar, _Extremes, bpy.types.Panel):
-    bl_parent_id = "VIEW3D_PT_reference_tracer"
-    bl_options = {"DEFAULT_CLOSED"}
-
-
 CLASSES = (
     ReferenceTracerWindow,
-    RENDER_PT_reference_tracer_trade,
-    RENDER_PT_reference_tracer_extremes,
-    VIEW3D_PT_reference_tracer_trade,
-    VIEW3D_PT_reference_tracer_extremes,
+    *both(_Trade, "_trade"),
+    *both(_Extremes, "_extremes"),
 )
+_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
 def register() -> None:
     """Register the panels, below those of `panels.py`."""
-    for cls in CLASSES:
-        bpy.utils.register_class(cls)
+    _register()
     bpy.types.WindowManager.reference_tracer = PointerProperty(type=ReferenceTracerWindow)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     del bpy.types.WindowManager.reference_tracer
-    for cls in reversed(CLASSES):
-        bpy.utils.unregister_class(cls)
+    _unregister()

@@ -1,18 +1,25 @@
 """A copy of the user's scene, on which everything that a picture needs is set.
 
 Its objects are the user's own; its settings, view layers and top collection are its own, and go
-with it. The user's scene, view and Render Result stay as they are.
+with it. Objects are replaced in it, by others or by nothing: collections that hold such an object
+are replaced by copies. The user's scene, view and Render Result stay as they are.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 import bpy
+import numpy as np
+from numpy.typing import NDArray
 
-DRAWN = "reference_tracer_drawn"  # a custom property of what the add-on itself draws in a scene
+# Custom properties: of what the add-on itself draws in a scene; of the stand-in of an infinite
+# plane, with the name of the object that is the plane.
+DRAWN, STANDS_FOR = "reference_tracer_drawn", "reference_tracer_stands_for"
+
+_NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 _copies: dict[str, tuple[str, Any]] = {}  # name of a temporary scene: the user's, judge
 _collections: dict[str, list[Any]] = {}  # name of a temporary scene: copies of collections in it
@@ -55,11 +62,6 @@ def user_scene(scene: Any) -> Any:
     return next(s for s in bpy.data.scenes if s.name_full == name)
 
 
-def collections_of(scene: Any) -> list[Any]:
-    """Return the list of a temporary scene's own collections, which go with it; add to it."""
-    return _collections[scene.name_full]
-
-
 def is_temporary(scene: Any) -> bool:
     """Return whether a scene is such a copy."""
     return scene.name_full in _copies
@@ -88,3 +90,81 @@ def _leave_out_drawings(parent: Any) -> None:
             child.exclude = True
         else:
             _leave_out_drawings(child)
+
+
+def replace_objects(tmp: Any, layer: str, objects: Mapping[Any, Any]) -> None:
+    """Replace objects in a temporary scene; what was hidden in its view layer stays so.
+
+    Parameters
+    ----------
+    tmp : bpy.types.Scene
+    layer : str
+        Name of its view layer.
+    objects : mapping of bpy.types.Object
+        To what comes in their place; None for nothing.
+    """
+    view_layer = tmp.view_layers[layer]
+    hidden = [new for old, new in objects.items() if new and old.hide_get(view_layer=view_layer)]
+    _replace(tmp.collection, view_layer.layer_collection, objects, _collections[tmp.name_full])
+    for obj in hidden:
+        obj.hide_set(True, view_layer=view_layer)
+
+
+def _replace(collection: Any, layer: Any, objects: Mapping[Any, Any], copies: list[Any]) -> None:
+    for child in list(collection.children):
+        if objects.keys().isdisjoint(child.all_objects):
+            continue
+        if child in copies:
+            _replace(child, layer.children[child.name], objects, copies)
+            continue
+        copy = child.copy()
+        copies.append(copy)
+        old = layer.children[child.name]
+        collection.children.link(copy)  # before the old one goes: hidden objects stay hidden
+        new = layer.children[copy.name]
+        _copy_flags(old, new)
+        collection.children.unlink(child)
+        _replace(copy, new, objects, copies)
+    for obj in [o for o in collection.objects if o in objects]:
+        if objects[obj] is not None:
+            collection.objects.link(objects[obj])
+        collection.objects.unlink(obj)
+
+
+def _copy_flags(source: Any, target: Any) -> None:
+    for name in ("exclude", "hide_viewport", "holdout", "indirect_only"):
+        setattr(target, name, getattr(source, name))
+    for a, b in zip(source.children, target.children, strict=True):
+        _copy_flags(a, b)
+
+
+def drawn(tmp: Any, layer: str) -> list[Any]:
+    """Return the objects of a view layer that may be drawn, or instance what is."""
+    return [o for o in tmp.view_layers[layer].objects if o.type not in _NOT_DRAWN]
+
+
+@contextmanager
+def colored_copies(
+    tmp: Any, layer: str, objects: list[Any], colors: NDArray[np.float32]
+) -> Iterator[None]:
+    """Show copies of a temporary scene's objects, in object colours (n, 3), for a while.
+
+    A copy shares its mesh, materials and animation with the original, so that it costs little.
+    Stand-ins of infinite planes are ours, and are coloured themselves.
+    """
+    copies: dict[Any, Any] = {}
+    try:
+        for obj, color in zip(objects, colors, strict=True):
+            if STANDS_FOR in obj:
+                obj.color = (*color, 1.0)
+                continue
+            copies[obj] = copy = obj.copy()
+            copy.color = (*color, 1.0)
+        for copy in copies.values():  # whose corners or faces carry what is parented to it
+            if copy.parent in copies and copy.parent.instance_type in ("VERTS", "FACES"):
+                copy.parent = copies[copy.parent]
+        replace_objects(tmp, layer, copies)
+        yield
+        replace_objects(tmp, layer, {copy: obj for obj, copy in copies.items()})
+    finally:
+        bpy.data.batch_remove(list(copies.values()))

@@ -128,8 +128,8 @@ def _blend(
     options: argparse.Namespace, picture: images.Picture, about: dict[str, Any]
 ) -> Work[Comparison]:
     with open_blend(options.scene) as blender:
+        from ..blender.against import gather_against
         from ..blender.camera import export_camera
-        from ..blender.compare import gather_against
 
         context = blender.context
         dither = context.scene.render.dither_intensity

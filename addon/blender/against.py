@@ -1,6 +1,6 @@
-"""The open scene as a foreign picture may have it: what a flag hides, and the frames beside.
+"""The open scene for a comparison with a picture of which nobody says how it was made.
 
-For comparisons with a picture of which nobody says how it was made.
+The scene may have been another then: a flag hides an object, or it was the frame beside.
 """
 
 from __future__ import annotations
@@ -10,14 +10,42 @@ from typing import Any
 import bpy
 
 from ..compare.alternatives import Alternative, with_object, without
+from ..compare.known import Known
+from ..compare.shown import Shown
 from ..manifest import Manifest, ObjectEntry
 from ..scene import Scene
+from ..tracer.settings import Settings
 from .animation import values_kept
+from .compare import Gathered, export_open_file
 from .engine import export_for_render
 from .export import export
 from .temporary import temporary_scene
+from .view_transforms import view_transforms
 
 MOST = 16  # each is traced where pixels are left open
+
+
+def gather_against(
+    context: Any,
+    picture: Shown,
+    about: dict[str, Any],
+    settings: Settings,
+    self_check: bool = False,
+) -> Gathered:
+    """Export the context's scene as a render has it, for a picture that Blender need not have made.
+
+    Raises
+    ------
+    SceneError
+        If the scene cannot be traced.
+    """
+    scene, manifest, _ = export_open_file(context)
+    known = Known(
+        alternatives=alternatives(context, scene, manifest),
+        curves=view_transforms(context.scene, scene),
+        self_check=self_check,
+    )
+    return Gathered(scene, manifest, settings, picture, about, known)
 
 
 def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:
