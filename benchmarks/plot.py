@@ -54,13 +54,10 @@ def picture(bench: Bench) -> NDArray[np.uint8]:
     _growth(left, spheres if len(spheres) > 1 else rows, _plain(bench), len(spheres) > 1)
     _stages(right, rows)
     cores = "one core" if bench.machine.get("one_core") else "not kept on one core"
-    figure.suptitle(
+    plots.headline(
+        figure,
         f"{rows[0].width} × {rows[0].height} pixels, {rows[0].camera}, "
         f"{bench.machine.get('processor') or 'unknown processor'}, {cores}",
-        fontsize=17,
-        color=plots.INK,
-        x=0.01,
-        ha="left",
     )
     return plots.pixels(figure)
 

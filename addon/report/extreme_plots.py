@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,6 @@ from . import plots
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.colors import Colormap
-    from matplotlib.figure import Figure
     from matplotlib.image import AxesImage
 
 # Of the sweeps: without the literal textbook, which loses half of all rays and hides the others.
@@ -34,7 +33,7 @@ _NESTED = {
     "certified": (1.4, 4.5),
 }
 _KNOWN = {s.name: s for s in SCENARIOS}
-_GREY, _LEFT = "#777777", -4.65
+_LEFT = -4.65  # of the scenes' names, where a column of the table is 1 wide
 _CENTRED = {"ha": "center", "va": "center"}
 
 
@@ -59,65 +58,58 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
         known = _KNOWN.get(name)
         axes.text(_LEFT, y + 0.5, known.title if known else name, va="center", fontsize=13.5)
         axes.text(
-            -0.12, y + 0.5, _scale_of(name), va="center", ha="right", color=_GREY, fontsize=11
+            -0.12, y + 0.5, _scale_of(name), va="center", ha="right", color=plots.GREY, fontsize=11
         )
     for x, (method, precision) in enumerate(columns):
         lines = NAMES[method].replace(" ", "\n").replace("–", "–\n")
         axes.text(x + 0.5, -1.0, lines, **_CENTRED, fontsize=11.5, fontweight="bold")
-        axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=_GREY)
+        axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=plots.GREY)
     for p in points:
         x, y = columns.index((p.method, p.precision)), names.index(p.scenario)
         _point(axes, x, y, p, scales[p.scenario])
     _key(axes, len(names) + 0.3)
-    _headline(
-        figure,
-        "Where each method breaks: the first scale at which a ray misses, or sees another surface",
-    )
+    title = "Where each method breaks: the first scale at which a ray is missed or wrong"
+    plots.headline(figure, title, 18)
     return plots.pixels(figure)
 
 
 def _point(axes: Axes, x: int, y: int, point: BreakingPoint, sweep: list[float]) -> None:
-    from matplotlib.patches import Rectangle
-
     text, color = "never", NEVER if point.doubled is None else DOUBLED
     ink = _INKS[color]
     if point.lost is not None:
         late = sweep.index(point.lost) / max(1, len(sweep) - 1)
         text, color = written(point.lost), _colormap()(0.85 - 0.8 * late)
         ink = plots.INK if late > 0.3 else "white"
-    axes.add_patch(Rectangle((x + 0.03, y + 0.05), 0.94, 0.9, color=color, linewidth=0))
     text += "" if point.doubled is None else " +"
-    axes.text(x + 0.5, y + 0.5, text, **_CENTRED, color=ink, fontsize=13.5)
+    _cell(axes, (x + 0.03, y + 0.05, 0.94, 0.9), text, color, ink, 13.5)
+
+
+def _cell(axes: Axes, box: tuple[float, ...], text: str, color: Any, ink: str, size: float) -> None:
+    """Draw a coloured rectangle, (x, y, width, height), with a text in its middle."""
+    from matplotlib.patches import Rectangle
+
+    x, y, width, height = box
+    axes.add_patch(Rectangle((x, y), width, height, color=color, linewidth=0))
+    axes.text(x + width / 2, y + height / 2, text, **_CENTRED, color=ink, fontsize=size)
 
 
 def _key(axes: Axes, y: float) -> None:
     """Explain the colours and the plus, below the table."""
-    from matplotlib.patches import Rectangle
-
-    lines = (
-        ("1e5", _colormap()(0.3), "the first scale at which rays are lost: dark where it is early"),
-        (
-            "never",
-            NEVER,
-            "at no scale is a ray lost. (ulp: the distance from one float64 number to the next.)",
-        ),
-        (
-            "never +",
-            DOUBLED,
-            "no ray is lost, but at some scale a ray crosses more triangles than "
-            "there are. A + in other cells: that, too",
-        ),
+    early = "the first scale at which rays are lost: dark where it is early"
+    holds = "at no scale is a ray lost. (ulp: the distance from one float64 number to the next.)"
+    doubled = (
+        "no ray is lost, but at some scale a ray crosses more triangles than there are. "
+        "A + in other cells: that, too"
     )
-    for k, (text, color, meaning) in enumerate(lines):
-        at = y + 0.65 * k
-        axes.add_patch(Rectangle((_LEFT, at + 0.05), 0.7, 0.55, color=color, linewidth=0))
+    for text, color, meaning in (
+        ("1e5", _colormap()(0.3), early),
+        ("never", NEVER, holds),
+        ("never +", DOUBLED, doubled),
+    ):
         ink = _INKS.get(color, plots.INK)
-        axes.text(_LEFT + 0.35, at + 0.33, text, **_CENTRED, color=ink, fontsize=12)
-        axes.text(_LEFT + 0.8, at + 0.33, meaning, va="center", fontsize=12, color=_GREY)
-
-
-def _headline(figure: Figure, text: str, small: bool = False) -> None:
-    figure.suptitle(text, fontsize=14 if small else 18, x=0.01, ha="left", color=plots.INK)
+        _cell(axes, (_LEFT, y + 0.05, 0.7, 0.55), text, color, ink, 12)
+        axes.text(_LEFT + 0.8, y + 0.33, meaning, va="center", fontsize=12, color=plots.GREY)
+        y += 0.65
 
 
 def _scale_of(scenario: str) -> str:
@@ -145,15 +137,17 @@ def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[n
         grid[0].plot([], [], "o-", color=color, lw=lw, ms=ms, label=NAMES[method])[0]
         for (method, color), (lw, ms) in zip(COLORS.items(), _NESTED.values(), strict=True)
     ]
-    for label, style, fill in (("float64", "o-", _GREY), ("float32", "o:", "white")):
-        handles += grid[0].plot([], [], style, color=_GREY, mfc=fill, lw=2.5, ms=7, label=label)
-    figure.legend(handles=handles, loc="outside lower center", ncols=7, fontsize=14, frameon=False)
-    _headline(
+    for label, style, fill in (("float64", "o-", plots.GREY), ("float32", "o:", "white")):
+        handles += grid[0].plot(
+            [], [], style, color=plots.GREY, mfc=fill, lw=2.5, ms=7, label=label
+        )
+    plots.legend_below(figure, handles)
+    plots.headline(
         figure,
         f"Rays that are missed or see the wrong surface{page and f' ({page})'}\n"
         "Lines that cover one another are drawn one inside the other. The literal textbook is left "
         "out: it loses rays from the first scale of nearly all.",
-        small=True,
+        14,
     )
     return plots.pixels(figure)
 
@@ -163,10 +157,8 @@ def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
     name = rows[0].scenario
     scales = list(dict.fromkeys(r.scale for r in rows))
     shown = [r for r in rows if r.method in COLORS]
-    plots.plain_axes(axes, "", _scale_of(name), "")
     title = _KNOWN[name].title if name in _KNOWN else name
-    axes.set_title(title, fontsize=14, loc="left", color=plots.INK, pad=12)
-    axes.xaxis.label.set_size(11.5)
+    plots.plain_axes(axes, title, _scale_of(name), "", plots.SMALL)
     for method, precision in dict.fromkeys((r.method, r.precision) for r in shown):
         some = [r for r in shown if (r.method, r.precision) == (method, precision)]
         color, whole = COLORS[method], precision == "float64"
@@ -192,12 +184,11 @@ def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
     axes.set_ylim(0, 100)
     axes.set_yticks([0, 50, 100], ["0 %", "50 %", "100 %"])
     _ticks(axes.set_xticks, scales)
-    axes.tick_params(labelsize=10.5)
 
 
 def _ticks(put, scales: Sequence[float]) -> None:
-    words = [written(s) for s in scales]
-    put(range(len(scales)), words, rotation=45, ha="right", rotation_mode="anchor")
+    places, words = range(len(scales)), [written(s) for s in scales]
+    put(places, words, rotation=45, ha="right", rotation_mode="anchor")
 
 
 def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
@@ -213,7 +204,7 @@ def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
     ]
     figure.supxlabel(some.rows[0].scale_name, fontsize=15)
     figure.supylabel(some.across_name, fontsize=15)
-    _headline(
+    plots.headline(
         figure,
         f"{some.title}: rays that are missed or see the wrong surface\n{some.explanation}\n"
         f"Green: none.{' Grey: rounding has left nothing to see.' * any(map(_is_grey, rows))}",
@@ -254,6 +245,5 @@ def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
     _ticks(axes.set_xticks, scales)
     axes.set_yticks(range(len(others)), [written(o) for o in others])
     axes.tick_params(labelsize=11, length=0)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
+    axes.spines[:].set_visible(False)
     return image

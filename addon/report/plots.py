@@ -5,6 +5,7 @@ Matplotlib is the extra `plots`; without it there are no plots, and all else wor
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,10 +17,14 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
 WIDTH, HEIGHT = 1920, 1080  # pixels: what a projector shows
 DPI = 120
-INK, FAINT = "#222222", "#c8c8c8"
+# Font sizes of a title, the labels and the numbers at the axes: legible from the back row, or as
+# large as small multiples have room for.
+LARGE, SMALL = (19.0, 16.0, 14.0), (14.0, 11.5, 10.5)
+INK, GREY, FAINT = "#222222", "#707070", "#c8c8c8"
 METHOD_COLORS = {
     "textbook_literal": "#b0723a",
     "textbook": "#d55e00",
@@ -46,12 +51,33 @@ def new_figure(width: int = WIDTH, height: int = HEIGHT) -> Figure:
     return Figure((width / DPI, height / DPI), dpi=DPI, facecolor="white", layout="constrained")
 
 
-def plain_axes(axes: Axes, title: str, x: str, y: str) -> None:
-    """Give axes a title, labels, a faint grid and no frame, in letters for the back row."""
-    axes.set_title(title, fontsize=19, color=INK, loc="left", pad=12)
-    axes.set_xlabel(x, fontsize=16, color=INK)
-    axes.set_ylabel(y, fontsize=16, color=INK)
-    axes.tick_params(labelsize=14, color=FAINT, labelcolor=INK, which="both")
+def headline(figure: Figure, text: str, size: float = 17) -> None:
+    """Write a figure's title, flush left."""
+    figure.suptitle(text, fontsize=size, x=0.01, ha="left", color=INK)
+
+
+def legend_below(figure: Figure, handles: Sequence[Line2D]) -> None:
+    """Explain lines and marks in one row below all axes."""
+    figure.legend(
+        handles=handles,
+        loc="outside lower center",
+        ncols=len(handles),
+        fontsize=14,
+        frameon=False,
+        columnspacing=1.4,
+        handletextpad=0.4,
+    )
+
+
+def plain_axes(
+    axes: Axes, title: str, x: str, y: str, sizes: tuple[float, float, float] = LARGE
+) -> None:
+    """Give axes a title, labels, a faint grid and no frame; `sizes` are LARGE or SMALL."""
+    of_title, of_labels, of_ticks = sizes
+    axes.set_title(title, fontsize=of_title, color=INK, loc="left", pad=12)
+    axes.set_xlabel(x, fontsize=of_labels, color=INK)
+    axes.set_ylabel(y, fontsize=of_labels, color=INK)
+    axes.tick_params(labelsize=of_ticks, color=FAINT, labelcolor=INK, which="both")
     axes.grid(True, color=FAINT, linewidth=0.6, alpha=0.6)
     axes.set_axisbelow(True)
     for side, spine in axes.spines.items():

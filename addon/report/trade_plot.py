@@ -15,7 +15,6 @@ from . import plots
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_GREY = "#666666"
 _BAND = (-0.9, 0.9)  # where the rows without a wrong pixel are, one below the other
 _Error = Callable[[Row], float]
 _Name = tuple[float, float, str]  # of what is at (x, y)
@@ -38,22 +37,15 @@ def picture(trade: Trade) -> NDArray[np.uint8]:
     left, right = figure.subplots(1, 2)
     names = _wrong_pixels(left, trade), _coverage(right, trade)
     labels = {NAMES[m]: {"color": plots.METHOD_COLORS[m]} for m in plots.METHOD_COLORS}
-    labels |= {"float64": {"color": _GREY}, "float32": {"color": _GREY, "mfc": "white"}}
+    labels |= {"float64": {"color": plots.GREY}, "float32": {"color": plots.GREY, "mfc": "white"}}
     handles = [
         left.plot([], [], "o", markersize=13, mew=2.5, label=label, **style)[0]
         for label, style in labels.items()
     ]
     handles += left.plot([], [], color=plots.INK, lw=2.5, label="no other beats these")
-    figure.legend(
-        handles=handles,
-        loc="outside lower center",
-        ncols=len(handles),
-        fontsize=14,
-        frameon=False,
-        columnspacing=1.4,
-        handletextpad=0.2,
-    )
-    figure.suptitle(_headline(trade), fontsize=17, color=plots.INK, x=0.01, ha="left")
+    plots.legend_below(figure, handles)
+    title = f"{trade.scene or 'Trade'}: {trade.advice}"
+    plots.headline(figure, textwrap.fill(title, 132))  # in lines as long as the picture is wide
     figure.draw_without_rendering()  # puts all in its place
     figure.set_layout_engine("none")
     for axes, some in zip((left, right), names, strict=True):
@@ -184,8 +176,3 @@ def _label(axes: Axes, names: list[_Name]) -> None:
                 note.remove()
         if not blocked:
             taken.append(box)
-
-
-def _headline(trade: Trade) -> str:
-    """Return the scene's name and the advice, in lines as long as the picture is wide."""
-    return textwrap.fill(f"{trade.scene or 'Trade'}: {trade.advice}", 132)

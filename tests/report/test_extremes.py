@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.images import MissingLibraryError
-from reference_tracer.report import extreme_plots
+from reference_tracer.report import extreme_plots, plots
 from reference_tracer.report.extremes import (
     breaking_table,
     picture_names,
@@ -126,7 +126,7 @@ def test_what_crosses_too_many_triangles_is_not_shown_as_what_holds(rows):
 @pytest.mark.parametrize("seen", [0, 100])
 def test_grey_is_explained_only_where_there_is_grey(seen, rows, monkeypatch):
     said = []
-    monkeypatch.setattr(extreme_plots, "_headline", lambda figure, text: said.append(text))
+    monkeypatch.setattr(plots, "headline", lambda figure, text: said.append(text))
     some = [replace(r, seen=seen, missed=0, doubled=0) for r in rows if r.scenario == MAPS[0].name]
     extreme_plots.map_picture(MAPS[0], [*some[:-1], replace(some[-1], seen=100)])
     assert ("Grey" in said[0]) == (seen == 0)

@@ -194,8 +194,11 @@ def test_names_in_a_plot_are_apart_or_left_out():
     assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
 
 
-def test_the_headline_has_the_scenes_name(trade):
-    lines = trade_plot._headline(replace(trade, advice="word " * 60)).splitlines()
+def test_the_headline_has_the_scenes_name(trade, monkeypatch):
+    said = []
+    monkeypatch.setattr(plots, "headline", lambda figure, text: said.append(text))
+    picture(replace(trade, advice="word " * 60))
+    lines = said[0].splitlines()
     assert lines[0].startswith("a scene.blend: word") and max(map(len, lines)) <= 132
 
 
