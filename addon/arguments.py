@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .explain.candidates import LIMIT
 from .explain.output import WRITERS
+from .projections import ORTHOGRAPHIC, PERSPECTIVE
 from .scene import Camera, SceneError, ViewWindow, check_size
 from .scene_files import MESH_SUFFIXES
 from .tracer.settings import Method, Precision, Settings
@@ -301,7 +302,7 @@ def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None,
         ViewWindow(-half * width / height, half * width / height, -half, half),
         width,
         height,
-        orthographic=options.ortho_scale is not None,
+        projection=PERSPECTIVE if options.ortho_scale is None else ORTHOGRAPHIC,
         clip_start=distance * 1e-3,
         clip_end=distance * 1e3,
         name="--eye",

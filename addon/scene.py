@@ -9,9 +9,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from .projections import PERSPECTIVE, PROJECTIONS, Projection
 
 GREY = (0.8, 0.8, 0.8, 1.0)  # what Blender draws where a face has no material
 
@@ -65,7 +68,8 @@ class Camera:
     window : ViewWindow
     width, height : int
         Size of the whole picture in pixels.
-    orthographic : bool
+    projection : Projection
+        One of `projections.PROJECTIONS`.
     clip_start, clip_end : float
         Depths along the view axis, in metres; hits outside are not seen.
     region : Region, optional
@@ -82,7 +86,7 @@ class Camera:
     window: ViewWindow
     width: int
     height: int
-    orthographic: bool = False
+    projection: Projection = PERSPECTIVE
     clip_start: float = 0.1
     clip_end: float = 1000.0
     region: Region = None  # type: ignore[assignment]  # None only until __post_init__
@@ -95,6 +99,8 @@ class Camera:
         if self.region is None:
             _store(self, "region", Region(0, 0, self.width, self.height))
         check_size(self.width, self.height)
+        if self.projection not in PROJECTIONS.values():
+            raise SceneError(f"Camera '{self.name}' must be one of: {', '.join(PROJECTIONS)}.")
         r = self.region
         if not (0 <= r.x0 < r.x1 <= self.width and 0 <= r.y0 < r.y1 <= self.height):
             raise SceneError(
@@ -106,10 +112,10 @@ class Camera:
                 f"Camera '{self.name}' sees nothing: its clip start ({self.clip_start:g} m) is not "
                 f"below its clip end ({self.clip_end:g} m)."
             )
-        if not self.orthographic and not self.clip_start > 0:
+        if not self.projection.is_parallel and not self.clip_start > 0:
             raise SceneError(
                 f"Camera '{self.name}' has a clip start of {self.clip_start:g} m: what a "
-                "perspective camera sees begins in front of it, so raise it above 0."
+                f"{self.projection.name} camera sees begins in front of it, so raise it above 0."
             )
         w = self.window
         reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
@@ -141,6 +147,13 @@ class Camera:
     def forward(self) -> NDArray[np.float64]:
         """World-space viewing direction, (3,) float64."""
         return -self.world_from_camera[:3, 2]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the camera as files hold it, for JSON."""
+        matrix = {"world_from_camera": self.world_from_camera.tolist()}
+        own = {k: vars(v) if k in ("window", "region") else v for k, v in vars(self).items()}
+        own = own | matrix | {"projection": self.projection.in_files}
+        return {"orthographic" if k == "projection" else k: v for k, v in own.items()}
 
 
 @dataclass(frozen=True, eq=False)

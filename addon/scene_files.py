@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Generator
-from dataclasses import asdict, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from .manifest import Manifest
+from .projections import projection_of
 from .scene import (
     Camera,
     Instance,
@@ -84,10 +85,9 @@ def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:
 
 def save_scene(path: str | Path, scene: Scene) -> None:
     """Write a scene to a compressed .npz."""
-    camera = asdict(scene.camera) | {"world_from_camera": scene.camera.world_from_camera.tolist()}
     head = {
         "schema": _SCHEMA,
-        "camera": camera,
+        "camera": scene.camera.to_dict(),
         "objects": scene.objects,
         "background": scene.background.tolist(),
         "meshes": [
@@ -128,7 +128,8 @@ def load_scene(path: str | Path) -> Scene:
             raise SceneError(f"'{path}' has the schema {head.get('schema')!r}, not {_SCHEMA!r}.")
         c = head["camera"]
         camera = Camera(
-            **c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])}
+            projection=projection_of(c.pop("orthographic", False)),
+            **c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])},
         )
         return Scene(
             camera=camera,

@@ -17,7 +17,6 @@ from typing import IO, Any
 from reference_tracer.scene import Scene
 
 from .peers import MissingPeerError, Timed, missing
-from .scenes import CAMERAS
 
 ENGINES = "cycles", "workbench"
 
@@ -50,7 +49,7 @@ class BlenderPeer:
             "scene": scene.meshes[0].name,
             "cache": str(self._cache),
             "size": [camera.width, camera.height],
-            "camera": CAMERAS[camera.orthographic],
+            "camera": camera.projection.name,
         }
         self._ask(**self._opened)
 

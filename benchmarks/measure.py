@@ -12,6 +12,7 @@ from itertools import groupby
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.projections import PERSPECTIVE
 from reference_tracer.scene import Mesh, Scene
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import Work, scaled
@@ -25,7 +26,7 @@ from .meshes import MissingMeshError
 from .plan import Case, Plan
 from .rounds import Ratio, Runner, in_rounds, ratio
 from .rows import Bench, Row
-from .scenes import PERSPECTIVE, build, mesh_of
+from .scenes import build, mesh_of
 
 CERTIFIED, PLAIN = Settings(Method.CERTIFIED), Settings(Method.MOLLER_TRUMBORE)
 METHODS = PLAIN, CERTIFIED
@@ -69,7 +70,7 @@ def _warm_up(cache: Path) -> None:
     mesh = mesh_of("cube", cache)
     for settings in METHODS:
         for work in (trace, render):
-            work(build(mesh, 16, 9, PERSPECTIVE), settings)
+            work(build(mesh, 16, 9, PERSPECTIVE.name), settings)
 
 
 def _measure_scene(

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import SceneError
 
 from . import scenes
-from .scenes import ORTHOGRAPHIC, PERSPECTIVE, SUBJECTS
+from .scenes import SUBJECTS
 
 SMALL, LARGE = (480, 270), (1920, 1080)  # pixels
 QUICK_ADVERSARIAL = "slivers_20k", "inside_soup"
@@ -92,22 +93,22 @@ def _quick(name: str) -> list[Case]:
     peers = {"bvhtree"} if name in QUICK_CYCLES else set()
     peers |= {"cycles", "workbench"} if name in QUICK_CYCLES else set()
     peers |= {"rtree"} if SUBJECTS[name].triangles <= 10_000 else set()
-    found = [Case(name, *SMALL, PERSPECTIVE, frozenset(peers))]
+    found = [Case(name, *SMALL, PERSPECTIVE.name, frozenset(peers))]
     if SUBJECTS[name].group == scenes.EVERYDAY:
-        found.append(Case(name, *SMALL, ORTHOGRAPHIC))
-    return [*found, Case(name, *LARGE, PERSPECTIVE)] if name in QUICK_LARGE else found
+        found.append(Case(name, *SMALL, ORTHOGRAPHIC.name))
+    return [*found, Case(name, *LARGE, PERSPECTIVE.name)] if name in QUICK_LARGE else found
 
 
 def _whole(name: str) -> list[Case]:
     subject = SUBJECTS[name]
     if subject.group == scenes.SCALING:
-        return [Case(name, *LARGE, PERSPECTIVE)]
+        return [Case(name, *LARGE, PERSPECTIVE.name)]
     peers = set(BLENDER) if subject.group == scenes.EVERYDAY else set()
     if subject.triangles <= MANY and subject.group == scenes.EVERYDAY:
         peers.add("rtree")
     return [
-        Case(name, *SMALL, PERSPECTIVE),
-        Case(name, *SMALL, ORTHOGRAPHIC),
-        Case(name, *LARGE, PERSPECTIVE, frozenset(peers)),
-        Case(name, *LARGE, ORTHOGRAPHIC),
+        Case(name, *SMALL, PERSPECTIVE.name),
+        Case(name, *SMALL, ORTHOGRAPHIC.name),
+        Case(name, *LARGE, PERSPECTIVE.name, frozenset(peers)),
+        Case(name, *LARGE, ORTHOGRAPHIC.name),
     ]

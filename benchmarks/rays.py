@@ -40,12 +40,9 @@ def rays_of(camera: Camera, every: int = 1) -> Rays:
     y = y[rows]
     across = x[None, :, None] * camera.right + y[:, None, None] * camera.up
     near = camera.clip_start
-    if camera.orthographic:
-        origins = camera.origin + across + near * camera.forward
-        directions = np.broadcast_to(camera.forward, across.shape)
-    else:
-        directions = across + camera.forward
-        origins = camera.origin + near * directions
+    eye, directions = camera.projection.ray(camera.origin, across, camera.forward)
+    directions = np.broadcast_to(directions, across.shape)
+    origins = eye + near * directions
     pixels = camera.width * camera.height
     return Rays(_float32(origins), _float32(directions), camera.clip_end - near, pixels, rows)
 

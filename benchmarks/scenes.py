@@ -11,13 +11,14 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.projections import PROJECTIONS, Projection
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, SceneError, ViewWindow
 
 from . import meshes
 from .meshes import Triangles
 
 Vector = tuple[float, float, float]
-PERSPECTIVE, ORTHOGRAPHIC = CAMERAS = "perspective", "orthographic"
+CAMERAS = tuple(PROJECTIONS)  # by name
 EVERYDAY, ADVERSARIAL, SCALING = "everyday", "adversarial", "scaling"
 SUZANNE_FILE = "monkey.npz"  # not a name that somebody exports a scene to
 
@@ -115,29 +116,29 @@ def build(mesh: Mesh, width: int, height: int, camera: str) -> Scene:
     """
     view = subject(mesh.name).view
     return Scene(
-        camera_of(view, width, height, camera == ORTHOGRAPHIC),
+        camera_of(view, width, height, PROJECTIONS[camera]),
         (mesh,),
         (Instance(0, 0, np.eye(4)),),
         objects=(mesh.name,),
     )
 
 
-def camera_of(view: View, width: int, height: int, orthographic: bool) -> Camera:
+def camera_of(view: View, width: int, height: int, projection: Projection) -> Camera:
     """Return the camera of a view: its picture is `width` x `height` pixels, which are square."""
     backward = np.subtract(view.eye, view.target)
     right = np.cross((0.0, 0.0, 1.0), backward)
     axes = np.stack((right, np.cross(backward, right), backward), axis=1)
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes / np.linalg.norm(axes, axis=0), view.eye
-    y = view.height if orthographic else view.angle
+    y = view.height if projection.is_parallel else view.angle
     x = y * width / height
     return Camera(
         matrix,
         ViewWindow(-x, x, -y, y),
         width,
         height,
-        orthographic=orthographic,
+        projection=projection,
         clip_start=view.clip[0],
         clip_end=view.clip[1],
-        name=ORTHOGRAPHIC if orthographic else PERSPECTIVE,
+        name=projection.name,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
@@ -49,6 +50,8 @@ class Make:
         matrix[:3, 3] = eye
         wide = half * width / height
         window = options.pop("window", None) or ViewWindow(-wide, wide, -half, half)
+        if options.pop("orthographic", False):
+            options["projection"] = ORTHOGRAPHIC
         return Camera(matrix, window, width, height, **options)
 
     @staticmethod

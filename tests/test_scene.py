@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import (
     Camera,
     Instance,
@@ -117,7 +118,7 @@ def test_what_is_right_passes():
     whole = scene(planes=[Plane(0, (0, 0, 0), (0, 0, 1e-20))])
     assert whole.triangle_count == 1
     assert whole.camera.region == Region(0, 0, 8, 6)
-    assert camera(orthographic=True, clip_start=-5.0).clip_start == -5
+    assert camera(projection=ORTHOGRAPHIC, clip_start=-5.0).clip_start == -5
     assert mesh().slots.tolist() == [0]
     assert mesh(triangles=np.zeros((0, 3), int), vertices=POINTS[:0]).triangles.shape == (0, 3)
 

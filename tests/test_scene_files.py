@@ -48,7 +48,7 @@ def test_round_trip_is_bit_identical(scene, tmp_path):
         "window",
         "width",
         "height",
-        "orthographic",
+        "projection",
         "clip_start",
         "clip_end",
         "region",

@@ -14,6 +14,7 @@ ADDON = Path(__file__).parent.parent / "addon"
 
 # From the ground up. A module may import from its own floor and those below it.
 FLOORS = {
+    "projections": 0,
     "scene": 0,
     "manifest": 0,
     "images": 0,

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from reference_tracer.opening import open_blend
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Region, Scene, ViewWindow
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Settings
@@ -41,11 +42,11 @@ def exported(path: Path) -> Scene:
 def orthographic(scene: Scene) -> Scene:
     """The scene through an orthographic camera that shows what the perspective one does."""
     camera = scene.camera
-    if camera.orthographic:
+    if camera.projection.is_parallel:
         return scene
     depth = np.median(depths) if len(depths := _depths(scene)) else 10.0
     window = ViewWindow(*(float(v * depth) for v in vars(camera.window).values()))
-    return replace(scene, camera=replace(camera, window=window, orthographic=True))
+    return replace(scene, camera=replace(camera, window=window, projection=ORTHOGRAPHIC))
 
 
 def _depths(scene: Scene) -> np.ndarray:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.certificate import CameraCertificate, certify, known_points
+from ..projections import PROJECTIONS
 from ..scene import Camera, Region, SceneError, ViewWindow
 
 
@@ -118,10 +119,11 @@ def export_camera(scene: Any) -> Camera:
             "make a camera object active."
         )
     data, render = obj.data, scene.render
-    if data.type not in ("PERSP", "ORTHO"):
+    projections = {p.blender: p for p in PROJECTIONS.values()}
+    if data.type not in projections:
         raise SceneError(
             f"Camera '{obj.name}' is of type {data.type.lower()}; Reference Tracer models "
-            "perspective and orthographic cameras."
+            f"{' and '.join(PROJECTIONS)} cameras."
         )
     width, height = resolution(render)
     if width < 1 or height < 1:
@@ -156,7 +158,7 @@ def export_camera(scene: Any) -> Camera:
         ),
         width=width,
         height=height,
-        orthographic=data.type == "ORTHO",
+        projection=projections[data.type],
         clip_start=data.clip_start,
         clip_end=data.clip_end,
         region=region,

@@ -196,8 +196,9 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     tall = (w.top - w.bottom) / camera.height / (extent / camera.width)  # of a pixel, in widths
     render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1 / tall), max(1.0, tall)
     data.sensor_fit = "HORIZONTAL"
-    if camera.orthographic:
-        data.type, data.ortho_scale = "ORTHO", extent
+    data.type = camera.projection.blender
+    if camera.projection.is_parallel:
+        data.ortho_scale = extent
     else:
         data.lens = max(_SENSOR / extent, _LEAST_LENS)
         data.sensor_width = max(_SENSOR, _LEAST_LENS * extent)

@@ -25,7 +25,7 @@ def corners(camera: Camera) -> NDArray[np.float64]:
     for depth in (camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]):
         for y in (w.bottom, w.top):
             for x in (w.left, w.right):
-                scale = 1 if camera.orthographic else depth
+                scale = camera.projection.scale(depth)
                 out.append(
                     camera.origin
                     + scale * (x * camera.right + y * camera.up)
@@ -86,8 +86,5 @@ def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     edges = np.array((w.left, -w.right, w.bottom, -w.top))
     across = np.stack((x, -x, y, -y))
     clip = -camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]
-    if camera.orthographic:
-        return np.stack((*across, depth, -depth)), np.array((*-edges, *clip))
-    return np.stack((*(across - edges[:, None] * depth), depth, -depth)), np.array(
-        (0, 0, 0, 0, *clip)
-    )
+    normals, offsets = camera.projection.sides(across, depth, edges)
+    return np.stack((*normals, depth, -depth)), np.array((*offsets, *clip))

@@ -79,12 +79,9 @@ def pixel_error(
     Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film.
     """
     width, height = pixel_size(camera)
-    w = camera.window
-    if camera.orthographic:
-        moved = view
-    else:
-        steepest = max(abs(w.left), abs(w.right), abs(w.bottom), abs(w.top))
-        moved = view * (1 + steepest) / np.maximum(depth, camera.clip_start)
+    steepest, projection = max(map(abs, vars(camera.window).values())), camera.projection
+    moved = view * projection.slant(steepest)
+    moved = moved / projection.scale(np.maximum(depth, camera.clip_start))
     film = _FILM * U * max(camera.width, camera.height)
     return SNAPPING + film + moved / min(width, height)
 
@@ -99,7 +96,5 @@ def depth_resolution(
     error `view` (n,) besides.
     """
     near, far = camera.clip_start, camera.clip_end
-    step = (far - near) * U
-    if not camera.orthographic:
-        step = step * depth**2 / (far * near)
+    step = camera.projection.depth_step((far - near) * U, depth, near, far)
     return _DEPTH_STEPS * step + 2 * view

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..manifest import Unmodelled
 from ..scene import Camera, Scene
 from ..tracer import shading
-from ..tracer.camera import pixel_size, project
+from ..tracer.camera import film_of
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import tiles
@@ -173,16 +173,12 @@ def covered(camera: Camera, bounds: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
     r = camera.region
     corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8)
-    (x, y, depth), _ = project(camera, corners)
+    px, py, depth = film_of(camera, corners)
     out = np.zeros((r.height, r.width), bool)
     if depth.max() < camera.clip_start or depth.min() > camera.clip_end:
         return out
-    if not camera.orthographic:
-        if depth.min() <= camera.clip_start:
-            return ~out  # around the eye: anywhere
-        x, y = x / depth, y / depth
-    (width, height), w = pixel_size(camera), camera.window
-    px, py = (x - w.left) / width, (y - w.bottom) / height
+    if not camera.projection.is_parallel and depth.min() <= camera.clip_start:
+        return ~out  # around the eye: anywhere
     x0, x1 = int(max(np.floor(px.min()) - r.x0, 0)), int(np.ceil(min(px.max(), r.x1)) - r.x0)
     y0, y1 = int(max(np.floor(py.min()) - r.y0, 0)), int(np.ceil(min(py.max(), r.y1)) - r.y0)
     out[y0 : max(y1, 0), x0 : max(x1, 0)] = True

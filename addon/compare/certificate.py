@@ -73,12 +73,8 @@ def known_points(camera: Camera) -> NDArray[np.float64]:
     )
     x = np.append(x, rng.uniform(w.left, w.right, POINTS))
     y = np.append(y, rng.uniform(w.bottom, w.top, POINTS))
-    if camera.orthographic:
-        depth = np.append(depth, rng.uniform(*ends, POINTS))
-        scale = np.ones_like(depth)
-    else:  # as many near the camera as far away
-        depth = np.append(depth, np.exp(rng.uniform(*np.log(ends), POINTS)))
-        scale = depth
+    depth = np.append(depth, camera.projection.depths(rng, ends, POINTS))
+    scale = camera.projection.scale(depth)
     right, up, forward, origin = (
         v[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
     )
@@ -114,7 +110,6 @@ def _allowed(camera: Camera, points: NDArray, depth: NDArray) -> NDArray[np.floa
     """
     w, (width, height) = camera.window, pixel_size(camera)
     away = np.abs(points - camera.origin[:, None]).sum(axis=0)
-    if not camera.orthographic:
-        away = away / depth
+    away = away / camera.projection.scale(depth)
     reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
     return ROUNDINGS * U * ((away + reach) / min(width, height) + camera.width + camera.height)

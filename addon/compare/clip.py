@@ -91,6 +91,6 @@ def _widened(camera: Camera) -> Camera:
     view = 2.0**-24 * WIDENED * (np.abs(camera.origin).sum() + ends)
     off = depth_resolution(camera, ends, view)
     start = camera.clip_start - off[0]
-    if not camera.orthographic:
+    if not camera.projection.is_parallel:
         start = max(start, camera.clip_start / 2)
     return replace(camera, clip_start=start, clip_end=camera.clip_end + off[1])

@@ -137,7 +137,7 @@ def moved_object(case: Case) -> Wrong | None:
     if not (seen := case.seen()):
         return None
     camera, t = case.scene.camera, case.frame.t[case.frame.instance_index == seen[0]]
-    length = pixel_size(camera)[0] * (1 if camera.orthographic else float(np.median(t)))
+    length = pixel_size(camera)[0] * camera.projection.scale(float(np.median(t)))
     instances = list(case.scene.instances)
     matrix = instances[seen[0]].world_from_object.copy()
     matrix[:3, 3] += length * camera.right

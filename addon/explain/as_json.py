@@ -35,7 +35,7 @@ def to_dict(derivation: Derivation) -> dict[str, Any]:
         "pixel": {"x": pixel.x, "y": pixel.y, "column": pixel.column, "row": pixel.row},
         "camera": {
             "name": camera.name,
-            "orthographic": camera.orthographic,
+            "orthographic": camera.projection.in_files,
             "width": camera.width,
             "height": camera.height,
             "clip_start": number(np.float64(camera.clip_start)),

@@ -22,7 +22,7 @@ from . import textbook
 from .answers import Answer, certified_answer, plain_answers
 from .arithmetic import Arithmetic, Number
 from .candidates import LIMIT, gather
-from .formulas import CAMERA, COLOR, PLANE, RAY, STORED, TRIANGLE, Formula
+from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
 from .judgement import Judgement, judge
 from .methods import NOWHERE
 from .pixel import Candidate, Pixel
@@ -139,7 +139,7 @@ def derive_pixel(pixel: Pixel) -> Derivation:
     shading, color = _color(pixel, seen, certified)
     return Derivation(
         pixel,
-        _quantities(camera, CAMERA | RAY[pixel.camera.orthographic]),
+        _quantities(camera, CAMERA | ray_formulas(pixel.camera.projection)),
         _quantities(ray, STORED),
         tests,
         {kind: _nearest(tests, kind) for kind in Arithmetic},

@@ -46,7 +46,6 @@ def blocks(derivation: Derivation) -> list[Block]:
 def _opening(derivation: Derivation) -> list[Block]:
     pixel, camera = derivation.pixel, derivation.pixel.camera
     of = f" of {pixel.source}" if pixel.source else ""
-    kind = "orthographic" if camera.orthographic else "perspective"
     part = ""
     if (camera.region.width, camera.region.height) != (camera.width, camera.height):
         part = (
@@ -57,8 +56,9 @@ def _opening(derivation: Derivation) -> list[Block]:
         Paragraph(answer_sentence(derivation), "answer"),
         *_textbook_t(derivation),
         Paragraph(
-            f"Camera “{camera.name}”: {kind}, {camera.width} × {camera.height} pixels, it shows "
-            f"depths from {text_float(camera.clip_start)} m to {text_float(camera.clip_end)} m. "
+            f"Camera “{camera.name}”: {camera.projection.name}, {camera.width} × {camera.height} "
+            f"pixels, it shows depths from {text_float(camera.clip_start)} m to "
+            f"{text_float(camera.clip_end)} m. "
             f"Pixel (0, 0) is the lower left.{part}"
         ),
         Paragraph(READING, "note"),

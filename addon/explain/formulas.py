@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ..projections import Projection
+
 VECTORS = frozenset({"o", "d", "n", "p", "x", "c", "e", "right", "up", "forward"})
 
 
@@ -38,16 +40,6 @@ CAMERA = {
     "eye": Formula("e", "", "the camera's position"),
     "u": Formula("u", "u_min + X w"),
     "v": Formula("v", "v_min + Y h"),
-}
-RAY = {
-    False: {  # perspective
-        "o": Formula("o", "e"),
-        "d": Formula("d", "u right + v up + forward", "not normalised: t is the depth"),
-    },
-    True: {  # orthographic
-        "o": Formula("o", "e + (u right + v up)"),
-        "d": Formula("d", "forward", "the same for all pixels: t is the depth"),
-    },
 }
 STORED = {"o": Formula("o"), "d": Formula("d")}
 PLANE = {
@@ -91,6 +83,11 @@ ERRATA = (
     "In floating point, rounding makes the printed test fail for about every second hit. The "
     "repaired test allows the sum 10⁻⁶ in float32 and 10⁻⁹ in float64.",
 )
+
+
+def ray_formulas(projection: Projection) -> dict[str, Formula]:
+    """Return the formulas of a ray's origin and direction."""
+    return {key: Formula(key, *own) for key, own in projection.formulas.items()}
 
 
 def component_labels(formula: Formula, count: int) -> list[str]:

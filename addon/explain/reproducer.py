@@ -7,13 +7,13 @@ holds nothing that runs, and is checked when it is read, as it may come from any
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..projections import projection_of
 from ..scene import Camera, Region, SceneError, ViewWindow
 from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
@@ -25,7 +25,7 @@ _COUNTS = "first_plane", "triangles", "left_out", "refused"
 
 def text(pixel: Pixel) -> str:
     """Return a pixel as the text of a file."""
-    camera = asdict(pixel.camera) | {"world_from_camera": pixel.camera.world_from_camera.tolist()}
+    camera = pixel.camera.to_dict()
     if np.isinf(pixel.camera.clip_end):
         camera["clip_end"] = _ENDLESS
     content = {
@@ -109,13 +109,15 @@ def _check_ray(pixel: Pixel, ray: dict) -> None:
 def _camera(c: dict) -> Camera:
     window = _get(c, "window", "camera.", dict)
     region = _get(c, "region", "camera.", dict)
+    if (projection := projection_of(c.get("orthographic"))) is None:
+        _get(c, "orthographic", "camera.", bool)  # says what is wrong with it
     sides, ends = ("left", "right", "bottom", "top"), ("x0", "y0", "x1", "y1")
     return Camera(
         _array(c, "world_from_camera", "camera.", (4, 4)),
         ViewWindow(**{k: float(_array(window, k, "camera.window.", ())) for k in sides}),
         _whole(c, "width", "camera."),
         _whole(c, "height", "camera."),
-        _get(c, "orthographic", "camera.", bool),
+        projection,
         float(_array(c, "clip_start", "camera.", ())),
         np.inf if c.get("clip_end") == _ENDLESS else float(_array(c, "clip_end", "camera.", ())),
         Region(**{k: _whole(region, k, "camera.region.") for k in ends}),

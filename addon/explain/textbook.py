@@ -55,9 +55,8 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Steps:
     out["u"] = out["left"] + out["px"] * out["width"]
     out["v"] = out["bottom"] + out["py"] * out["height"]
     aside = add(scale(out["u"], out["right"]), scale(out["v"], out["up"]))
-    if camera.orthographic:
-        return out | {"o": add(out["eye"], aside), "d": out["forward"]}
-    return out | {"o": out["eye"], "d": add(aside, out["forward"])}
+    o, d = camera.projection.ray(out["eye"], aside, out["forward"], add)
+    return out | {"o": o, "d": d}
 
 
 def _pixel_size(kind: Arithmetic, camera: Camera, axis: int) -> Number:

@@ -96,9 +96,7 @@ def camera_rays(
         right, up, forward, origin = (
             cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
         )
-        if camera.orthographic:
-            return Rays(origin + (x * right + y * up), forward)
-        return Rays(origin, x * right + y * up + forward)
+        return Rays(*camera.projection.ray(origin, x * right + y * up, forward))
 
 
 def film_of(
@@ -109,11 +107,10 @@ def film_of(
     What a perspective camera does not have in front of it appears nowhere: NaN.
     """
     (x, y, depth), _ = project(camera, points)
-    if not camera.orthographic:
-        ahead = np.where(depth > 0, depth, np.nan)
-        x, y = x / ahead, y / ahead
+    scale = camera.projection.scale(np.where(depth > 0, depth, np.nan))
     width, height = pixel_size(camera)
-    return (x - camera.window.left) / width, (y - camera.window.bottom) / height, depth
+    w = camera.window
+    return (x / scale - w.left) / width, (y / scale - w.bottom) / height, depth
 
 
 def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:

@@ -109,11 +109,9 @@ def pixel_bounds(
             (y, sizes[1], window.bottom, region.y0, region.y1),
         )
     ):
-        smallest, largest = value.min(axis=0) - error, value.max(axis=0) + error
-        if not camera.orthographic:
-            smallest, largest = _perspective(
-                value, depth, error, smallest, largest, nearest, front, farthest, camera.clip_start
-            )
+        smallest, largest = camera.projection.window_range(
+            value, depth, error, front, camera.clip_start
+        )
         with np.errstate(invalid="ignore", over="ignore"):
             # A film position near `start` comes from cancelling against it.
             slack = reach + SAFETY * np.finfo(corners.dtype).eps * (
@@ -128,19 +126,6 @@ def pixel_bounds(
     unseen = (farthest < camera.clip_start) | (nearest > camera.clip_end)
     bounds[1, unseen] = bounds[0, unseen]
     return bounds
-
-
-def _perspective(value, depth, error, smallest, largest, nearest, front, farthest, clip_start):
-    """Range of value / depth over the part of each triangle from `front` to `farthest`."""
-    low = np.where(smallest < 0, smallest / front, smallest / np.maximum(farthest, front))
-    high = np.where(largest > 0, largest / front, largest / np.maximum(farthest, front))
-    whole = nearest >= clip_start  # no corner near the eye plane: the corners' own quotients bound
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        quotient = value / depth
-        margin = error * (1 + np.abs(quotient)) / (depth - error)
-        low = np.where(whole, (quotient - margin).min(axis=0), low)
-        high = np.where(whole, (quotient + margin).max(axis=0), high)
-    return low, high
 
 
 def _pixel(value: NDArray, low: int, high: int, unknown: int) -> NDArray[np.int32]:

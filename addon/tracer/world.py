@@ -70,7 +70,7 @@ def batches(scene: Scene) -> Iterator[Batch]:
             continue
         positions = np.stack([scene.instances[i].world_from_object[:3, 3] for i in members], axis=1)
         (_, y, depth), _ = project(scene.camera, positions)
-        row = y if scene.camera.orthographic else y / np.maximum(depth, scene.camera.clip_start)
+        row = y / scene.camera.projection.scale(np.maximum(depth, scene.camera.clip_start))
         ordered = np.array(members, np.int32)[np.argsort(row, kind="stable")]
         together = max(1, BATCH // count)
         for start in range(0, len(ordered), together):

@@ -33,7 +33,7 @@ def test_as_exported(name):
         other.height,
         other.region,
     )
-    assert camera.orthographic == other.orthographic
+    assert camera.projection == other.projection
     np.testing.assert_allclose(camera.world_from_camera, other.world_from_camera, atol=1e-6)
     assert vars(camera.window) == pytest.approx(vars(other.window))
     for mine, theirs in zip(stored.meshes, fresh.meshes, strict=True):

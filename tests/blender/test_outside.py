@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import export as export_module
 from reference_tracer.blender.view_volume import outside
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, ViewWindow
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.render import render
@@ -25,7 +26,8 @@ def hostile_camera(rng, orthographic: bool) -> Camera:
     x, y = np.sort(rng.uniform(-1, 1, (2, 2)), axis=1) * 10.0 ** rng.integers(-2, 3)
     start = 10.0 ** rng.uniform(-4, 1)
     end = start * 10.0 ** rng.uniform(0.1, 5)
-    return Camera(matrix, ViewWindow(*x, *y), 64, 48, orthographic, start, end)
+    projection = ORTHOGRAPHIC if orthographic else PERSPECTIVE
+    return Camera(matrix, ViewWindow(*x, *y), 64, 48, projection, start, end)
 
 
 @pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender.planes import polygon, stand_ins
 from reference_tracer.blender.temporary import temporary_scene
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Plane, ViewWindow
 from reference_tracer.tracer.camera import film_of
 
@@ -210,7 +211,7 @@ def test_the_polygon_covers_the_view_volumes_cut():
             ViewWindow(-0.5, 0.7, -0.4, 0.3),
             64,
             48,
-            orthographic=trial % 2 == 1,
+            projection=ORTHOGRAPHIC if trial % 2 else PERSPECTIVE,
             clip_start=0.5,
             clip_end=20,
         )

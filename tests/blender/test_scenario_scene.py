@@ -48,7 +48,7 @@ def test_what_is_exported_is_the_studys_scene(name, export):
     assert (scene.render.engine, scene.display.shading.light) == (ENGINE, "FLAT")
     assert manifest.unmodelled == ()
     c, w = got.camera, wanted.camera
-    assert (c.width, c.height, c.orthographic) == (w.width, w.height, w.orthographic)
+    assert (c.width, c.height, c.projection) == (w.width, w.height, w.projection)
     size = np.abs(corners(wanted)).max() + np.abs(w.origin).max()
     np.testing.assert_allclose(
         c.world_from_camera[:3, :3], w.world_from_camera[:3, :3], atol=4 * FLOAT32

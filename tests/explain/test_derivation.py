@@ -12,6 +12,7 @@ from reference_tracer.explain import as_json, html, markdown
 from reference_tracer.explain.arithmetic import Arithmetic
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.judgement import Reason
+from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
@@ -89,10 +90,10 @@ def test_a_hit(one_triangle):
         ([(0, -1, -3), (0, 1, -3), (0, 0, -9)], Reason.PARALLEL),
     ],
 )
-@pytest.mark.parametrize("orthographic", [False, True])
-def test_why_not(one_triangle, triangle, reason, orthographic):
+@pytest.mark.parametrize("projection", PROJECTIONS.values(), ids=PROJECTIONS)
+def test_why_not(one_triangle, triangle, reason, projection):
     # Through the middle of the picture both kinds of camera send the same ray.
-    assert reasons(one_triangle(triangle, orthographic=orthographic)) == (reason,)
+    assert reasons(one_triangle(triangle, projection=projection)) == (reason,)
 
 
 def test_planes(one_triangle):

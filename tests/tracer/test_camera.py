@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer.camera import Rays, camera_rays, film_of, pixel_size, project
 from reference_tracer.tracer.nearest import film_positions
@@ -56,7 +57,7 @@ def test_corners_are_those_of_the_view_window(camera):
     ):
         origin, direction = one(camera, px, py)
         offset = x * camera.right + y * camera.up
-        if camera.orthographic:
+        if camera.projection.is_parallel:
             assert np.allclose(origin, camera.origin + offset, rtol=0, atol=64 * EPS)
             assert np.array_equal(direction, camera.forward)
         else:
@@ -99,7 +100,7 @@ def test_nothing_appears_behind_a_perspective_camera(make):
     x, y, depth = film_of(camera, points)
     assert np.isnan([x[:2], y[:2]]).all() and np.isfinite([x[2], y[2]]).all()
     assert depth.tolist() == [-1, 0, 1]
-    assert np.isfinite(film_of(replace(camera, orthographic=True), points)).all()
+    assert np.isfinite(film_of(replace(camera, projection=ORTHOGRAPHIC), points)).all()
 
 
 def test_rays_of_a_region_are_those_of_the_picture(camera):
@@ -147,7 +148,7 @@ def test_directions_do_not_depend_on_the_place(camera):
     here = camera_rays(camera, px, px)
     there = camera_rays(replace(camera, world_from_camera=far), px, px)
     assert np.array_equal(here.directions, there.directions)
-    assert here.directions.shape[1] == (1 if camera.orthographic else 1001)
+    assert here.directions.shape[1] == (1 if camera.projection.is_parallel else 1001)
 
 
 def test_float32_is_near(camera, rng):

@@ -10,6 +10,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from numpy.typing import NDArray
+from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.report import plots
 from reference_tracer.tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
 from reference_tracer.tracer.certified.sweep.rasterise import Boxes, _cells
@@ -91,7 +92,7 @@ def draw_pixels(axes: Axes) -> None:
     width, height = 12, 10  # metres, too: one for each pixel, so that all numbers are exact
     film = np.array([(1.5, 0.5), (10.6, 1.3), (9.5, 8.5), (0.7, 9.2)])
     place = np.insert(film - (width / 2, height / 2), 2, -5, axis=1)
-    camera = ahead(width, height, height / 2, orthographic=True)
+    camera = ahead(width, height, height / 2, projection=ORTHOGRAPHIC)
     swept = watch(scene(camera, mesh(place, [(0, 1, 2), (0, 2, 3)])))
     image = np.ones((height, width, 3))
     [(low, high)] = swept.boxes

@@ -93,7 +93,7 @@ def _camera(camera: Camera) -> dict[str, Any]:
         "width": camera.width,
         "height": camera.height,
         "region": [r.x0, r.y0, r.x1, r.y1],
-        "orthographic": camera.orthographic,
+        "orthographic": camera.projection.in_files,
         "clip": [camera.clip_start, camera.clip_end],
     }
 

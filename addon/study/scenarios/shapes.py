@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...projections import ORTHOGRAPHIC
 from ...scene import Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
 from .parts import (
@@ -111,7 +112,7 @@ def integer_cube(cells: float, width: int, height: int) -> Scene:
 def integer_cube_ortho(cells: float, width: int, height: int) -> Scene:
     """Return a cube of whole numbers from outside, with rays at whole numbers along its sides."""
     eye = (0.5 * (width % 2 == 0), 0.5 * (height % 2 == 0), 40.0)
-    view = camera(width, height, width / 2, eye=eye, axes=np.eye(3), orthographic=True)
+    view = camera(width, height, width / 2, eye=eye, axes=np.eye(3), projection=ORTHOGRAPHIC)
     return scene(view, _cube(int(cells), np.array((-8.0, -8.0, -8.0)), 16.0))
 
 

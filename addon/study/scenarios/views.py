@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...projections import ORTHOGRAPHIC
 from ...scene import Mesh, Scene
 from .parts import BESIDE, TURNED, camera, moved, scene, sheet, sphere
 
@@ -63,7 +64,7 @@ def wide_view(rest: float, width: int, height: int) -> Scene:
 
 def ortho_scale(size: float, width: int, height: int) -> Scene:
     """Return a rough surface through an orthographic camera of this width, in metres."""
-    view = camera(width, height, 0.5 * size, eye=EYE, orthographic=True)
+    view = camera(width, height, 0.5 * size, eye=EYE, projection=ORTHOGRAPHIC)
     return scene(view, sheet(view, 4, beside=BESIDE, around=False))
 
 

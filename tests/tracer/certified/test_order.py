@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.tracer.certified import contest as certified
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -24,8 +25,9 @@ def layers(rng, orthographic, with_plane):
     world_from_camera[:3, :3] = turned(rng)
     world_from_camera[:3, 3] = rng.normal(size=3) * 10.0 ** rng.integers(0, 5)
     half = 2.0 if orthographic else 0.45
+    projection = ORTHOGRAPHIC if orthographic else PERSPECTIVE
     window = ViewWindow(-1.7 * half, 1.7 * half, -half, half)
-    camera = Camera(world_from_camera, window, 32, 18, orthographic=orthographic)
+    camera = Camera(world_from_camera, window, 32, 18, projection=projection)
     mesh = Mesh(np.array([(-9.0, -9, 0), (9, -9, 0), (0, 12, 0)]), [[0, 1, 2]])
     matrices = []
     for k in range(4):

@@ -140,7 +140,7 @@ def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach
     sure = (amount > error) & np.isfinite(amount)
     coefficients[:, :3] *= np.where(volume < 0, -1.0, 1.0)
     least = amount - error
-    if film.camera.orthographic:
+    if film.camera.projection.is_parallel:
         depths = [gather(vertices.depth, corner) for corner in corners]
         base, *rest = depths
         b, c = (d - base for d in rest)

@@ -90,7 +90,8 @@ class Film:
         c = self.camera
         reach = self._reach[0] + self._reach[1]
         axes = np.abs(self._axes).max()
-        length = np.abs(c.origin).max() + axes * reach if c.orthographic else axes * (1 + reach)
+        parallel = c.projection.is_parallel
+        length = np.abs(c.origin).max() + axes * reach if parallel else axes * (1 + reach)
         return 24 * _EPS * self._spread * length
 
     @cached_property
@@ -103,7 +104,7 @@ class Film:
         constant, slope = 0.0, 0.0
         for start, size, reach in zip(window, pixel_size(c), self._reach, strict=True):
             film = SAFETY * _EPS * (abs(start / size) + c.width + c.height)
-            if c.orthographic:
+            if c.projection.is_parallel:
                 slope = max(slope, (SAFETY + 8) * _EPS * self._spread / size)
                 constant = max(constant, film + 2 * self.ray_error / size)
             else:  # |w| <= spread * size; an error along the axis moves a ray by its film position
@@ -117,12 +118,20 @@ class Film:
         """c: w of a vertex is off by at most c size."""
         if not self.is_sound:
             return np.inf
-        return 0.0 if self.camera.orthographic else SAFETY * _EPS * self._spread
+        return 0.0 if self.camera.projection.is_parallel else SAFETY * _EPS * self._spread
 
     @cached_property
     def depth_error(self) -> tuple[float, float]:
         """c0, c1: the t of a vertex is off by at most c0 + c1 size, orthographic."""
         return 2 * self.ray_error if self.is_sound else np.inf, SAFETY * _EPS * self._spread
+
+    def nearest(self, depth: Floats, size: Floats) -> Floats:
+        """Return the most that the nearness of what is seen of vertices can be."""
+        if self.camera.projection.is_parallel:
+            constant, slope = self.depth_error
+            return (constant + slope * size) - depth
+        before = np.maximum(depth - self.weight * size, self.camera.clip_start)
+        return (1 + 2.0**-48 + 2 * self.ray_error) / before
 
     def enter(self, vertices: Vertices, first: int, world: Vectors) -> None:
         """Project world points (3, n) into the n of these vertices from `first` on."""
@@ -134,7 +143,7 @@ class Film:
         size += np.abs(camera.origin).max() + _TINY
         q = world - camera.origin[:, None]
         right, up, depth = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2] for d in self.dual)
-        w = np.ones(1) if camera.orthographic else depth
+        w = camera.projection.scale(depth)
         width, height = pixel_size(camera)
         x = (right - window.left * w) * (1 / width) - self.dx * w
         y = (up - window.bottom * w) * (1 / height) - self.dy * w
@@ -144,18 +153,11 @@ class Film:
         # beside the picture truly lies on that side of it, and the rest at most `margin` away.
         constant, slope = self.place
         margin = constant + slope * size
-        if not camera.orthographic:
-            vertices.ahead[part] = w > 2.0**10 * self.weight * size
-            x, y = x / w, y / w
-            margin += 2 * max(camera.width, camera.height) * self.weight * size
-            margin /= w
-            before = np.maximum(w - self.weight * size, camera.clip_start)
-            vertices.nearest[part] = (1 + 2.0**-48 + 2 * self.ray_error) / before
-        else:
-            vertices.ahead[part] = self.is_sound
-            constant, slope = self.depth_error
-            vertices.nearest[part] = (constant + slope * size) - depth
-        margin = 1.01 * margin + 0.5
+        vertices.ahead[part] = w > 2.0**10 * self.weight * size
+        x, y = x / w, y / w
+        margin += 2 * max(camera.width, camera.height) * self.weight * size
+        margin = 1.01 * (margin / w) + 0.5
+        vertices.nearest[part] = self.nearest(depth, size)
         for axis, (at, end) in enumerate(((x, camera.width), (y, camera.height))):
             vertices.ahead[part] &= np.isfinite(at)
             vertices.box[part, axis] = np.clip(np.ceil(at - margin), -_OFF, end + _OFF)

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ....scene import Camera
 from ..bounds import U
 
+ROUNDING = 4 * U  # relative, of a nearness that was computed from t
 Index = NDArray[np.integer]
 
 
@@ -43,14 +44,8 @@ class ClipRange:
     """The camera's clip range as nearness, with room for its own rounding."""
 
     def __init__(self, camera: Camera) -> None:
-        if camera.orthographic:
-            ends = -camera.clip_end, -camera.clip_start
-            room = 0.0
-        else:
-            ends = 1 / camera.clip_end, 1 / camera.clip_start
-            room = 4 * U
-        self._outer = ends[0] * (1 - room), ends[1] * (1 + room)
-        self._inner = ends[0] * (1 + room), ends[1] * (1 - room)
+        ends, nearness = (camera.clip_start, camera.clip_end), camera.projection.nearness
+        self._outer, self._inner = nearness(*ends, ROUNDING), nearness(*ends, -ROUNDING)
 
     def inside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
         """Return which surely are in the range, of nearnesses between these."""

@@ -63,18 +63,13 @@ class InstanceBoxes:
         clear = ahead & (place + far * weight < 0.25 * _MARGIN * w)
         clear = clear.all(axis=0) & film.is_sound
         box = vertices.box.reshape(8, count, 4).min(axis=0).T
-        if camera.orthographic:
-            nearest = own - depth.min(axis=0)
-        else:
-            before = np.maximum(w.min(axis=0) - weight, camera.clip_start)
-            nearest = (1 + 2.0**-48 + 2 * film.ray_error) / before
         margin = int(_MARGIN)
         return cls(
             ~outside if film.is_sound else np.ones(count, bool),
             np.nan_to_num(depth.min(axis=0)),
             np.where(clear, box[:2] - margin, np.iinfo(np.int32).min),
             np.where(clear, -box[2:] + margin, np.iinfo(np.int32).max),
-            np.where(clear, nearest, np.inf),
+            np.where(clear, film.nearest(depth.min(axis=0), size), np.inf),
         )
 
     def in_region(self, region: Region) -> NDArray[np.bool_]:

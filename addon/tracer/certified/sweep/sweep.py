@@ -18,13 +18,13 @@ from ...camera import camera_rays, film_positions_of
 from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, timed
 from ...vector import gather
-from ..bounds import U, plane_depths
+from ..bounds import plane_depths
 from .chunks import Expanded, Names, Numbering, Piece, expand, pieces
 from .depth_bins import slabs
 from .depth_buffer import FINE, DepthBuffer
 from .edge_functions import Footprints, footprints
 from .film import Film
-from .fragments import ClipRange, Kept
+from .fragments import ROUNDING, ClipRange, Kept
 from .instance_boxes import InstanceBoxes
 from .rasterise import LARGE, Boxes, Covered, covered, split
 from .triangle_boxes import boxes_of
@@ -129,10 +129,7 @@ class Sweep:
         rays = camera_rays(film.camera, px, py)
         depths = plane_depths(rays, infinite.point[:, None], infinite.normal[:, None])
         low, high = (np.broadcast_to(v, pixel.shape) for v in depths.interval())
-        if film.camera.orthographic:
-            least, most = -high, np.where(np.isfinite(high), -low, np.inf)
-        else:
-            least, most = (1 - 4 * U) / high, (1 + 4 * U) / np.maximum(low, 0)
+        least, most = film.camera.projection.nearness(low, high, ROUNDING)
         place, of = self._depths.places(pixel), np.full(len(pixel), surface)
         return self._keep(place, of, least, most, np.isfinite(high))
 

@@ -1,0 +1,16 @@
+"""How a camera projects: a record each, by its name; a file each has the formulas."""
+
+from __future__ import annotations
+
+from .orthographic import Orthographic
+from .perspective import Perspective
+
+Projection = Perspective | Orthographic
+PERSPECTIVE, ORTHOGRAPHIC = Perspective(), Orthographic()
+PROJECTIONS: dict[str, Projection] = {p.name: p for p in (PERSPECTIVE, ORTHOGRAPHIC)}
+
+
+def projection_of(value: object) -> Projection | None:
+    """Return the projection that a file's "orthographic" means; None for none."""
+    found = [p for p in PROJECTIONS.values() if p.in_files == value]
+    return found[0] if found and isinstance(value, bool | str) else None
