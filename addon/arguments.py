@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import sys
+import traceback
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NoReturn
@@ -10,11 +12,14 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from .compare.comparison import SizeError
 from .explain.candidates import LIMIT
 from .explain.output import WRITERS
+from .images import MissingLibraryError
 from .projections import ORTHOGRAPHIC, PERSPECTIVE
 from .scene import Camera, SceneError, ViewWindow, check_size
 from .scene_files import MESH_SUFFIXES
+from .tracer.certified.certainty import AssumptionError
 from .tracer.settings import Method, Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
@@ -28,6 +33,8 @@ EXIT_CODES = """exit codes:
   4  the input is wrong, or cannot be read
   130  interrupted by Ctrl-C"""
 CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale"  # see add_camera
+# What a user can do something about; all else is a fault of ours, and its traceback is wanted.
+EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
 _PLAIN = ", ".join(m for m in Method if m.is_plain)
 
 # What a number must be, by its option, where the type alone does not say it.
@@ -215,6 +222,16 @@ def printable(text: str) -> str:
     return "".join(
         c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
     )
+
+
+def failed(error: Exception, program: str) -> int:
+    """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
+    said = words(error)
+    if not isinstance(error, EXPECTED):
+        traceback.print_exception(error)
+        said = f"{type(error).__name__}: {error}"
+    print(f"{program}: {said}", file=sys.stderr)
+    return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 
 def words(error: BaseException) -> str:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import sys
-import traceback
 from importlib.metadata import entry_points
 
-from . import __version__, images, interrupts
-from .arguments import EXIT_CODES, INPUT_ERROR, INTERRUPTED, SIZES_DIFFER, Parser, words
+from . import __version__, interrupts
+from .arguments import EXIT_CODES, INTERRUPTED, Parser, failed
 from .commands import compare, explain, export, extremes, trace, trade
 from .commands.parts import Commands
-from .compare.comparison import SizeError
 from .scene import SceneError
-from .tracer.certified.certainty import AssumptionError
 
 # In the order of the help. The modules of those that are None are packages of their own.
 COMMANDS = {
@@ -26,11 +23,6 @@ COMMANDS = {
     "export": export,
 }
 
-_EXPECTED = (  # what a user can do something about
-    *(SceneError, SizeError, OSError, MemoryError),
-    *(images.MissingLibraryError, AssumptionError),
-)
-
 
 def main(argv: list[str] | None = None) -> int:
     """Run `reftrace`; returns the exit code."""
@@ -43,13 +35,8 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("reftrace: interrupted", file=sys.stderr)
         return INTERRUPTED
-    except _EXPECTED as error:
-        print(f"reftrace: {words(error)}", file=sys.stderr)
-        return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
     except Exception as error:  # Python's own exit code for it, 1, means warnings here
-        traceback.print_exc()
-        print(f"reftrace: {type(error).__name__}: {error}", file=sys.stderr)
-        return INPUT_ERROR
+        return failed(error, "reftrace")
 
 
 def _parser() -> Parser:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -14,27 +12,25 @@ import bpy
 from ..arguments import (
     AGREE,
     EXIT_CODES,
-    INPUT_ERROR,
-    SIZES_DIFFER,
     Parser,
     add_judge,
     add_page,
     add_pixel,
     add_settings,
     check,
+    failed,
     printable,
     settings_from,
-    words,
 )
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
-from ..compare.comparison import SizeError
 from ..explain.candidates import LIMIT, gather
 from ..report import comparison as comparison_report
+from ..report import extremes as extremes_report
 from ..report import page, pixel
+from ..report import trade as trade_report
 from ..scene import SceneError
 from ..study import tradeoff
-from ..tracer.certified.certainty import AssumptionError
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
 from . import studies
@@ -58,7 +54,7 @@ def run(argv: list[str]) -> int:
         check(options)
         return options.run(options)
     except Exception as error:
-        return _said(error)
+        return failed(error, "reference_tracer")
 
 
 def _parser() -> Parser:
@@ -119,16 +115,16 @@ def _trade(options: Any) -> int:
     folder = made(options.out)
     samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
     found = result_of(studies.trade(bpy.context, options.width, samples))
-    studies.write_trade(folder, found)
-    print(*studies.trade_table(found), f"written to {folder}", sep="\n")
+    studies.write(trade_report, folder, found)
+    print(trade_report.table(found), f"written to {folder}", sep="\n")
     return AGREE
 
 
 def _extremes(options: Any) -> int:
     folder = made(options.out)
-    rows = result_of(studies.run_extremes(rays=options.rays))
-    studies.write_extremes(folder, rows)
-    print(*studies.extremes_table(rows), f"written to {folder}", sep="\n")
+    rows = result_of(studies.extremes(rays=options.rays))
+    studies.write(extremes_report, folder, rows)
+    print(extremes_report.breaking_table(rows), f"written to {folder}", sep="\n")
     return AGREE
 
 
@@ -170,13 +166,6 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")
     return VERDICT_CODES[comparison.verdict]
-
-
-def _said(error: Exception) -> int:
-    if not isinstance(error, (SizeError, SceneError, OSError, AssumptionError, MemoryError)):
-        traceback.print_exception(error)
-    print(f"reference_tracer: {words(error)}", file=sys.stderr)
-    return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 
 def register() -> None:

@@ -9,22 +9,19 @@ from __future__ import annotations
 
 import time
 import traceback
+from pathlib import Path
 from typing import Any, ClassVar
 
 import bpy
 from bpy.props import StringProperty
 
-from ..arguments import words
-from ..scene import SceneError
-from ..tracer.certified.certainty import AssumptionError
+from ..arguments import EXPECTED, words
 from ..tracer.progress import Work, result_of
+from .compare import made
 from .images import redraw
 
 STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
-
-# What a user can do something about; all else is a fault of ours, and its traceback is wanted.
-_EXPECTED = (SceneError, OSError, AssumptionError, MemoryError)
 
 
 class LongWork:
@@ -40,6 +37,10 @@ class LongWork:
         options={"SKIP_SAVE"},
         description="Where to write what is found; nothing is written if empty",
     )
+
+    def folder(self) -> Path | None:
+        """Make the folder, and return it; None where nothing is to be written."""
+        return made(self.directory) if self.directory else None
 
     def begin(self, context: Any) -> Work[Any]:
         """Return the work; what has to be done in one go is done here."""
@@ -130,7 +131,7 @@ class LongWork:
         return {"FINISHED"}
 
     def _fail(self, error: Exception) -> set[str]:
-        if not isinstance(error, _EXPECTED):
+        if not isinstance(error, EXPECTED):
             traceback.print_exc()
         self.report({"ERROR"}, words(error))
         return {"CANCELLED"}

@@ -9,12 +9,14 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ..compare import engines
 from ..compare.comparison import Comparison
+from ..report import extremes as extremes_report
+from ..report import trade as trade_report
 from ..scene import SceneError
 from ..study import tradeoff
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from ..tracer.progress import Work
 from . import results, scenario_scene, studies
-from .compare import compare_to_folder, gather, made
+from .compare import compare_to_folder, gather
 from .engines import compare_all
 from .judges import JUDGES
 from .long_work import LongWork
@@ -102,15 +104,14 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene at once; return the work of measuring."""
-        self._folder = made(self.directory) if self.directory else None
+        self._folder = self.folder()
         return studies.trade(context, self.width, self.samples)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Show the table, the plot and the advice."""
-        if self._folder:
-            studies.write_trade(self._folder, result)
+        studies.write(trade_report, self._folder, result)
         lines = results.keep_trade(context, result).lines
-        print(*studies.trade_table(result), *lines[1:], sep="\n")
+        print(trade_report.table(result), *lines[1:], sep="\n")
         return _told(lines)
 
 
@@ -135,15 +136,14 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Return the work."""
-        self._folder = made(self.directory) if self.directory else None
-        return studies.run_extremes(self.scenario, self.rays or None)
+        self._folder = self.folder()
+        return studies.extremes(self.scenario, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Show the breaking points and the maps."""
-        if self._folder:
-            studies.write_extremes(self._folder, result)
+        studies.write(extremes_report, self._folder, result)
         lines = results.keep_extremes(context, result).lines
-        print(*studies.extremes_table(result), *lines, sep="\n")
+        print(extremes_report.breaking_table(result), *lines, sep="\n")
         return _told(lines)
 
 

@@ -17,7 +17,6 @@ from ..study.extremes import BreakingPoint
 from ..study.trade import Trade
 from ..tracer.progress import Work
 from . import results
-from .compare import made
 from .long_work import LongWork
 
 
@@ -51,7 +50,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[page.Extras]:
         """Return the work of finding out what the page shows besides."""
-        self._folder = made(self.directory) if self.directory else Path(_session_folder())
+        self._folder = self.folder() or Path(_session_folder())
         self._comparison = results.latest(Comparison, context.scene).content
         trade = results.latest(Trade, context.scene)
         extremes = results.latest(BreakingPoint, context.scene)

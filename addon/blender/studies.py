@@ -8,10 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..images import MissingLibraryError
-from ..report import extremes as extremes_report
-from ..report import trade as trade_report
-from ..study import extremes, tradeoff
-from ..study.scenarios.scenario import Scenario
+from ..study import tradeoff
+from ..study.extremes import Row, breaking_points, measure
 from ..study.scenarios.sweeps import ALL
 from ..study.trade import NAMES, Trade
 from ..tracer.progress import Work
@@ -35,47 +33,28 @@ def trade(context: Any, width: int | None = None, samples: int = tradeoff.SAMPLE
     return tradeoff.measure(scene, width, samples, manifest.scene)
 
 
-def write_trade(folder: Path, found: Trade) -> None:
-    """Write what `reftrace trade` writes; without Matplotlib all but the plot."""
+def extremes(scenario: str = EVERY, rays: int | None = None) -> Work[list[Row]]:
+    """Return the work of tracing every scenario, or all of one name, by every method.
+
+    A map has a scenario for each of its rows.
+    """
+    return measure([s for s in ALL if scenario in (EVERY, s.name)], rays)
+
+
+def write(report: Any, folder: Path | None, found: Any) -> None:
+    """Write a study as its module of `report` does, if to a folder; without Matplotlib no plot."""
     try:
-        trade_report.write(folder, found)
+        if folder:
+            report.write(folder, found)
     except MissingLibraryError as error:
         print(f"Reference Tracer: {error}")
 
 
-def trade_table(found: Trade) -> list[str]:
-    """Return the table that `reftrace trade` prints, by lines."""
-    return trade_report.table(found).splitlines()
-
-
-def run_extremes(scenario: str = EVERY, rays: int | None = None) -> Work[list[extremes.Row]]:
-    """Return the work of tracing every scenario, or all of one name, by every method."""
-    return extremes.measure(chosen(scenario), rays)
-
-
-def chosen(name: str) -> Sequence[Scenario]:
-    """Return the scenarios of a name; a map has one for each row."""
-    return [s for s in ALL if name in (EVERY, s.name)]
-
-
-def write_extremes(folder: Path, rows: Sequence[extremes.Row]) -> None:
-    """Write what `reftrace extremes` writes; without Matplotlib all but the pictures."""
-    try:
-        extremes_report.write(folder, rows)
-    except MissingLibraryError as error:
-        print(f"Reference Tracer: {error}")
-
-
-def extremes_table(rows: Sequence[extremes.Row]) -> list[str]:
-    """Return the table of breaking points, by lines."""
-    return extremes_report.breaking_table(rows).splitlines()
-
-
-def extremes_sentence(rows: Sequence[extremes.Row]) -> str:
+def extremes_sentence(rows: Sequence[Row]) -> str:
     """Return in one sentence whether the certified method holds, and which other holds longest."""
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
-    points = [p for p in extremes.breaking_points(rows) if Method(p.method).is_plain]
+    points = [p for p in breaking_points(rows) if Method(p.method).is_plain]
     holds = Counter({(p.method, p.precision): 0 for p in points})
     holds.update((p.method, p.precision) for p in points if p.never)
     if holds:

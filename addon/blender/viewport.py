@@ -21,6 +21,32 @@ from ..scene import Camera
 from .animation import values_kept
 from .judges import Judge
 
+# What a picture that can be compared needs: property of the scene, and value.
+_ALWAYS = {
+    "render.use_crop_to_border": True,
+    "render.use_file_extension": True,
+    "render.use_overwrite": True,
+    "render.use_placeholder": False,
+}
+_LIKE_FOR_LIKE = {
+    "display.shading.light": "FLAT",
+    "display.shading.show_xray": False,
+    "display.shading.show_shadows": False,
+    "display.shading.show_cavity": False,
+    "display.shading.show_object_outline": False,
+    "display.shading.show_specular_highlight": False,
+    "display.shading.show_backface_culling": False,
+    "display.shading.use_dof": False,
+    "display.render_aa": "OFF",
+    "display.viewport_aa": "OFF",
+    "render.film_transparent": True,
+    "view_settings.view_transform": "Raw",
+    "view_settings.look": "None",
+    "view_settings.exposure": 0.0,
+    "view_settings.gamma": 1.0,
+    "view_settings.use_curve_mapping": False,
+}
+
 
 def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
     """Set a temporary scene up for a picture that can be compared; return what was set.
@@ -28,60 +54,20 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
     Like for like is flat light, no effect and no anti-aliasing, on a transparent film, raw; the
     source of the colours stays the user's. In either way the picture is one 32-bit EXR.
     """
-    render, display, view = scene.render, scene.display, scene.view_settings
-    values = [
-        (
-            render,
-            {
-                "use_crop_to_border": True,
-                "use_file_extension": True,
-                "use_overwrite": True,
-                "use_placeholder": False,
-            },
-        ),
-    ]
-    if like_for_like:
-        values += [
-            (
-                display.shading,
-                {
-                    "light": "FLAT",
-                    "show_xray": False,
-                    "show_shadows": False,
-                    "show_cavity": False,
-                    "show_object_outline": False,
-                    "show_specular_highlight": False,
-                    "show_backface_culling": False,
-                    "use_dof": False,
-                },
-            ),
-            (display, {"render_aa": "OFF", "viewport_aa": "OFF"}),
-            (render, {"film_transparent": True}),
-            (
-                view,
-                {
-                    "view_transform": "Raw",
-                    "look": "None",
-                    "exposure": 0.0,
-                    "gamma": 1.0,
-                    "use_curve_mapping": False,
-                },
-            ),
-        ]
-    for target, settings in values:
-        for name, value in settings.items():
-            setattr(target, name, value)
+    for path, value in (_ALWAYS | (_LIKE_FOR_LIKE if like_for_like else {})).items():
+        owner, _, name = path.rpartition(".")
+        setattr(scene.path_resolve(owner), name, value)
+    render, shading = scene.render, scene.display.shading
     image = render.image_settings
     if hasattr(image, "media_type"):  # from 5.0 on
         image.media_type = "IMAGE"
     image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGBA", "32"
-    shading = display.shading
     return {
         "like_for_like": like_for_like,
         "light": shading.light,
         "color_type": shading.color_type,
         "film_transparent": render.film_transparent,
-        "view_transform": view.view_transform,
+        "view_transform": scene.view_settings.view_transform,
     }
 
 
