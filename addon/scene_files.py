@@ -33,9 +33,9 @@ _SCHEMA = "reference_tracer.scene/1"
 
 
 def diagnose(mesh: Mesh) -> dict[str, Any]:
-    """Return trimesh's diagnosis of a mesh as JSON can hold it.
+    """Return trimesh's diagnosis of a mesh, for JSON.
 
-    Corners at bit-identical positions count as one vertex: closed means that every edge has two
+    Vertices at bit-identical positions count as one. A mesh is closed if every edge has two
     triangles.
     """
     import trimesh
@@ -53,9 +53,9 @@ def diagnose(mesh: Mesh) -> dict[str, Any]:
 
 
 def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manifest]:
-    """Return a manifest with the diagnosis of every object's meshes that the scene has.
+    """Return the manifest with a diagnosis of each object's meshes.
 
-    Yields 0 after each mesh: it is the first of longer work.
+    Yields 0 after each mesh: this is the first part of longer work.
     """
     diagnoses = []
     for mesh in scene.meshes:
@@ -72,7 +72,7 @@ def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manife
 
 
 def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """Return the diagnosis of several meshes as one: closed if all are, and so on."""
+    """Join the diagnoses of several meshes: closed if all are, and the sum of each count."""
     if not diagnoses:
         return None
     return {
@@ -117,7 +117,7 @@ def load_scene(path: str | Path) -> Scene:
     Raises
     ------
     SceneError
-        If there is no such file, it is no scene, or its content does not fit.
+        If there is no such file, it is not a scene, or its content is inconsistent.
     """
     _check_is_file(path)
     try:
@@ -131,39 +131,30 @@ def load_scene(path: str | Path) -> Scene:
             projection=projection_of(c.pop("orthographic", False)),
             **c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])},
         )
-        return Scene(
-            camera=camera,
-            meshes=tuple(
-                Mesh(
-                    data[f"mesh{k}_vertices"],
-                    data[f"mesh{k}_triangles"],
-                    data[f"mesh{k}_slots"],
-                    data[f"mesh{k}_corner_colors"] if m["corner_colors"] else None,
-                    m["name"],
-                )
-                for k, m in enumerate(head["meshes"])
-            ),
-            instances=tuple(
-                Instance(
-                    i["mesh"],
-                    i["object"],
-                    data[f"instance{k}_world_from_object"],
-                    data[f"instance{k}_colors"],
-                )
-                for k, i in enumerate(head["instances"])
-            ),
-            planes=tuple(
-                Plane(
-                    p["object"],
-                    data[f"plane{k}_point"],
-                    data[f"plane{k}_normal"],
-                    data[f"plane{k}_color"],
-                )
-                for k, p in enumerate(head["planes"])
-            ),
-            background=np.array(head["background"]),
-            objects=tuple(head["objects"]),
-        )
+
+        def stored_of(part: str, *names: str) -> list[np.ndarray]:
+            return [data[f"{part}_{name}"] for name in names]
+
+        meshes = [
+            Mesh(
+                *stored_of(f"mesh{k}", "vertices", "triangles", "slots"),
+                *(stored_of(f"mesh{k}", "corner_colors") if m["corner_colors"] else [None]),
+                m["name"],
+            )
+            for k, m in enumerate(head["meshes"])
+        ]
+        instances = [
+            Instance(
+                i["mesh"], i["object"], *stored_of(f"instance{k}", "world_from_object", "colors")
+            )
+            for k, i in enumerate(head["instances"])
+        ]
+        planes = [
+            Plane(p["object"], *stored_of(f"plane{k}", "point", "normal", "color"))
+            for k, p in enumerate(head["planes"])
+        ]
+        background, objects = np.array(head["background"]), tuple(head["objects"])
+        return Scene(camera, tuple(meshes), tuple(instances), tuple(planes), background, objects)
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
     except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
@@ -181,7 +172,7 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
     Returns
     -------
     list of (Mesh, world_from_object)
-        As the file has them: no axis is turned. Triangles that are not finite are left out.
+        As in the file: the axes are not turned. Triangles that are not finite are left out.
 
     Raises
     ------
@@ -219,7 +210,7 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
 def scene_of_meshes(
     meshes: list[tuple[Mesh, np.ndarray]], camera: Camera | None, width: int, height: int
 ) -> Scene:
-    """Return a scene of meshes, each in its own grey, seen by `camera` or by one framing them.
+    """Return a scene of meshes, each in its own grey, seen by `camera` or by one that frames them.
 
     Raises
     ------
@@ -242,9 +233,9 @@ def scene_of_meshes(
 
 
 def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: int) -> Camera:
-    """Return a perspective camera, half its angle of view arctan(1/2), that sees all of the meshes.
+    """Return a perspective camera that sees all of the meshes; half its angle is arctan(1/2).
 
-    It looks from the front, right and above, as a new Blender scene's camera does.
+    It looks from the front, the right and above, like the camera of a new Blender scene.
     """
     check_size(width, height)
     corners = np.concatenate(
