@@ -94,9 +94,9 @@ def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int |
         work, settings = render if job.whole else trace, Settings(job.method, job.precision)
         work(pictures[0], settings)  # pages of libraries come in once they are used
         before = _peak()
-        kept = work(pictures[1], settings)
+        result = work(pictures[1], settings)
         os.write(writes, str(_peak() - before).encode())
-        del kept
+        del result
     finally:
         os._exit(0)  # nothing of the parent's is to be cleaned up here
 

@@ -177,7 +177,7 @@ def _stages(axes: Axes, rows: list[Row]) -> None:
 
 
 def _number(value: float) -> str:
-    """Return a number in few letters: 12, 5 k, 1.3 M."""
+    """Return a number in few characters: 12, 5 k, 1.3 M."""
     for size, letter in ((1e6, " M"), (1e3, " k")):
         if value >= size:
             return (

@@ -170,7 +170,7 @@ def _scaled(front: Pairs) -> Pairs:
 
 
 def _parallel(rng: np.random.Generator) -> Pairs:
-    """Return rays along the plane of a triangle of whole numbers, beside it, over its middle."""
+    """Return rays along the plane of a triangle of integers, beside it, over its middle."""
     p = np.zeros((0, 3, 3))
     while len(p) < EACH:
         some = rng.integers(-9, 10, (EACH, 3, 3)).astype(float)

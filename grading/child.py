@@ -25,7 +25,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-LONGEST = 2000  # letters of a message
+LONGEST = 2000  # characters of a message
 
 Answer = tuple[np.ndarray, np.ndarray]
 

@@ -52,7 +52,7 @@ def to_dict(judgements: Sequence[Judgement]) -> dict[str, Any]:
 _GROUPS = {
     Group.FRONT: "ordinary hits, the corners counter-clockwise as the ray sees them",
     Group.BACK: "the same from the other side",
-    Group.WHOLE: "hits in whole numbers: nothing is rounded",
+    Group.WHOLE: "hits in integers: nothing is rounded",
     Group.SCALED: "the first ones, 2^-30, 2^-20 and 2^20 times as large",
     Group.OUTSIDE: "rays that clearly pass beyond an edge",
     Group.BESIDE: "rays that pass 1e-9 to 1e-4 of the triangle's height inside or outside an edge",

@@ -1,4 +1,4 @@
-"""What a comparison leaves in a folder: three pictures, every output, the page, and the JSON."""
+"""A `Comparison` -> a folder of three pictures, all arrays, the page, and the JSON."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def _identity(comparison: Comparison) -> dict[str, NDArray]:
 def write_failure(directory: str | Path, error: BaseException) -> None:
     """Write a `comparison.json` that says why there is no comparison.
 
-    What an earlier run left goes: it would pass for this one's.
+    The results of an earlier run are removed: they would pass for this run's.
     """
     content = {
         "schema": SCHEMA,

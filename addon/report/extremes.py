@@ -1,8 +1,7 @@
 """Rows of numerical stability -> tables, `extremes.json` and pictures.
 
-The pictures: where each method breaks; the share of rays that it loses over every sweep; and a map
-for each two scales that are swept at once. The folder is whole but for the pictures where
-Matplotlib is missing.
+The pictures show where each method breaks, the share of rays that it loses in each sweep, and a map
+for each pair of scales that are swept together. They need Matplotlib; the rest does not.
 """
 
 from __future__ import annotations
@@ -37,8 +36,8 @@ _UNITS = {
     "doubled": "the method crosses more triangles than the certified ray does",
     "refused": "triangles and rays that are not finite in this precision",
     "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
-    "exact": "share of the pairs of a ray and a triangle that whole numbers decided",
-    "judged": "rays that an independent judge in whole numbers decided, with every triangle",
+    "exact": "share of the pairs of a ray and a triangle that integer arithmetic decided",
+    "judged": "rays that an independent judge in integers decided, with every triangle",
     "across": "of a row of a map: its second scale",
 }
 

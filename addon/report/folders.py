@@ -1,6 +1,6 @@
-"""Files that are whole or not there: an interruption leaves neither half a result nor a mixed one.
+"""Files that are complete or absent: an interruption leaves no half result, and no mixed one.
 
-In come names; out go places to write to. What is written there takes its name only at the end.
+Results are written in a temporary folder, and moved to their names at the end.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _PREFIX = ".reftrace-"  # of the folder beside the results in which they are wri
 
 
 def make(directory: Path) -> list[Path]:
-    """Make a folder before the work that it is for, and see that it can be written.
+    """Make a folder before the work whose results it takes, and test that it can be written.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def make(directory: Path) -> list[Path]:
 
 @contextmanager
 def made(directory: Path) -> Iterator[None]:
-    """Make a folder for some work; where that fails, what this made and is empty goes again."""
+    """Make a folder for some work; if the work fails, remove the folders that this has made."""
     new = make(directory)
     try:
         yield
@@ -66,11 +66,10 @@ def _remove(directories: Sequence[Path]) -> None:
 
 @contextmanager
 def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
-    """Give a folder to write results of these names into, for those that `directory` has.
+    """Give a temporary folder for results of these names, which then replace those in `directory`.
 
-    At the end the old ones go, the last name first, and the new ones come, the last name last: so
-    that where it is there, it is of the same run as all the others. Without a library for pictures,
-    what is written by then counts as all.
+    The file of the last name is removed first and moved last: if it exists, all others are from the
+    same run. Where a library for pictures is missing, what was written until then is the result.
 
     Raises
     ------
@@ -97,7 +96,7 @@ def _replace(directory: Path, new: Path, names: Sequence[str]) -> None:
 
 @contextmanager
 def replacing_file(path: Path) -> Iterator[Path]:
-    """Give a place for what will be the file `path`, once it is whole."""
+    """Give a temporary path; its file replaces the file `path` at the end."""
     with tempfile.TemporaryDirectory(dir=path.parent, prefix=_PREFIX) as new:
         yield Path(new) / path.name
         os.replace(Path(new) / path.name, path)
@@ -105,7 +104,7 @@ def replacing_file(path: Path) -> Iterator[Path]:
 
 @contextmanager
 def made_for_file(path: Path) -> Iterator[None]:
-    """Do what :func:`made` does, for the folder of a file.
+    """Make the folder of a file as :func:`made` does, and test that the file is not a folder.
 
     Raises
     ------
@@ -119,9 +118,9 @@ def made_for_file(path: Path) -> Iterator[None]:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a file that is whole or not there, and its folder.
+    """Write a complete file, and make its folder.
 
-    A name that a scene holds may be no Unicode: it is written as JSON spells it.
+    A name in a scene may be invalid Unicode: it is written with backslashes, as in JSON.
 
     Raises
     ------
@@ -133,7 +132,7 @@ def write_text(path: Path, text: str) -> None:
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
-    """Write a JSON file, such as other readers take, too.
+    """Write strict JSON, which every reader accepts.
 
     Raises
     ------

@@ -1,6 +1,6 @@
-"""What all plots share: a figure without Matplotlib's global state, and its pixels.
+"""What all plots share: figures without Matplotlib's global state, their style, and their pixels.
 
-Matplotlib is the extra `plots`; without it there are no plots, and all else works.
+Matplotlib is the extra `plots`. Without it there are no plots, and all else works.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def plain_axes(
 
 
 def log_ticks(axis: Axis, low: float, high: float) -> None:
-    """Make an axis logarithmic between two limits, with some five to ten numbers written out."""
+    """Make an axis logarithmic between two limits, with about five to ten numbers."""
     from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
 
     getattr(axis.axes, f"set_{axis.axis_name}scale")("log")

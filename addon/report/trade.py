@@ -1,4 +1,4 @@
-"""A `Trade` -> a table, `tradeoff.json` and the plot of what is gained against what is lost."""
+"""A `Trade` -> a table, `tradeoff.json`, and the plot of time against error."""
 
 from __future__ import annotations
 

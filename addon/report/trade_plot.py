@@ -54,7 +54,7 @@ def picture(trade: Trade) -> NDArray[np.uint8]:
 
 
 def _wrong_pixels(axes: Axes, trade: Trade) -> list[_Name]:
-    """Draw the methods side by side; returns what is to be named, and where."""
+    """Draw the methods side by side; return the names to be written, and where."""
     rows = trade.whole
     plots.plain_axes(
         axes,
@@ -103,7 +103,7 @@ def _is_named(row: Row) -> bool:
 
 
 def _coverage(axes: Axes, trade: Trade) -> list[_Name]:
-    """Draw all rows; returns what is to be named, and where."""
+    """Draw all rows; return the names to be written, and where."""
     plots.plain_axes(
         axes,
         "Time against coverage error\n"
@@ -129,7 +129,7 @@ def _coverage(axes: Axes, trade: Trade) -> list[_Name]:
 
 
 def _points(axes: Axes, rows: list[Row], error: _Error, best: Callable[[Row], bool]) -> list[Row]:
-    """Draw the rows, and the line of those that no other beats; returns these, fastest first."""
+    """Draw the rows, and the line of those that no other beats; return these, fastest first."""
     front = sorted((r for r in rows if best(r)), key=lambda r: (r.seconds, error(r)))
     line = [r.seconds for r in front], [error(r) for r in front]
     axes.plot(*line, color=plots.INK, lw=2.5, zorder=2)
@@ -144,7 +144,7 @@ def _points(axes: Axes, rows: list[Row], error: _Error, best: Callable[[Row], bo
 
 
 def _label(axes: Axes, names: list[_Name]) -> None:
-    """Write names beside their points, where nothing is in the way; else leave them out."""
+    """Write names beside their points; leave out a name that would cover another."""
     points = [
         axes.transData.transform((x, y))
         for line in axes.lines

@@ -1,7 +1,7 @@
-"""A `Comparison`, and what else was measured -> what a page shows, as JSON can hold it.
+"""A `Comparison`, and what else was measured -> all that a page shows, for JSON.
 
-`page.schema.json` says what each entry is. Pictures are images of 8 bits; the numbers behind them
-are packed arrays, of which the last are left out where the page would grow beyond LIMIT.
+`page.schema.json` describes each entry. Pictures are PNG images; the numbers behind them are packed
+arrays. The least useful arrays are left out where the page would grow beyond LIMIT.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ from .extras import Extras
 from .packing import data_uri, packed, size
 
 SCHEMA = "reference_tracer.page/1"
-LIMIT = 32 << 20  # letters of the packed arrays: what a browser still opens at once
+LIMIT = 32 << 20  # characters of the packed arrays: what a browser still opens at once
 
 _CERTAINTY = {
     Certainty.NOT_CERTIFIED: "floating point alone decided, without a proof",
     Certainty.BOUND: "floating point decided, and its error bound leaves no doubt",
-    Certainty.EXACT: "whole numbers decided, where the error bound left a doubt",
+    Certainty.EXACT: "integer arithmetic decided, where the error bound left a doubt",
     Certainty.AMBIGUOUS: "the ray meets an edge, a corner or two surfaces at once: a rule decided",
 }
 
@@ -151,7 +151,7 @@ def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, s
 
 
 def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[str]]:
-    """Return the numbers of every pixel, as many as fit, and what was left out."""
+    """Return as many of the pixels' numbers as fit, and sentences on what was left out."""
     scene, frame, causes = comparison.scene, comparison.frame, comparison.causes
     seen = surfaces.seen(frame)
     index = np.flatnonzero(causes.cause != Cause.AGREE)
@@ -186,7 +186,7 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
 def _by_priority(
     scene: Scene, comparison: Comparison, seen: surfaces.Surfaces
 ) -> list[tuple[str, str, Callable[[], dict[str, Any]]]]:
-    """Return name, description and maker of what may be left out, the most useful first."""
+    """Return the name, description and maker of each optional array, the most useful first."""
     frame = comparison.frame
     return [
         (
@@ -212,12 +212,12 @@ def _trade_plots(trade: Trade) -> Iterable[tuple[str, NDArray[np.uint8]]]:
 
 
 def _extremes_dict(rows: Sequence[Row]) -> dict[str, Any]:
-    """Return what `extremes.json` holds but its thousands of rows: the pictures show those."""
+    """Return what `extremes.json` holds, without its thousands of rows, which the plots show."""
     return {k: v for k, v in extremes_report.to_dict(rows).items() if k != "rows"}
 
 
 def _study(found: Any, to_dict: Callable, plots: Callable, missing: list[str]) -> Any:
-    """Return a study as JSON can hold it, with its plots where there can be any."""
+    """Return a study for JSON, with its plots if Matplotlib is installed."""
     if found is None:
         return None
     shown = []

@@ -1,8 +1,8 @@
 """What a page shows, and the page's own files -> one HTML file that needs nothing else.
 
-The page's files work as they lie here: `page.html` names its style and its scripts. In the written
-file each name is replaced by what it names, and a Content Security Policy lets exactly these
-scripts run and nothing be fetched, so that no name in a scene can do either.
+`page.html` names its style sheets and its scripts. The written file holds their contents in place
+of their names. A Content Security Policy lets only these scripts run and nothing be fetched, so
+that no name in a scene can do either.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def html(held: Mapping[str, Any]) -> str:
 
 
 def json_text(held: Mapping[str, Any]) -> str:
-    """Return JSON that ends no script element, whatever names it holds.
+    """Return JSON that cannot end a script element, whatever names it holds.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""What a page shows beside the comparison, and what it takes to find it out.
+"""What a page shows beside the comparison, and the work of finding it out.
 
-The literal textbook's picture, the derivations of the examples, and the studies where they are
-asked for. What would take too long is left out with a sentence that says so.
+These are the literal textbook's picture, the derivations of the examples, and the studies that were
+asked for. What would take too long is left out, and a sentence says so.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Arrays -> text that a page can carry.
+"""Arrays -> text within a page, and pictures -> addresses of images.
 
-The page's `data.js` unpacks what is packed here.
+The page's `data.js` unpacks the arrays.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
 
 
 def packed(values: NDArray) -> dict[str, Any]:
-    """Return an array as its type, its shape, and its bytes: all first ones, all second ones...
+    """Return an array's type, its shape, and its bytes, deflated (zlib) and in base64.
 
-    So sorted, the exponents of neighbouring numbers stand side by side, and compress. The bytes of
-    a number begin with the least; all are deflated (zlib) and in base64.
+    The first bytes of all numbers come first, then all second ones, and so on, so that the
+    exponents of neighbouring numbers stand side by side and compress. Numbers are little-endian.
     """
     values = np.ascontiguousarray(values)
     values = values.astype(values.dtype.newbyteorder("<"), copy=False)
@@ -34,7 +34,7 @@ def packed(values: NDArray) -> dict[str, Any]:
 
 
 def size(value: Any) -> int:
-    """Return how many letters the packed arrays in a value take."""
+    """Return how many characters the packed arrays in a value take."""
     if isinstance(value, dict):
         return sum(map(size, value.values()))
     return len(value) if isinstance(value, str) else 0

@@ -1,8 +1,8 @@
 """What a traced picture sees -> a table of its surfaces, small enough for a page.
 
-A pixel names its surface by its number in the table, 0 for none. The page computes world-space
-corners as the tracer does, from the mesh's own vertices and the instance's matrix; so what is
-packed is what the scene holds, and every number that follows from it has the same bits.
+A pixel holds the number of its surface in the table, 0 for none. The table holds vertices and
+matrices as the scene has them. The page computes world-space corners from these as the tracer does,
+so that all numbers that follow have the same bits.
 """
 
 from __future__ import annotations
@@ -85,12 +85,12 @@ def table(scene: Scene, surfaces: Surfaces) -> dict[str, Any]:
 
 
 def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.uint64]:
-    """Return by how many ulp the traced t is above what the textbook's formula gives, (h, w).
+    """Return by how many ulp the traced t is above that of the textbook's formula, (h, w).
 
-    The page computes the formula's t itself; with these small numbers it has the traced one, too,
-    to the last bit, in a fraction of the space. They are differences of bit patterns (modulo 2^64).
-    Where nothing is seen, or the formula gives no number, they count from 0. As 0, -1, 1, -2, 2...
-    are numbered 0, 1, 2, 3, 4..., all but the lowest bytes are zero, and compress.
+    The page computes the formula's t by itself. With these small numbers it has the traced t to the
+    last bit, in a fraction of the space. They are differences of bit patterns (modulo 2^64), from 0
+    where nothing is seen or the formula gives no number. The differences 0, -1, 1, -2, 2... are
+    stored as 0, 1, 2, 3, 4..., so that all but the lowest bytes are zero and compress.
     """
     t = frame.t.ravel()
     formula = np.zeros(len(t))
