@@ -26,9 +26,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.bounds import FromPoint, U, cross_magnitude
-from reference_tracer.tracer.certified.contest import decide
 from reference_tracer.tracer.vector import cross, dot
 
 ROUNDINGS = 16  # K
@@ -88,9 +88,9 @@ def plane_hits(rays: Rays, corners: Floats) -> tuple[Floats, Floats]:
     count = corners.shape[2]
     prepared = FromPoint(rays.origins, np.abs(rays.directions), corners)
     edges, _ = prepared.edges(np.arange(count), rays)
-    depths = prepared.depths(np.arange(count), rays)
-    towards = np.where(depths.towards == 0, np.nan, depths.towards)
-    return depths.depth / towards, edges[[1, 2, 0]] / towards
+    fractions = prepared.fractions(np.arange(count), rays)
+    towards = np.where(fractions.denominator == 0, np.nan, fractions.denominator)
+    return fractions.numerator / towards, edges[[1, 2, 0]] / towards
 
 
 def allowed(rays: Rays, corners: Floats, t: Floats) -> tuple[Floats, Floats]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions_of
 from reference_tracer.tracer.candidates import Pairs
-from reference_tracer.tracer.certified.bounds import U, plane_depths
+from reference_tracer.tracer.certified.bounds import U, plane_fractions
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING, Hits
@@ -180,6 +180,6 @@ def _near_planes(scene: Scene, rays: Rays, seen: NDArray, planes: Hits) -> NDArr
     near = np.zeros(len(seen), bool)
     for p in scene.planes:
         with np.errstate(all="ignore"):
-            low, high = plane_depths(rays, p.point[:, None], p.normal[:, None]).interval()
+            low, high = plane_fractions(rays, p.point[:, None], p.normal[:, None]).interval()
             near |= (low <= seen * (1 + _ALIKE)) & (high >= seen * (1 - _ALIKE))
     return near & (planes.instance != NOTHING) & (seen != planes.t)

@@ -17,13 +17,12 @@ from ..scene import Camera, Instance, Mesh, Region, Scene
 from ..tracer.camera import camera_rays
 from ..tracer.candidates import Pairs
 from ..tracer.certified.contest import Contest
-from ..tracer.certified.sweep.chunks import refused
 from ..tracer.hits import NOTHING, Hits, Name, Statistics
 from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import Method, Settings
 from ..tracer.triangle import METHODS
-from ..tracer.world import WorldTriangles
+from ..tracer.world import WorldTriangles, refused
 from .methods import PLAIN, nearest
 from .pixel import Candidate, Pixel, check_pixel
 

@@ -1,4 +1,4 @@
-"""Rays that are not a camera's: each is tested with each triangle, some at a time.
+"""Rays that are not a camera's: each is tested with each triangle, or pair by pair.
 
 They share nothing that could say which triangles they come near, so nothing is culled.
 """
@@ -6,16 +6,22 @@ They share nothing that could say which triangles they come near, so nothing is 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene import Scene
 from .camera import Rays
 from .candidates import Pairs
-from .certified.contest import Contest
+from .certified import exact
+from .certified.bounds import FromPoint
+from .certified.contest import Contest, in_range, sides
+from .certified.surfaces import SURE
+from .culling import PAIRS
 from .hits import Hits, Statistics
-from .nearest import PAIRS, test_pairs, test_planes
-from .progress import Work
+from .nearest import test_pairs, test_planes
+from .progress import Work, result_of
 from .settings import Settings
 from .world import WorldTriangles, batches, world_triangles
 
@@ -59,3 +65,58 @@ def _pairs(triangles: WorldTriangles, count: int) -> Iterator[Pairs]:
     for start in range(0, total, PAIRS):
         ray, row = np.divmod(np.arange(start, min(start + PAIRS, total)), size)
         yield Pairs(ray, row, triangles)
+
+
+@dataclass(frozen=True, eq=False)
+class Decision:
+    """What n rays make of n triangles, pair by pair: (n,) bool each."""
+
+    hit: NDArray[np.bool_]  # the ray, moved infinitesimally by the rule, meets it in the clip range
+    edge: NDArray[np.bool_]  # the ray as it is meets its edge or corner exactly
+    exact: NDArray[np.bool_]  # integers decided
+
+
+def decide(
+    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
+) -> Decision:
+    """Decide pairs of a ray and a triangle, each by itself.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays, finite, float64.
+    corners : (3, 3, n) float64
+        Corner, component, triangle; finite, in world space.
+    start, end : float
+        As of a `Contest`.
+    """
+    hit, edge, undecided = (np.zeros(corners.shape[2], bool) for _ in range(3))
+    every = np.arange(corners.shape[2])
+    with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
+        prepared = FromPoint(rays.origins, np.abs(rays.directions), corners)
+        sure, possible = sides(prepared, every, rays)
+        fractions = prepared.fractions(possible, rays.take(possible))
+        _, _, outside, doubt = in_range(fractions, sure, start, end)
+    hit[possible] = ~outside & (doubt == SURE)
+    undecided[possible] = ~outside & (doubt != SURE)
+    for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
+        batch = exact.Batch(rays.take(part), corners.take(part, axis=2), (), start, end)
+        for k, pair in enumerate(part.tolist()):
+            if found := batch.hit(k, k):
+                hit[pair], edge[pair] = found.is_hit(), found.on_edge
+    return Decision(hit, edge, undecided)
+
+
+def nearest(
+    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
+) -> Hits:
+    """Return what n rays see of m triangles (3, 3, m), each ray tested with each triangle.
+
+    Parameters are as of :func:`decide`. A hit has the instance 0, and the number of its triangle.
+    """
+    count = corners.shape[2]
+    triangles = WorldTriangles(corners, np.zeros(count, np.int32), np.arange(count, dtype=np.int32))
+    contest = Contest(rays, (), 0, start, end)
+    for some in _pairs(triangles, max(rays.origins.shape[1], rays.directions.shape[1])):
+        contest.enter(some)
+    return result_of(contest.hits(Statistics()))

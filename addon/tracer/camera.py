@@ -99,6 +99,17 @@ def camera_rays(
         return Rays(*camera.projection.ray(origin, x * right + y * up, forward))
 
 
+def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:
+    """Return the rays of the picture's corner pixels, which enclose those of all the others.
+
+    By component: a ray is linear in x and y, and rounding is monotone. What is computed for these
+    holds for all rays, and does not depend on the region that is traced.
+    """
+    px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5]) + dx
+    py = np.array([0.5, camera.height - 0.5] * 2) + dy
+    return camera_rays(camera, px, py)
+
+
 def film_of(
     camera: Camera, points: Vectors
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray]:

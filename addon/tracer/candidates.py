@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Region
 from .camera import pixel_size, project
+from .vector import spread
 from .world import WorldTriangles
 
 # Camera-space coordinates and rays are off by at most a few roundings, of half an eps each, of all
@@ -185,10 +186,3 @@ def pairs(
         run, step = spread(np.arange(first, last), length[first:last])
         yield start[run] + step, triangle[run]
         first = last
-
-
-def spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Repeat each item `count` times; the second array numbers its copies from 0."""
-    repeated = np.repeat(items, counts)
-    ends = np.cumsum(counts)
-    return repeated, np.arange(len(repeated)) - np.repeat(ends - counts, counts)

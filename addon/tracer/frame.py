@@ -15,7 +15,7 @@ from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
 from .certified.certainty import Certainty
-from .hits import NOTHING, Hits, Name, Statistics
+from .hits import NOTHING, Hits, Statistics, Ties
 from .memory import check_memory
 
 BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 8 + 2 * 4 + 1  # of a frame's arrays
@@ -38,8 +38,7 @@ class Frame:
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
     certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
     rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
-    # All that an ambiguous pixel's ray may be said to see, by the pixel's index, row by row.
-    ties: dict[int, frozenset[Name]] = field(default_factory=dict)
+    ties: Ties = field(default_factory=Ties.none)  # by the pixel's index, row by row
     cancelled: bool = False
     statistics: Statistics = field(default_factory=Statistics)
 
@@ -130,10 +129,9 @@ class Frame:
         wrong = (self.instance_index != certified.instance_index) | (
             self.triangle_index != certified.triangle_index
         )
-        for pixel in np.flatnonzero(wrong).tolist():
-            if may := certified.ties.get(pixel):
-                name = int(self.instance_index.flat[pixel]), int(self.triangle_index.flat[pixel])
-                wrong.flat[pixel] = name not in may
+        pixel = np.flatnonzero(wrong)
+        name = self.instance_index.ravel()[pixel], self.triangle_index.ravel()[pixel]
+        wrong.flat[pixel[certified.ties.may_see(pixel, *name)]] = False
         return wrong
 
     def arrays(self) -> dict[str, NDArray]:

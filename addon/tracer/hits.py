@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from .certified.certainty import Certainty
 from .certified.reasons import Reason, sentences
+from .vector import spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Name = tuple[int, int]  # instance and triangle
@@ -63,6 +64,62 @@ class Statistics:
         return lines
 
 
+@dataclass(frozen=True, eq=False)
+class Ties(Mapping[int, frozenset[Name]]):
+    """All that ambiguous rays may be said to see: a row for each ray and surface, (k,) each.
+
+    Sorted by the ray's index. As a mapping it has the names of each ambiguous ray.
+    """
+
+    ray: NDArray[np.int64]
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+
+    @classmethod
+    def none(cls) -> Ties:
+        """Return no ties."""
+        return cls(np.zeros(0, np.int64), *np.zeros((2, 0), np.int32))
+
+    @classmethod
+    def joined(cls, parts: Sequence[Ties]) -> Ties:
+        """Return the ties of several sets of rays, one after the other or mixed, as one."""
+        parts = [part for part in parts if len(part.ray)]
+        if len(parts) < 2:
+            return parts[0] if parts else cls.none()
+        ray, *name = map(np.concatenate, zip(*(vars(p).values() for p in parts), strict=True))
+        if (ray[1:] < ray[:-1]).any():
+            order = np.argsort(ray, kind="stable")
+            ray, name = ray[order], [v[order] for v in name]
+        return cls(ray, *name)
+
+    def numbered(self, numbers: NDArray[np.integer] | int) -> Ties:
+        """Return the ties with ray i called numbers[i], which ascend, or i + numbers."""
+        ray = self.ray + numbers if isinstance(numbers, int) else numbers[self.ray]
+        return Ties(ray.astype(np.int64, copy=False), self.instance, self.triangle)
+
+    def may_see(self, ray: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.bool_]:
+        """Return which of these rays are ambiguous and may be said to see these surfaces, (n,)."""
+        start, end = (np.searchsorted(self.ray, ray, side) for side in ("left", "right"))
+        which, number = spread(np.arange(len(ray)), end - start)
+        row = start[which] + number
+        same = (self.instance[row] == instance[which]) & (self.triangle[row] == triangle[which])
+        return np.bincount(which, same, len(ray)) > 0
+
+    def __getitem__(self, ray: int) -> frozenset[Name]:
+        start, end = (int(np.searchsorted(self.ray, ray, side)) for side in ("left", "right"))
+        if start == end:
+            raise KeyError(ray)
+        rows = slice(start, end)
+        pairs = zip(self.instance[rows].tolist(), self.triangle[rows].tolist(), strict=True)
+        return frozenset(pairs)
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(np.unique(self.ray).tolist())
+
+    def __len__(self) -> int:
+        return int((np.diff(self.ray, prepend=-1) != 0).sum())
+
+
 @dataclass(eq=False)
 class Hits:
     """What n rays meet.
@@ -78,7 +135,7 @@ class Hits:
     triangle: NDArray[np.int32]
     s: NDArray[np.float64]
     certainty: NDArray[np.uint8] = None  # type: ignore[assignment]  # by default NOT_CERTIFIED
-    ties: dict[int, frozenset[Name]] = field(default_factory=dict)
+    ties: Ties = field(default_factory=Ties.none)
 
     def __post_init__(self) -> None:
         if self.certainty is None:
@@ -102,11 +159,14 @@ class Hits:
             return parts[0]
         names = ("t", "instance", "triangle", "s", "certainty")
         out = cls(*(np.concatenate([getattr(p, n) for p in parts], axis=-1) for n in names))
-        first = 0
-        for part in parts:
-            out.ties.update((first + ray, names) for ray, names in part.ties.items())
-            first += len(part.t)
+        starts = np.cumsum([0, *(len(part.t) for part in parts)]).tolist()
+        out.ties = Ties.joined([p.ties.numbered(s) for p, s in zip(parts, starts, strict=False)])
         return out
+
+    def enter(self, index: NDArray | slice, other: Hits) -> None:
+        """Write others in the place of the hits of the rays at `index`, but for their ties."""
+        for name in ("t", "instance", "triangle", "s", "certainty"):
+            getattr(self, name)[..., index] = getattr(other, name)
 
     def take(self, index: NDArray | slice) -> Hits:
         """Return the hits of the rays at `index`, without their ties."""

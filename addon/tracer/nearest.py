@@ -2,12 +2,11 @@
 
 In come rays and candidates; out go `Hits`: for each ray the nearest t within the clip range, and
 whose it is. Exactly equal t go to the lower (instance, triangle); planes come after instances.
-`certified.py` does the same with proof.
+`certified/` does the same with proof.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,87 +15,26 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import Pairs, pairs, pixel_bounds, within
+from .candidates import Pairs
+from .culling import Culled, candidates, cull
 from .hits import NOTHING, Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .triangle import METHODS
 from .vector import Vectors
-from .world import Batch, batches, world_triangles
-
-PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
-_BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
-    """Batches of a scene with the rows that each may cover.
+class Plan(Culled):
+    """A culled scene with the settings that it is traced by."""
 
-    For rays within `reach` pixels of their pixel's centre.
-    """
-
-    scene: Scene
     settings: Settings
-    reach: float
-    batches: list[Batch]
-    rows: list[tuple[int, int]]
-    refused: int  # triangles that are not finite in world space
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
     """Look at every batch once; yields 0, as nothing is traced yet."""
-    found, rows, refused = [], [], 0
-    for batch in batches(scene):
-        _, (x0, x1, y0, y1), left_out = _bounds(scene, settings, reach, batch)
-        refused += left_out
-        seen = (x0 < x1) & (y0 < y1)
-        if seen.any():
-            found.append(batch)
-            rows.append((int(y0[seen].min()), int(y1[seen].max())))
-        yield 0.0
-    return Plan(scene, settings, reach, found, rows, refused)
-
-
-def _bounds(scene: Scene, settings: Settings, reach: float, batch: Batch):
-    """Return a batch's triangles but those that are not finite, their bounds, and how many are."""
-    triangles = world_triangles(scene, batch, settings.precision.dtype)
-    finite = np.isfinite(triangles.corners).all(axis=(0, 1))
-    refused = len(finite) - int(finite.sum())
-    if refused:
-        triangles = triangles.take(np.flatnonzero(finite))
-    return triangles, pixel_bounds(scene.camera, triangles.corners, reach), refused
-
-
-def candidates(
-    plan: Plan, tile: Region, wanted: NDArray[np.bool_] | None = None
-) -> Iterator[tuple[float, Pairs | None]]:
-    """Yield the share of the work that is done, and the next pairs of a tile (None: none yet).
-
-    Parameters
-    ----------
-    plan : Plan
-    tile : Region
-        Of n pixels, which the pairs index row by row from the lowest.
-    wanted : (n,) bool, optional
-        Only these pixels are proposed.
-    """
-    limit = max(1, min(PAIRS, plan.settings.memory // (4 * _BYTES_PER_PAIR)))
-    work = [
-        b
-        for b, (y0, y1) in zip(plan.batches, plan.rows, strict=True)
-        if y0 < tile.y1 and y1 > tile.y0
-    ]
-    for done, batch in enumerate(work):
-        triangles, bounds, _ = _bounds(plan.scene, plan.settings, plan.reach, batch)
-        bounds = within(bounds, tile)
-        inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
-        triangles = triangles.take(inside)
-        yield done / len(work), None
-        for pixel, row in pairs(bounds[:, inside], tile, limit):
-            if wanted is not None:
-                keep = np.flatnonzero(wanted[pixel])
-                pixel, row = pixel[keep], row[keep]
-            yield done / len(work), Pairs(pixel, row, triangles)
+    culled = yield from cull(scene, settings.precision.dtype, settings.memory, reach)
+    return Plan(**vars(culled), settings=settings)
 
 
 def trace_tile(

@@ -18,19 +18,19 @@ from . import shading
 from .any_rays import trace_rays
 from .camera import Rays
 from .certified.certainty import AssumptionError, check_assumptions
-from .certified.sweep.chunks import refused
-from .certified.sweep.sweep import sweep
+from .certified.sweep.sweep import sweep as certified
 from .frame import Frame
-from .hits import Hits, Statistics
+from .hits import Hits, Statistics, Ties
 from .nearest import plan, trace_tile
 from .progress import Work, result_of, scaled
 from .settings import Method, Precision, Settings
+from .world import refused
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
 PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
 SLOW_PIXELS = 1 << 18  # of a band where pixels take long
-BYTES_PER_PIXEL = 224  # of a band: depth buffer, what is kept, hits
+BYTES_PER_PIXEL = 224  # of a band: depth buffer, fragments, hits
 WHOLE = 0.999  # of the progress, until the picture is whole
 
 
@@ -144,7 +144,7 @@ def _tracer(
     """Prepare the settings' method; yields 0, as nothing is traced yet."""
     if not settings.method.is_plain:
         statistics.refused = refused(scene)
-        return lambda band, dx, dy: sweep(scene, band, settings.memory // 2, dx, dy, statistics)
+        return lambda band, dx, dy: certified(scene, band, settings.memory // 2, dx, dy, statistics)
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
     return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics)
@@ -218,21 +218,13 @@ def _write(
 ) -> Work[None]:
     """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
     rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
+    flat = frame.hits(rows)
     colors = frame.color[rows].reshape(-1, 4)
     for part in _parts(len(hits.t)):
         with frame.statistics.stage("shade"):
-            colors[part] = shading.colors(scene, hits.take(part)) if color is None else color[part]
+            some = hits.take(part)
+            colors[part] = shading.colors(scene, some) if color is None else color[part]
+            flat.enter(part, some)
         yield 1.0
-    with frame.statistics.stage("shade"):
-        shape = band.height, band.width
-        frame.barycentrics[rows] = np.moveaxis(hits.s.reshape(3, *shape), 0, -1)
-        for array, values in (
-            (frame.t, hits.t),
-            (frame.instance_index, hits.instance),
-            (frame.triangle_index, hits.triangle),
-            (frame.certainty, hits.certainty),
-        ):
-            array[rows] = values.reshape(shape)
-    first = rows.start * band.width
-    frame.ties.update((first + pixel, names) for pixel, names in hits.ties.items())
+    frame.ties = Ties.joined((frame.ties, hits.ties.numbered(rows.start * band.width)))
     frame.rows_done[rows] = True

@@ -44,6 +44,13 @@ def in_parts(function: Callable[[slice], NDArray], count: int, size: int) -> NDA
     return np.concatenate(parts, axis=-1)
 
 
+def spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Repeat each item `count` times; the second array numbers its copies from 0."""
+    repeated = np.repeat(items, counts)
+    ends = np.cumsum(counts)
+    return repeated, np.arange(len(repeated)) - np.repeat(ends - counts, counts)
+
+
 def dot(a: Vectors, b: Vectors) -> NDArray[np.floating]:
     """Return a . b, (n,), summed in the order x, y, z."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -115,3 +115,18 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> NDArray[np.
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
                 out[corner][:, rows] = transform_points(matrices, local)
     return out
+
+
+def refused(scene: Scene) -> int:
+    """Return how many triangles have a corner that is not finite in world space."""
+    count = 0
+    for instance in scene.instances:
+        mesh = scene.meshes[instance.mesh]
+        m = instance.world_from_object
+        with np.errstate(over="ignore", invalid="ignore"):
+            largest = np.abs(mesh.bounds).max(axis=0)
+            if np.isfinite((np.abs(m[:3, :3]) * largest).sum(axis=1) + np.abs(m[:3, 3])).all():
+                continue
+            finite = np.isfinite(transform_points(m, mesh.vertices.T)).all(axis=0)
+        count += int((~finite[mesh.triangles]).any(axis=1).sum())
+    return count

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.study.oracle import intersect_pairs
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.contest import decide
 from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.triangle import METHODS
 

@@ -15,8 +15,8 @@ from itertools import permutations
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
+from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.contest import decide, nearest
 
 from .meshes import bumpy_sphere, corners_of
 

@@ -20,8 +20,8 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, drop_non_finite
 from reference_tracer.study.oracle import scene_sights
+from reference_tracer.tracer.any_rays import nearest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.contest import nearest
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Settings
 

@@ -11,8 +11,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs
+from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.contest import decide, nearest
 
 from .families import FAMILIES, at_any_size, generic, whole_numbers
 

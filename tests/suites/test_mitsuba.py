@@ -11,8 +11,8 @@ import pytest
 import trimesh
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.study.oracle import intersect_pairs
+from reference_tracer.tracer.any_rays import nearest
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.certified.contest import nearest
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Settings
 

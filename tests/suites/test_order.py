@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import sights
+from reference_tracer.tracer.any_rays import nearest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.contest import nearest
 
 from .families import FAMILIES, SIZES, at_any_size
 

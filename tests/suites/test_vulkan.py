@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.scene import Mesh, ViewWindow
+from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.certified.contest import decide, nearest
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Method, Settings
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.contest import decide, nearest
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.study.oracle import scene_sights
+from reference_tracer.tracer import culling, plane, render, world
 from reference_tracer.tracer import nearest as visibility
-from reference_tracer.tracer import plane, render, world
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.certified.sweep import chunks as pieces
 from reference_tracer.tracer.certified.sweep import depth_bins as slabs
@@ -117,7 +117,7 @@ def test_certified_and_auto_against_exact_brute_force(mess):
 def test_the_division_of_the_work_does_not_matter(mess, settings, division, monkeypatch):
     whole = traced(mess, settings)
     for module, name, value in zip(
-        (visibility, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
+        (culling, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
     ):
         monkeypatch.setattr(module, name, value)
     if settings in PROVEN:

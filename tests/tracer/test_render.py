@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.scene import Region
-from reference_tracer.tracer import nearest as visibility
+from reference_tracer.tracer import culling
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.frame import Frame
@@ -159,7 +159,7 @@ def test_an_empty_scene_is_its_background(make, background, samples):
 @pytest.fixture
 def busy(make, monkeypatch):
     """Return a scene whose picture takes many small steps."""
-    monkeypatch.setattr(visibility, "PAIRS", 100)
+    monkeypatch.setattr(culling, "PAIRS", 100)
     monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (4 * 40))  # 4 rows
     camera = make.camera(40, 30, half=0.3, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
     return make.scene(camera, make.mesh(SHAPES["torus"]), make.mesh(SHAPES["box"]))
@@ -179,8 +179,8 @@ def test_steps_are_small(busy):
     tested = [0]
     for _ in steps(busy, Settings("moller_trumbore"), frame):
         tested.append(frame.statistics.pairs_tested)
-    assert max(np.diff(tested)) <= visibility.PAIRS + busy.camera.region.width
-    assert tested[-1] > 20 * visibility.PAIRS
+    assert max(np.diff(tested)) <= culling.PAIRS + busy.camera.region.width
+    assert tested[-1] > 20 * culling.PAIRS
     assert frame.statistics.triangles == busy.triangle_count
 
 

@@ -13,7 +13,7 @@ error is relative to the length of an edge, not to the distance of the origin fr
 So that a pair of a ray and a triangle costs little more than three scalar products, what depends
 on the triangle alone is computed once for all rays: from one origin (`FromPoint`), or with one
 direction (`Parallel`), with the bound for the ray that has the largest. Both have `edges` and
-`depths`, which differ in what is summed last.
+`fractions`, which differ in what is summed last.
 """
 
 from __future__ import annotations
@@ -48,25 +48,25 @@ def cross_magnitude(a: Vectors, b: Vectors) -> Vectors:
 
 
 @dataclass(frozen=True, eq=False)
-class Depths:
+class Fractions:
     """T and D of p pairs, (p,) each or shared, and how far they may be off."""
 
-    depth: Floats
-    depth_error: Floats
-    towards: Floats
-    towards_error: Floats
+    numerator: Floats
+    numerator_error: Floats
+    denominator: Floats
+    denominator_error: Floats
 
     def interval(self) -> tuple[Floats, Floats]:
         """Return the ends of an interval, (p,) each, that has t if t exists and is not negative.
 
         Where D may be zero, t is at least |T| / |D| at its smallest; there is no upper end.
         """
-        size = np.abs(self.towards)
-        t = self.depth / self.towards
-        error = (np.abs(t) * self.towards_error + self.depth_error) / (size - self.towards_error)
+        size, own = np.abs(self.denominator), self.denominator_error
+        t = self.numerator / self.denominator
+        error = (np.abs(t) * own + self.numerator_error) / (size - own)
         error = (error + U * np.abs(t)) * _LOOSE + SLACK
-        known = (size > self.towards_error) & np.isfinite(error)
-        least = (np.abs(self.depth) - self.depth_error) / (size + self.towards_error)
+        known = (size > own) & np.isfinite(error)
+        least = (np.abs(self.numerator) - self.numerator_error) / (size + own)
         least = np.where(least > 0, least * (2 - _LOOSE) - SLACK, 0.0)  # 0 of NaN, too
         low = np.where(known, np.nextafter(t - error, -np.inf), least)
         return low, np.where(known, np.nextafter(t + error, np.inf), np.inf)
@@ -97,7 +97,7 @@ class FromPoint:
         self._edges = np.concatenate((*normals, error[None]))
         n, size = _normal(corners)
         arm = np.abs(arms[0])
-        self._depths = np.concatenate(
+        self._fractions = np.concatenate(
             (
                 n,
                 bound(dot(reach, size), reach)[None],
@@ -112,10 +112,10 @@ class FromPoint:
         x, y, z = rays.directions
         return np.stack([m[k] * x + m[k + 1] * y + m[k + 2] * z for k in (0, 3, 6)]), m[9]
 
-    def depths(self, rows: NDArray[np.integer], rays: Rays) -> Depths:
+    def fractions(self, rows: NDArray[np.integer], rays: Rays) -> Fractions:
         """Return T and D of p rays with p triangles."""
-        *n, towards_error, depth, depth_error = self._depths.take(rows, axis=1)
-        return Depths(depth, depth_error, dot(rays.directions, n), towards_error)
+        *n, error_of_d, t, error_of_t = self._fractions.take(rows, axis=1)
+        return Fractions(t, error_of_t, dot(rays.directions, n), error_of_d)
 
 
 class Parallel:
@@ -146,7 +146,7 @@ class Parallel:
         error = np.maximum(np.maximum(errors[0], errors[1]), errors[2])
         self._edges = np.concatenate((a, b, c, *normals, error[None]))
         n, magnitude = _normal(corners)
-        self._depths = np.concatenate(
+        self._fractions = np.concatenate(
             (
                 a,
                 n,
@@ -164,17 +164,17 @@ class Parallel:
             m[18],
         )
 
-    def depths(self, rows: NDArray[np.integer], rays: Rays) -> Depths:
+    def fractions(self, rows: NDArray[np.integer], rays: Rays) -> Fractions:
         """Return T and D of p rays with p triangles."""
-        m = self._depths.take(rows, axis=1)
-        return Depths(dot(m[:3] - rays.origins, m[3:6]), m[6], m[7], m[8])
+        m = self._fractions.take(rows, axis=1)
+        return Fractions(dot(m[:3] - rays.origins, m[3:6]), m[6], m[7], m[8])
 
 
-def plane_depths(rays: Rays, point: Vectors, normal: Vectors) -> Depths:
+def plane_fractions(rays: Rays, point: Vectors, normal: Vectors) -> Fractions:
     """Return T = (p - o) . n and D = d . n of n rays with an infinite plane, (3, 1) each."""
     arm = point - rays.origins
     sizes = [np.abs(v) for v in (arm, rays.directions, normal)]
-    return Depths(
+    return Fractions(
         dot(arm, normal),
         bound(dot(sizes[0], sizes[2]), sizes[0]),
         dot(rays.directions, normal),

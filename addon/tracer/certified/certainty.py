@@ -17,7 +17,7 @@ class Certainty(IntEnum):
 
     NOT_CERTIFIED = 0  # by floating point alone
     BOUND = 1  # by floating point, with an error bound that leaves no doubt
-    EXACT = 2  # by whole numbers, where the bound left some
+    EXACT = 2  # by integers, where the bound left some
     AMBIGUOUS = 3  # by the rule: the ray meets an edge, a corner or two surfaces at once
 
 

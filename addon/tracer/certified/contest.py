@@ -1,31 +1,28 @@
-"""The nearest hit of every ray, proven: by the bounds where they decide, else by whole numbers.
+"""The nearest hit of every ray, proven: by the bounds where they decide, else by integers.
 
 In come rays, and the pairs to be tested; out go `Hits` with the `Certainty` of each. A pair that
 the bounds rule out is done with. What may be a hit has an interval for its t, and only what could
 be the nearest is kept. At the end a ray whose one candidate surely is a hit is decided; the
-candidates of all others go to whole numbers together (`settle.py`).
+candidates of all others are settled together (`settle.py`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..candidates import Pairs
-from ..hits import Hits, Statistics
-from ..progress import Work, result_of
+from ..hits import Hits, Statistics, Ties
+from ..progress import Work
 from ..world import WorldTriangles
-from . import exact
-from .bounds import Depths, FromPoint, Parallel, plane_depths
+from .bounds import Fractions, FromPoint, Parallel, plane_fractions
 from .certainty import Certainty
-from .settle import by_bound, by_numbers, by_order, by_ray
+from .settle import BY_INTEGERS, BY_ORDER, Decisions, by_ray
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
-
-_PAIRS = 1 << 15  # that `nearest` tests at a time
 
 
 class Contest:
@@ -61,7 +58,7 @@ class Contest:
         self._count = max(rays.origins.shape[1], rays.directions.shape[1])
         self._farthest = np.full(self._count, np.inf)  # the nearest hit is not farther than this
         self._first_plane = first_plane
-        self._kept: list[Candidates] = []  # of all but the current batch
+        self._possible: list[Candidates] = []  # of all but the current batch
         self._surfaces = len(planes)
         self._triangles: list[WorldTriangles] = [WorldTriangles.none()]
         self._batch: WorldTriangles | None = None
@@ -69,10 +66,10 @@ class Contest:
         every = np.arange(self._count)
         for k, (point, normal) in enumerate(planes):
             with np.errstate(all="ignore"):
-                depths = plane_depths(rays, point[:, None], normal[:, None])
+                fractions = plane_fractions(rays, point[:, None], normal[:, None])
                 sure = np.ones(self._count, bool)
-                found = self._possible(every, np.full(self._count, k), depths, sure)
-            self._kept.append(found)
+                found = self._candidates(every, np.full(self._count, k), fractions, sure)
+            self._possible.append(found)
 
     def enter(self, some: Pairs) -> None:
         """Test pairs of a ray and a triangle; those of one batch follow one another."""
@@ -80,43 +77,46 @@ class Contest:
             self._end_batch()
             self._batch, self._prepared = some.triangles, self._prepare(some.triangles.corners)
         rays, row = self._rays.take(some.pixel), some.row
-        with np.errstate(all="ignore"):  # what overflows is not known, and goes to whole numbers
+        with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
             prepared = self._prepared
             if prepared is None:  # rays that share nothing: each pair by itself
                 prepared = FromPoint(rays.origins, np.abs(rays.directions), some.corners)
                 row = np.arange(len(row))
-            sure, possible = _sides(prepared, row, rays)
-            depths = prepared.depths(row[possible], rays.take(possible))
-            found = self._possible(some.pixel[possible], some.row[possible], depths, sure)
+            sure, possible = sides(prepared, row, rays)
+            fractions = prepared.fractions(row[possible], rays.take(possible))
+            found = self._candidates(some.pixel[possible], some.row[possible], fractions, sure)
         self._of_batch.append(found)
 
     def hits(self, statistics: Statistics) -> Work[Hits]:
         """Decide who is nearest, in small steps that all yield 1.
 
-        Counts in the statistics what whole numbers were asked for.
+        Counts in the statistics what integers were asked for.
         """
         self._end_batch()
         hits = Hits.none(self._count, Certainty.BOUND)
-        if not self._kept:
+        if not self._possible:
             return hits
-        found = Candidates.joined(self._kept)
+        found = Candidates.joined(self._possible)
         found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
         alone = np.bincount(found.ray, minlength=self._count)[found.ray] == 1
         clear = alone & (found.doubt == SURE)
         triangles = WorldTriangles.joined(self._triangles)
         surfaces = Surfaces(self._planes, self._first_plane, triangles)
+        decisions = Decisions(
+            hits, self._rays, surfaces, self._clip, self._around, statistics.reasons
+        )
         some = found.take(np.flatnonzero(clear))
-        for _ in by_bound(hits, self._rays, surfaces, some.ray, some.surface, self._around):
+        for _ in decisions.by_bound(some.ray, some.surface):
             yield 1.0
-        rest = found.take(np.flatnonzero(~clear))
-        with np.errstate(all="ignore"):
-            rest = by_order(
-                hits, self._rays, surfaces, self._clip, rest, statistics.reasons, self._around
-            )
-        for part in by_ray(rest):
-            yield 1.0
+        for part in by_ray(found.take(np.flatnonzero(~clear)), BY_ORDER):
             with np.errstate(all="ignore"):
-                by_numbers(hits, self._rays, surfaces, self._clip, part, statistics.reasons)
+                rest = decisions.by_order(part)
+            yield 1.0
+            for some in by_ray(rest, BY_INTEGERS):
+                with np.errstate(all="ignore"):
+                    decisions.by_integers(some)
+                yield 1.0
+        hits.ties = Ties.joined(decisions.ties)
         return hits
 
     def _prepare(self, corners: NDArray[np.float64]) -> FromPoint | Parallel | None:
@@ -130,9 +130,9 @@ class Contest:
                 return Parallel(d, *ends, corners)
         return None
 
-    def _possible(self, ray, surface, depths: Depths, sure) -> Candidates:
+    def _candidates(self, ray, surface, fractions: Fractions, sure) -> Candidates:
         """Return what may be in the clip range, and not behind what surely is."""
-        low, high, outside, doubt = _in_range(depths, sure, *self._clip)
+        low, high, outside, doubt = in_range(fractions, sure, *self._clip)
         certain = np.flatnonzero(doubt == SURE)
         np.minimum.at(self._farthest, ray[certain], high[certain])
         keep = np.flatnonzero(~outside & (low <= self._farthest[ray]))
@@ -143,72 +143,13 @@ class Contest:
         if self._of_batch:
             found = Candidates.joined(self._of_batch)
             used, number = np.unique(found.surface, return_inverse=True)
-            self._kept.append(replace(found, surface=number + self._surfaces))
+            self._possible.append(replace(found, surface=number + self._surfaces))
             self._triangles.append(self._batch.take(used))
             self._surfaces += len(used)
         self._of_batch, self._batch = [], None
 
 
-@dataclass(frozen=True, eq=False)
-class Decision:
-    """What n rays make of n triangles, pair by pair: (n,) bool each."""
-
-    hit: NDArray[np.bool_]  # the ray, moved infinitesimally by the rule, meets it in the clip range
-    edge: NDArray[np.bool_]  # the ray as it is meets its edge or corner exactly
-    exact: NDArray[np.bool_]  # whole numbers decided
-
-
-def decide(
-    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
-) -> Decision:
-    """Decide pairs of a ray and a triangle, each by itself.
-
-    Parameters
-    ----------
-    rays : Rays
-        n rays, finite, float64.
-    corners : (3, 3, n) float64
-        Corner, component, triangle; finite, in world space.
-    start, end : float
-        As of a `Contest`.
-    """
-    hit, edge, undecided = (np.zeros(corners.shape[2], bool) for _ in range(3))
-    every = np.arange(corners.shape[2])
-    with np.errstate(all="ignore"):  # what overflows is not known, and goes to whole numbers
-        prepared = FromPoint(rays.origins, np.abs(rays.directions), corners)
-        sure, possible = _sides(prepared, every, rays)
-        depths = prepared.depths(possible, rays.take(possible))
-        _, _, outside, doubt = _in_range(depths, sure, start, end)
-    hit[possible] = ~outside & (doubt == SURE)
-    undecided[possible] = ~outside & (doubt != SURE)
-    for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
-        batch = exact.Batch(rays.take(part), corners.take(part, axis=2), (), start, end)
-        for k, pair in enumerate(part.tolist()):
-            meeting = batch.meeting(k, k)
-            if meeting:
-                hit[pair], edge[pair] = meeting.is_hit(), meeting.on_edge
-    return Decision(hit, edge, undecided)
-
-
-def nearest(
-    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
-) -> Hits:
-    """Return what n rays see of m triangles (3, 3, m), each ray tested with each triangle.
-
-    Parameters are as of :func:`decide`. A hit has the instance 0, and the number of its triangle.
-    """
-    count = corners.shape[2]
-    triangles = WorldTriangles(corners, np.zeros(count, np.int32), np.arange(count, dtype=np.int32))
-    contest = Contest(rays, (), 0, start, end)
-    n = max(rays.origins.shape[1], rays.directions.shape[1])
-    together = max(1, _PAIRS // max(count, 1))
-    for first in range(0, n, together):
-        ray, row = np.divmod(np.arange(first * count, min(first + together, n) * count), count)
-        contest.enter(Pairs(ray, row, triangles))
-    return result_of(contest.hits(Statistics()))
-
-
-def _sides(prepared: FromPoint | Parallel, row: NDArray, rays: Rays):
+def sides(prepared: FromPoint | Parallel, row: NDArray, rays: Rays):
     """Return which of the pairs that may be hits surely are, and which pairs may be."""
     edges, error = prepared.edges(row, rays)
     low, high = edges.min(axis=0), edges.max(axis=0)
@@ -217,9 +158,9 @@ def _sides(prepared: FromPoint | Parallel, row: NDArray, rays: Rays):
     return sure, possible
 
 
-def _in_range(depths: Depths, sure: NDArray[np.bool_], start: float, end: float):
+def in_range(fractions: Fractions, sure: NDArray[np.bool_], start: float, end: float):
     """Return the ends of each t's interval, whether it surely is clipped, and what is in doubt."""
-    low, high = depths.interval()
+    low, high = fractions.interval()
     inside = (low > start) & (high < end)
     doubt = np.where(sure & np.isfinite(high), np.where(inside, SURE, CLIP), EDGE).astype(np.uint8)
     outside = (high < start) | (low > end)

@@ -1,6 +1,6 @@
-"""Ray and triangle in Python's whole numbers: no rounding anywhere.
+"""Ray and triangle in Python's integers: no rounding anywhere.
 
-Every float is a whole number times a power of two. With one power for all lengths of a batch, and
+Every float is an integer times a power of two. With one power for all lengths of a batch, and
 one for all directions, rays and corners become integers, and so does everything below. With the
 corners a, b, c relative to the ray's origin o:
 
@@ -33,27 +33,27 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 
-Whole = tuple[int, int, int]
+Integers = tuple[int, int, int]
 # Where a ray is moved to, infinitesimally: along the first, infinitely less along the second, ...
-Moves = Sequence[Whole]
+Moves = Sequence[Integers]
 
 PERTURBATION: Moves = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-ZERO: Whole = (0, 0, 0)
+ZERO: Integers = (0, 0, 0)
 
 
-_Triangle = tuple[int, Whole, tuple[Whole, ...], tuple[Whole, ...]]
+_Triangle = tuple[int, Integers, tuple[Integers, ...], tuple[Integers, ...]]
 
 
-class Meeting(NamedTuple):
-    """Where the line of a ray meets a triangle's closed area, or an infinite plane."""
+class Hit(NamedTuple):
+    """Where the line of a ray hits a triangle's closed area, or an infinite plane."""
 
-    depth: int  # T
-    towards: int  # D, not zero
-    normal: Whole  # n
+    numerator: int  # T
+    denominator: int  # D, not zero
+    normal: Integers  # n
     edges: tuple[int, ...]  # e_ab, e_bc, e_ca; none of a plane
-    sides: tuple[Whole, ...]  # m_ab, m_bc, m_ca
-    spans: tuple[Whole, ...]  # a - b, b - c, c - a
-    direction: Whole  # of the ray
+    sides: tuple[Integers, ...]  # m_ab, m_bc, m_ca
+    spans: tuple[Integers, ...]  # a - b, b - c, c - a
+    direction: Integers  # of the ray
 
     @property
     def on_edge(self) -> bool:
@@ -69,24 +69,24 @@ class Meeting(NamedTuple):
         return signs in ({1}, {-1})
 
 
-def compare(first: Meeting, second: Meeting, moves: Moves = PERTURBATION) -> int:
+def compare(first: Hit, second: Hit, moves: Moves = PERTURBATION) -> int:
     """Return the sign of t1 - t2 for the moved ray; 0 only for what lies in one plane."""
-    apart = first.depth * second.towards - second.depth * first.towards
+    apart = first.numerator * second.denominator - second.numerator * first.denominator
     sign = _sign(apart, *crossing(first, second), first.direction, moves)
-    return sign if (first.towards > 0) == (second.towards > 0) else -sign
+    return sign if (first.denominator > 0) == (second.denominator > 0) else -sign
 
 
-def crossing(first: Meeting, second: Meeting) -> tuple[Whole, Whole]:
+def crossing(first: Hit, second: Hit) -> tuple[Integers, Integers]:
     """Return T1 n2 - T2 n1 and, at t = 0, n1 x n2: how the order depends on the moved ray."""
     w = tuple(
-        first.depth * n2 - second.depth * n1
+        first.numerator * n2 - second.numerator * n1
         for n1, n2 in zip(first.normal, second.normal, strict=True)
     )
-    return w, ZERO if first.depth else _cross(first.normal, second.normal)
+    return w, ZERO if first.numerator else _cross(first.normal, second.normal)
 
 
 class Batch:
-    """Rays, triangles and planes as whole numbers.
+    """Rays, triangles and planes as integers.
 
     Parameters
     ----------
@@ -126,29 +126,29 @@ class Batch:
         self._open = start == 0
         self._known: dict[int, _Triangle] = {}
 
-    def meeting(self, ray: int, surface: int) -> Meeting | None:
-        """Return where a ray meets a surface within the clip range; None where it does not.
+    def hit(self, ray: int, surface: int) -> Hit | None:
+        """Return a ray's hit on a surface within the clip range; None where there is none.
 
         Surfaces are the planes, then the triangles.
         """
         d = self._directions[ray if len(self._directions) > 1 else 0]
         o = self._origins[ray if len(self._origins) > 1 else 0]
         if surface < len(self._planes):
-            depth, n = self._plane(o, surface)
-            return self._seen(Meeting(depth, _dot(d, n), n, (), (), (), d))
-        depth, n, sides, spans = self._triangle(o, surface)
+            numerator, n = self._plane(o, surface)
+            return self._seen(Hit(numerator, _dot(d, n), n, (), (), (), d))
+        numerator, n, sides, spans = self._triangle(o, surface)
         edges = tuple(_dot(d, m) for m in sides)
         if min(edges) < 0 < max(edges):
             return None
-        return self._seen(Meeting(depth, sum(edges), n, edges, sides, spans, d))
+        return self._seen(Hit(numerator, sum(edges), n, edges, sides, spans, d))
 
-    def of_first_ray(self, surface: int) -> tuple[int, int, Whole]:
+    def of_first_ray(self, surface: int) -> tuple[int, int, Integers]:
         """Return T, D and n of a surface, whether or not the first ray meets it."""
         find = self._plane if surface < len(self._planes) else self._triangle
-        depth, n, *_ = find(self._origins[0], surface)
-        return depth, _dot(self._directions[0], n), n
+        numerator, n, *_ = find(self._origins[0], surface)
+        return numerator, _dot(self._directions[0], n), n
 
-    def _triangle(self, o: Whole, surface: int) -> _Triangle:
+    def _triangle(self, o: Integers, surface: int) -> _Triangle:
         """Return T, n, and of each edge m and span; found once where all rays share o."""
         known = self._known.get(surface)
         if known:
@@ -163,14 +163,14 @@ class Batch:
             self._known[surface] = found
         return found
 
-    def _plane(self, o: Whole, surface: int) -> tuple[int, Whole]:
+    def _plane(self, o: Integers, surface: int) -> tuple[int, Integers]:
         """Return T and n."""
         point, n = self._planes[surface]
         return sum((p - x) * k for p, x, k in zip(point, o, n, strict=True)), n
 
-    def t(self, meeting: Meeting) -> float:
+    def t(self, hit: Hit) -> float:
         """Return t, correctly rounded; inf where no float is as large."""
-        numerator, denominator = meeting.depth, meeting.towards
+        numerator, denominator = hit.numerator, hit.denominator
         if self._shift >= 0:
             numerator <<= self._shift
         else:
@@ -184,33 +184,33 @@ class Batch:
         """Return a clip limit as (n, s) so that t >= limit where T 2^s >= n D, for D > 0."""
         if np.isinf(value):
             return None
-        [[whole]], exponent = integers(np.array([[value]]))
+        [[mantissa]], exponent = integers(np.array([[value]]))
         shift = self._shift - exponent
-        return (whole, shift) if shift >= 0 else (whole << -shift, 0)
+        return (mantissa, shift) if shift >= 0 else (mantissa << -shift, 0)
 
-    def _seen(self, meeting: Meeting) -> Meeting | None:
-        """Return the meeting if its t exists and lies within the clip range."""
-        towards = meeting.towards
-        if not towards:
+    def _seen(self, hit: Hit) -> Hit | None:
+        """Return the hit if its t exists and lies within the clip range."""
+        denominator = hit.denominator
+        if not denominator:
             return None
-        depth = meeting.depth if towards > 0 else -meeting.depth
-        if not depth and self._open:
+        numerator = hit.numerator if denominator > 0 else -hit.numerator
+        if not numerator and self._open:
             return None
         for limit, side in ((self._start, 1), (self._end, -1)):
             if limit is not None:
-                whole, shift = limit
-                if side * ((depth << shift) - whole * abs(towards)) < 0:
+                end, shift = limit
+                if side * ((numerator << shift) - end * abs(denominator)) < 0:
                     return None
-        return meeting
+        return hit
 
 
-def gap(first: Meeting, second: Meeting) -> int:
+def gap(first: Hit, second: Hit) -> int:
     """Return a number with the sign of t1 - t2, of the ray as it is."""
-    gap = first.depth * second.towards - second.depth * first.towards
-    return gap if (first.towards > 0) == (second.towards > 0) else -gap
+    gap = first.numerator * second.denominator - second.numerator * first.denominator
+    return gap if (first.denominator > 0) == (second.denominator > 0) else -gap
 
 
-def _sign(value: int, m: Whole, span: Whole, d: Whole, moves: Moves) -> int:
+def _sign(value: int, m: Integers, span: Integers, d: Integers, moves: Moves) -> int:
     """Return the sign of value + x m . moves[0] + ..., for an infinitesimal x > 0.
 
     Where value and m are zero it is that of (span x d) . moves[0] + ..., as above.
@@ -226,7 +226,7 @@ def _sign(value: int, m: Whole, span: Whole, d: Whole, moves: Moves) -> int:
     return (value > 0) - (value < 0)
 
 
-def turning(m: Whole, span: Whole, d: Whole) -> Whole:
+def turning(m: Integers, span: Integers, d: Integers) -> Integers:
     """Return what a move is multiplied by where the ray as it is decides nothing."""
     return _cross(span, d) if m == ZERO else m
 
@@ -237,20 +237,20 @@ def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
     zero = mantissa == 0
     least = int(exponent[~zero].min()) if not zero.all() else 0
     exponent[zero] = least
-    whole = (mantissa * 2.0**53).astype(np.int64)  # exact: a mantissa has 53 digits
-    columns = zip(whole.T.tolist(), (exponent - least).T.tolist(), strict=True)
+    digits = (mantissa * 2.0**53).astype(np.int64)  # exact: a mantissa has 53 digits
+    columns = zip(digits.T.tolist(), (exponent - least).T.tolist(), strict=True)
     return [tuple(m << e for m, e in zip(row, by, strict=True)) for row, by in columns], least - 53
 
 
-def _sub(a: Whole, b: Whole) -> Whole:
+def _sub(a: Integers, b: Integers) -> Integers:
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-def _dot(a: Whole, b: Whole) -> int:
+def _dot(a: Integers, b: Integers) -> int:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _cross(a: Whole, b: Whole) -> Whole:
+def _cross(a: Integers, b: Integers) -> Integers:
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],

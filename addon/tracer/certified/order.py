@@ -9,7 +9,7 @@ and for rays along one direction, D is the same for all and T = T0 - (o - o0) . 
 
     f0 - (o - o0) . v,  v = D2 n1 - D1 n2,  f0 its value for the origin o0
 
-w, or v and f0, belong to the two surfaces alone: whole numbers find them once, and their rounded
+w, or v and f0, belong to the two surfaces alone: integers find them once, and their rounded
 values decide all rays for which the result is above its rounding error, as in `bounds.py`. Where
 all of them are zero the surfaces lie in one plane.
 """
@@ -50,7 +50,7 @@ def compare(
     rays : Rays
         The n rays.
     batch : Batch
-        The surfaces as whole numbers, with the first of the rays around.
+        The surfaces as integers, with the first of the rays around.
     first, second : (n,) int
         Surfaces, as the batch numbers them.
 
@@ -81,12 +81,12 @@ def _difference(
 
     One power of two scales f0 and v alike, so that the largest of them is near 1.
     """
-    (depth1, towards1, n1), (depth2, towards2, n2) = map(batch.of_first_ray, (first, second))
+    (t1, d1, n1), (t2, d2, n2) = map(batch.of_first_ray, (first, second))
     if shared_origin:  # both t are positive, so that D has the sign of T
-        base, by1, by2, same = 0, depth1, depth2, (depth1 > 0) == (depth2 > 0)
+        base, by1, by2, same = 0, t1, t2, (t1 > 0) == (t2 > 0)
     else:
-        base = depth1 * towards2 - depth2 * towards1
-        by1, by2, same = towards1, towards2, (towards1 > 0) == (towards2 > 0)
+        base = t1 * d2 - t2 * d1
+        by1, by2, same = d1, d2, (d1 > 0) == (d2 > 0)
     v = [by1 * b - by2 * a for a, b in zip(n1, n2, strict=True)]
     unit = 0 if shared_origin else batch.unit
     bits = max(base.bit_length() + unit, *(k.bit_length() for k in v))
@@ -96,6 +96,6 @@ def _difference(
     return (*scaled, 1.0 if same else -1.0)
 
 
-def _scaled(whole: int, exponent: int) -> float:
-    """Return whole * 2^exponent, correctly rounded; at most 1."""
-    return whole / (1 << -exponent) if exponent < 0 else float(whole << exponent)
+def _scaled(value: int, exponent: int) -> float:
+    """Return value * 2^exponent, correctly rounded; at most 1."""
+    return value / (1 << -exponent) if exponent < 0 else float(value << exponent)

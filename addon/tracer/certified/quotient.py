@@ -1,7 +1,7 @@
 """t = T / D of rays and surfaces that they surely hit, rounded to the nearest float64.
 
 T = (p - o) . n and D = d . n are sums of three products each. Vectors are split into a high half of
-25 digits and the rest (`error_free.halves`), so that what the high halves make is exact, and all
+25 digits and the rest (`halves`), so that what the high halves make is exact, and all
 else is some 2^-25 of it: with its own roundings a scalar product v . n is off by at most
 
     V (N + 3 M) 2^-72
@@ -12,6 +12,11 @@ roundings; the rest of n, with one; and the error of n, which is likewise at mos
 
 The quotient is corrected by what is left of T - t D; then there is almost always a single float64
 that it may be rounded to (Ziv's test), and it is.
+
+Sums and products without error, as a float and the rest that it leaves, are at the end. They hold
+as long as nothing under- or overflows; an overflow ends in NaN or inf. Source: Dekker, "A
+floating-point technique for extending the available precision", Numerische Mathematik 18, 1971;
+Knuth, "The art of computer programming", vol. 2, 4.2.2, theorem B.
 """
 
 from __future__ import annotations
@@ -24,7 +29,6 @@ from numpy.typing import NDArray
 from ..camera import Rays
 from ..vector import Vectors, gather
 from .bounds import U
-from .error_free import Pair, fast_two_sum, halves, power_above, two_product, two_sum
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
 _DOT = 2.0**-72
@@ -32,7 +36,11 @@ _QUOTIENT = 32 * U * U  # of the correction's own roundings, relative to t
 _LEAST = 2.0**-950  # of what T and D are made of: below, products lose digits to underflow
 _LOOSE = 1 + 2.0**-40  # the bounds' own roundings
 
+BITS = 25  # of the high halves that `halves` leaves
+_SPLITTER = 2.0**27 + 1  # leaves halves of 26 digits, whose products are exact
+
 Floats = NDArray[np.float64]
+Pair = tuple[Floats, Floats]  # high + low, |low| <= u |high|
 Sum = tuple[Floats, Floats, Floats]  # high, low, error
 
 
@@ -62,9 +70,9 @@ class Quotients:
         every = np.arange(point.shape[1])
         self._fixed = np.zeros((0, len(every)))  # what is the same for all rays
         if self._one_origin or self._one_direction:
-            depth = self._dot(*two_sum(point, -self._origin), every)
-            towards = () if self._one_origin else self._along(rays, every)
-            self._fixed = np.stack((*depth, *towards))
+            numerator = self._dot(*two_sum(point, -self._origin), every)
+            denominator = () if self._one_origin else self._along(rays, every)
+            self._fixed = np.stack((*numerator, *denominator))
 
     @classmethod
     def of(cls, rays: Rays, corners: NDArray[np.float64], planes: Sequence = ()) -> Quotients:
@@ -91,17 +99,17 @@ class Quotients:
     def meet(self, rays: Rays, surface: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
         """Return t of p rays with surfaces, and whether it surely is the nearest float64."""
         if self._one_origin:
-            depth = tuple(gather(self._fixed, surface))
-            return _quotient(depth, self._along(rays, surface))
+            numerator = tuple(gather(self._fixed, surface))
+            return _quotient(numerator, self._along(rays, surface))
         if not self._one_direction:
             point = gather(self._point, surface)
-            depth = self._dot(*two_sum(point, -rays.origins), surface)
-            return _quotient(depth, self._along(rays, surface))
-        high, low, error, *towards = gather(self._fixed, surface)
+            numerator = self._dot(*two_sum(point, -rays.origins), surface)
+            return _quotient(numerator, self._along(rays, surface))
+        high, low, error, *denominator = gather(self._fixed, surface)
         moved = self._dot(*two_sum(rays.origins, -self._origin), surface)
         high, rest = two_sum(high, -moved[0])
-        depth = *two_sum(high, rest + (low - moved[1])), error + moved[2]
-        return _quotient(depth, tuple(towards))
+        numerator = *two_sum(high, rest + (low - moved[1])), error + moved[2]
+        return _quotient(numerator, tuple(denominator))
 
     def _along(self, rays: Rays, surface: NDArray[np.intp]) -> Sum:
         return self._dot(rays.directions, 0.0, surface)
@@ -136,17 +144,61 @@ def _cross(u: Pair, v: Pair) -> tuple[Pair, Floats]:
     return (high, low), units[0] * units[1]
 
 
-def _quotient(depth: Sum, towards: Sum) -> tuple[Floats, NDArray[np.bool_]]:
+def _quotient(numerator: Sum, denominator: Sum) -> tuple[Floats, NDArray[np.bool_]]:
     """Return T / D as a float64, and whether no other is as near."""
-    high, low, depth_error = depth
-    under, rest, towards_error = towards
+    high, low, numerator_error = numerator
+    under, rest, denominator_error = denominator
     first = high / under
     product, lost = two_product(first, under)
     left = ((high - product) - lost) + (low - first * rest)
     t, beyond = fast_two_sum(first, left / under)
     size = np.abs(first)
-    error = (size * towards_error + depth_error) / (np.abs(under) - towards_error)
+    error = (size * denominator_error + numerator_error) / (np.abs(under) - denominator_error)
     error = (error + _QUOTIENT * size) * _LOOSE
-    sure = (np.abs(under) > 2 * towards_error) & (np.abs(high) > _LEAST) & (size > _LEAST)
+    sure = (np.abs(under) > 2 * denominator_error) & (np.abs(high) > _LEAST) & (size > _LEAST)
     sure &= (t + (beyond + error) == t) & (t + (beyond - error) == t)
     return t, sure
+
+
+def two_sum(a: Floats, b: Floats) -> Pair:
+    """Return a + b."""
+    total = a + b
+    part = total - a
+    return total, (a - (total - part)) + (b - part)
+
+
+def fast_two_sum(a: Floats, b: Floats) -> Pair:
+    """Return a + b, for |a| >= |b| or a = 0."""
+    total = a + b
+    return total, b - (total - a)
+
+
+def two_product(a: Floats, b: Floats) -> Pair:
+    """Return a * b."""
+    product = a * b
+    a_high, a_low = _split(a)
+    b_high, b_low = _split(b)
+    error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+    return product, error
+
+
+def power_above(v: Floats) -> Floats:
+    """Return the power of two above the largest component of vectors (3, n)."""
+    x, y, z = np.abs(v)
+    return np.ldexp(1.0, np.frexp(np.maximum(np.maximum(x, y), z))[1])
+
+
+def halves(v: Floats, unit: Floats) -> Pair:
+    """Return v as a multiple of unit * 2^-BITS and the rest, for |v| <= unit, a power of two.
+
+    Three products of two such multiples, and sums of them, are exact: they have at most 52 digits.
+    """
+    shift = unit * (1.5 * 2.0 ** (52 - BITS))
+    high = (v + shift) - shift
+    return high, v - high
+
+
+def _split(a: Floats) -> Pair:
+    scaled = _SPLITTER * a
+    high = scaled - (scaled - a)
+    return high, a - high

@@ -1,20 +1,28 @@
-"""What may be the nearest of each ray: hits, in doubt or not, and the surfaces that they are on."""
+"""What may be the nearest of each ray: hits, in doubt or not, and the surfaces that they are on.
+
+`Candidates` are pairs of a ray and a surface that the error bounds could not rule out. `Surfaces`
+give their names, and the same pairs in integers. `Prepared` surfaces give t and the barycentrics of
+rays that surely hit them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..hits import NOTHING
+from ..hits import NOTHING, Hits
+from ..vector import Vectors, cross, dot, gather, in_parts
 from ..world import WorldTriangles
 from . import exact
+from .quotient import Quotients
 
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
+TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,15 +84,15 @@ class Surfaces:
         instance, triangle = self.name()
         return instance[surface], triangle[surface]
 
-    def numbers(
+    def integers(
         self,
         rays: Rays,
         ray: NDArray[np.intp],
         surface: NDArray[np.intp],
         start: float = -np.inf,
         end: float = np.inf,
-    ) -> Numbers:
-        """Return pairs of a ray and a surface, (c,) each, as whole numbers."""
+    ) -> IntegerPairs:
+        """Return pairs of a ray and a surface, (c,) each, as integers."""
         which, ray = np.unique(ray, return_inverse=True)
         planes = len(self.planes)
         used, surface = np.unique(
@@ -92,17 +100,98 @@ class Surfaces:
         )  # every plane stays, so that planes keep their numbers
         some = self.take(used[planes:])
         batch = exact.Batch(rays.take(which), some.triangles.corners, self.planes, start, end)
-        return Numbers(batch, ray.tolist(), surface[planes:].tolist())
+        return IntegerPairs(batch, ray.tolist(), surface[planes:].tolist())
 
 
 @dataclass(frozen=True, eq=False)
-class Numbers:
-    """Candidates as whole numbers."""
+class IntegerPairs:
+    """Pairs of a ray and a surface as integers."""
 
     batch: exact.Batch
     ray: list[int]
     surface: list[int]
 
-    def meeting(self, k: int) -> exact.Meeting | None:
-        """Return what candidate k truly is."""
-        return self.batch.meeting(self.ray[k], self.surface[k])
+    def hit(self, k: int) -> exact.Hit | None:
+        """Return the exact hit of pair k; None where there is none in the clip range."""
+        return self.batch.hit(self.ray[k], self.surface[k])
+
+
+class Prepared:
+    """Surfaces, prepared for rays that share an origin, a direction, or nothing.
+
+    What belongs to the surfaces alone is computed once, for all rays.
+    """
+
+    def __init__(self, rays: Rays, surfaces: Surfaces) -> None:
+        corners = surfaces.triangles.corners
+        self._surfaces, self._names = surfaces, surfaces.name()
+        self._unsure: list[tuple[NDArray, NDArray]] = []
+        self._planes = len(surfaces.planes)
+        with np.errstate(all="ignore"):  # what overflows is not sure
+            self._quotients = Quotients.of(rays, corners, surfaces.planes)
+            self._edges = in_parts(
+                lambda part: _edges(rays, corners[..., part]), corners.shape[2], TOGETHER
+            )
+
+    def enter(
+        self, hits: Hits, at: NDArray[np.intp], rays: Rays, surface: NDArray[np.intp]
+    ) -> None:
+        """Enter what rays (p,) surely hit first into the hits with these numbers."""
+        with np.errstate(all="ignore"):  # what overflows is not sure
+            t, sure, s = self.meet(rays, surface)
+        if not sure.all():
+            unsure = np.flatnonzero(~sure)
+            self._unsure.append((at[unsure], surface[unsure]))
+        hits.t[at] = t
+        for component, value in zip(hits.s, s, strict=True):
+            component[at] = value
+        instance, triangle = self._names
+        hits.instance[at], hits.triangle[at] = instance.take(surface), triangle.take(surface)
+
+    def finish(self, hits: Hits, rays_at: Callable[[NDArray[np.intp]], Rays]) -> None:
+        """Enter the t that could not be rounded for sure: integers divide."""
+        if not self._unsure:
+            return
+        at, surface = map(np.concatenate, zip(*self._unsure, strict=True))
+        pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface)
+        hits.t[at] = [pairs.batch.t(pairs.hit(k)) for k in range(len(at))]
+        self._unsure = []
+
+    def meet(
+        self, rays: Rays, surface: NDArray[np.intp]
+    ) -> tuple[NDArray[np.float64], NDArray[np.bool_], Vectors]:
+        """Return t of p rays, whether it surely is rounded correctly, and the barycentrics."""
+        t, sure = self._quotients.meet(rays, surface)
+        row = np.maximum(surface - self._planes, 0) if self._planes else surface
+        s = self._weights(rays, row) if len(self._edges.T) else np.zeros((3, len(surface)))
+        if self._planes:
+            s[:, surface < self._planes] = 0
+        return t, sure, s
+
+    def _weights(self, rays: Rays, row: NDArray[np.intp]) -> Vectors:
+        """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum."""
+        edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
+        if len(edges[0]) == 1:
+            of_each = [dot(normal, rays.directions) for (normal,) in edges]
+        elif rays.directions.shape[1] == 1:
+            of_each = [dot(corner - rays.origins, normal) for corner, normal in edges]
+        else:
+            of_each = [
+                dot(rays.directions, cross(corner - rays.origins, side)) for corner, side in edges
+            ]
+        s = np.stack(of_each)
+        s /= s[0] + s[1] + s[2]
+        return s
+
+
+def _edges(rays: Rays, corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what the edges bc, ca, ab of triangles (3, 3, m) are to all rays: (9 or 18, m)."""
+    out = []
+    for k in (1, 2, 0):
+        corner, side = corners[k], corners[(k + 1) % 3] - corners[k]
+        if rays.origins.shape[1] == 1:
+            out.append(cross(corner - rays.origins, side))
+        else:
+            shared = rays.directions.shape[1] == 1
+            out += [corner, cross(side, rays.directions) if shared else side]
+    return np.concatenate(out)

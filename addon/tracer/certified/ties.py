@@ -1,6 +1,6 @@
 """What one ray sees of all that it meets; and what else it may be said to see, where that is open.
 
-In come meetings in whole numbers (`exact.py`); out goes the nearest by the rule, and the ties.
+In come exact hits, in integers (`exact.py`); out goes the nearest by the rule, and the ties.
 """
 
 from __future__ import annotations
@@ -9,15 +9,15 @@ from collections.abc import Sequence
 from functools import cmp_to_key
 
 from ..hits import Name
-from .exact import PERTURBATION, Meeting, Moves, Whole, compare, crossing, gap, turning
+from .exact import PERTURBATION, Hit, Integers, Moves, compare, crossing, gap, turning
 
 
-def nearest(meetings: Sequence[tuple[Name, Meeting]], nothing: Name) -> tuple[int, frozenset[Name]]:
-    """Return which of these meetings of one ray is seen, and whatever else may be.
+def nearest(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int, frozenset[Name]]:
+    """Return which of these hits of one ray is seen, and whatever else may be.
 
     Parameters
     ----------
-    meetings : sequence of (name, Meeting)
+    hits : sequence of (name, Hit)
     nothing : name
         Of what is seen where nothing is.
 
@@ -29,15 +29,15 @@ def nearest(meetings: Sequence[tuple[Name, Meeting]], nothing: Name) -> tuple[in
         Where the ray as it is meets an edge, a corner, or two surfaces at once before anything
         else, all that one moved infinitesimally may see; empty where the answer is the only one.
     """
-    seen = _first(meetings, PERTURBATION)
-    inside = [m for _, m in meetings if not m.on_edge]
-    front = meetings
+    seen = _first(hits, PERTURBATION)
+    inside = [m for _, m in hits if not m.on_edge]
+    front = hits
     if inside:
         least = inside[0]
         for m in inside[1:]:
             if gap(m, least) < 0:
                 least = m
-        front = [(name, m) for name, m in meetings if gap(m, least) <= 0]
+        front = [(name, m) for name, m in hits if gap(m, least) <= 0]
     if not front or (len(front) == 1 and not front[0][1].on_edge):
         return seen, frozenset()
     first = front[0][1]
@@ -45,13 +45,13 @@ def nearest(meetings: Sequence[tuple[Name, Meeting]], nothing: Name) -> tuple[in
         if gap(m, first) < 0:
             first = m
     ties = {name for name, m in front if gap(m, first) == 0}
-    ties.add(meetings[seen][0] if seen >= 0 else nothing)
+    ties.add(hits[seen][0] if seen >= 0 else nothing)
     found = (_first(front, (move,)) for move in _ways([m for _, m in front]))
     ties.update(front[k][0] if k >= 0 else nothing for k in found)
     return seen, frozenset(ties)
 
 
-def _ways(meetings: Sequence[Meeting]) -> list[Whole]:
+def _ways(hits: Sequence[Hit]) -> list[Integers]:
     """Return ways to move their ray, one for each answer that it may have.
 
     The answer changes where the moved ray meets an edge that the ray itself meets, or the line in
@@ -59,11 +59,11 @@ def _ways(meetings: Sequence[Meeting]) -> list[Whole]:
     is a way between every two that follow one another.
     """
     lines = []
-    for k, met in enumerate(meetings):
-        edges = zip(met.edges, met.sides, met.spans, strict=True)
+    for k, hit in enumerate(hits):
+        edges = zip(hit.edges, hit.sides, hit.spans, strict=True)
         lines += [(m, span) for e, m, span in edges if e == 0]
-        lines += [crossing(met, other) for other in meetings[:k] if gap(met, other) == 0]
-    d = meetings[0].direction
+        lines += [crossing(hit, other) for other in hits[:k] if gap(hit, other) == 0]
+    d = hits[0].direction
     lines = [turning(*line, d) for line in lines]
     along = max(range(3), key=lambda axis: abs(d[axis]))  # not needed: moves along d change nothing
     x, y = (along + 1) % 3, (along + 2) % 3
@@ -94,12 +94,12 @@ def _by_angle(u: tuple[int, int], v: tuple[int, int]) -> int:
     return (turn < 0) - (turn > 0)
 
 
-def _first(meetings: Sequence[tuple[Name, Meeting]], moves: Moves) -> int:
+def _first(hits: Sequence[tuple[Name, Hit]], moves: Moves) -> int:
     """Return the index of the nearest hit of the moved ray, -1 for none."""
     best = -1
-    for k, (name, m) in enumerate(meetings):
+    for k, (name, m) in enumerate(hits):
         if m.is_hit(moves):
-            order = compare(m, meetings[best][1], moves) if best >= 0 else -1
-            if order < 0 or (order == 0 and name < meetings[best][0]):
+            order = compare(m, hits[best][1], moves) if best >= 0 else -1
+            if order < 0 or (order == 0 and name < hits[best][0]):
                 best = k
     return best

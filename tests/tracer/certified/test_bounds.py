@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.bounds import Depths, FromPoint, Parallel, plane_depths
+from reference_tracer.tracer.certified.bounds import Fractions, FromPoint, Parallel, plane_fractions
 
 from ..rational import functions, plane_functions, rational
 
@@ -92,24 +92,24 @@ def check(prepared, rows, rays, exact):
     """Assert the bounds of pairs, and that the interval encloses t; returns shares."""
     with np.errstate(all="ignore"):
         edges, error = prepared.edges(rows, rays)
-        depths = prepared.depths(rows, rays)
+        fractions = prepared.fractions(rows, rays)
     e, depth, towards = exact
     finite = assert_within(edges, error, e)
     for found, off, truth in (
-        (depths.depth, depths.depth_error, depth),
-        (depths.towards, depths.towards_error, towards),
+        (fractions.numerator, fractions.numerator_error, depth),
+        (fractions.denominator, fractions.denominator_error, towards),
     ):
-        finite += assert_within(*np.broadcast_arrays(found, off, depths.depth)[:2], truth)
+        finite += assert_within(*np.broadcast_arrays(found, off, fractions.numerator)[:2], truth)
     sure = (np.abs(edges) > error).mean()
-    return finite / (5 * len(rows)), sure, check_interval(depths, depth, towards)
+    return finite / (5 * len(rows)), sure, check_interval(fractions, depth, towards)
 
 
-def check_interval(depths: Depths, depth, towards):
+def check_interval(fractions: Fractions, depth, towards):
     """Assert that t lies in its interval, where it exists and is not negative."""
     with np.errstate(all="ignore"):
-        low, high = np.broadcast_arrays(*depths.interval())
-        size = np.abs(np.broadcast_to(depths.towards, low.shape))
-        unknown = ~(size > depths.towards_error)
+        low, high = np.broadcast_arrays(*fractions.interval())
+        size = np.abs(np.broadcast_to(fractions.denominator, low.shape))
+        unknown = ~(size > fractions.denominator_error)
     assert not np.isnan(low).any() and not np.isnan(high).any()
     assert np.isposinf(high[unknown]).all()
     for k in np.flatnonzero(towards != 0):
@@ -155,11 +155,11 @@ def test_planes(family, scaled, rng):
     o, d, c = scaled(family)
     normal = c[1] if rng.random() < 0.5 else rng.normal(size=(3, COUNT))
     with np.errstate(all="ignore"):
-        depths = plane_depths(Rays(o, d), c[0], normal)
+        fractions = plane_fractions(Rays(o, d), c[0], normal)
     depth, towards = plane_functions(o, d, c[0], normal)
-    assert_within(depths.depth, depths.depth_error, depth)
-    assert_within(depths.towards, depths.towards_error, towards)
-    check_interval(depths, depth, towards)
+    assert_within(fractions.numerator, fractions.numerator_error, depth)
+    assert_within(fractions.denominator, fractions.denominator_error, towards)
+    check_interval(fractions, depth, towards)
 
 
 @pytest.mark.parametrize("scale", [0, -300, 300])
@@ -170,7 +170,7 @@ def test_the_bounds_decide_what_is_ordinary(scale, rng):
     prepared = FromPoint(o, np.abs(d), c)
     finite, sure, enclosed = check(prepared, np.arange(COUNT), Rays(o, d), functions(o, d, c))
     assert finite == 1 and sure > 0.999 and enclosed > 0.999
-    low, high = prepared.depths(np.arange(COUNT), Rays(o, d)).interval()
+    low, high = prepared.fractions(np.arange(COUNT), Rays(o, d)).interval()
     assert np.median((high - low) / np.abs(low)) < 1e-13
 
 
@@ -181,7 +181,7 @@ def test_near_underflow_nothing_is_known():
     with np.errstate(all="ignore"):
         prepared = FromPoint(o, np.abs(d), corners)
         edges, error = prepared.edges(np.zeros(1, int), Rays(o, d))
-        low, high = prepared.depths(np.zeros(1, int), Rays(o, d)).interval()
+        low, high = prepared.fractions(np.zeros(1, int), Rays(o, d)).interval()
     assert (np.abs(edges) <= error).all() and low == 0 and np.isposinf(high)
 
 
@@ -193,7 +193,7 @@ def test_what_is_not_finite_is_never_known(bad, rng):
         with np.errstate(all="ignore"):
             prepared = FromPoint(o, np.abs(d), c)
             edges, error = prepared.edges(np.arange(COUNT), Rays(o, d))
-            depths = prepared.depths(np.arange(COUNT), Rays(o, d))
-            low, high = depths.interval()
+            fractions = prepared.fractions(np.arange(COUNT), Rays(o, d))
+            low, high = fractions.interval()
         assert not ((np.abs(edges) > error).all(axis=0)).any()
         assert (np.isinf(high) & (low <= 0)).all()

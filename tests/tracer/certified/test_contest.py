@@ -11,11 +11,12 @@ from collections import Counter
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
+from reference_tracer.tracer import any_rays
+from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
-from reference_tracer.tracer.certified import contest as certified
 from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.contest import Contest, decide, nearest
+from reference_tracer.tracer.certified.contest import Contest
 from reference_tracer.tracer.certified.reasons import Reason
 from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
 from reference_tracer.tracer.progress import result_of
@@ -233,7 +234,7 @@ def test_batches_and_their_parts_do_not_matter(rng, together, what, monkeypatch)
     for name in ("t", "instance", "triangle", "s"):
         assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
     assert hits.ties == expected.ties
-    monkeypatch.setattr(certified, "_PAIRS", together)
+    monkeypatch.setattr(any_rays, "PAIRS", together)
     again = nearest(rays, c)
     assert np.array_equal(again.t, expected.t) and again.ties == expected.ties
     assert statistics.pairs_exact == sum(statistics.reasons.values()) > 0

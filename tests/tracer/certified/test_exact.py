@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.exact import Batch, Meeting, compare, integers
+from reference_tracer.tracer.certified.exact import Batch, Hit, compare, integers
 from reference_tracer.tracer.certified.ties import nearest
 
 from ..rational import functions, plane_functions, rational, rounded
@@ -26,12 +26,12 @@ def small(rng, *shape):
     return rng.integers(-2, 3, shape).astype(float)
 
 
-def meetings(rng, count=PAIRS, scale=0, **clip):
+def hits(rng, count=PAIRS, scale=0, **clip):
     """Return rays, triangles, and what meets; the rays all begin in their own corner."""
     o, d, c = small(rng, 3, count), small(rng, 3, count), small(rng, 3, 3, count)
     o, c = o * 2.0**scale, c * 2.0**scale
     batch = Batch(Rays(o, d), c, **clip)
-    return o, d, c, batch, [batch.meeting(k, k) for k in range(count)]
+    return o, d, c, batch, [batch.hit(k, k) for k in range(count)]
 
 
 def one_ray(rng, count, planes=0):
@@ -41,7 +41,7 @@ def one_ray(rng, count, planes=0):
     solids = [(v[:3], v[3:]) for v in small(rng, planes, 6) if v[3:].any()]
     batch = Batch(Rays(o, d), c, solids)
     names = [(1, k) for k in range(len(solids))] + [(0, k) for k in range(count)]
-    found = [(name, batch.meeting(0, k)) for k, name in enumerate(names)]
+    found = [(name, batch.hit(0, k)) for k, name in enumerate(names)]
     return o, d, c, solids, [(name, m) for name, m in found if m]
 
 
@@ -70,8 +70,8 @@ def test_integers_are_the_floats(rng):
 
 
 @pytest.mark.parametrize("scale", [0, -1000, 900])
-def test_a_meeting_is_the_closed_triangle_and_its_hit_the_moved_rays(rng, scale):
-    o, d, c, _, found = meetings(rng, scale=scale)
+def test_a_hit_is_the_closed_triangle_and_its_hit_the_moved_rays(rng, scale):
+    o, d, c, _, found = hits(rng, scale=scale)
     edges, depth, towards = functions(o, d, c)
     on_edge = 0
     for k, m in enumerate(found):
@@ -145,7 +145,7 @@ def sight(corners, direction=(0, 0, -1)):
     o, d = np.zeros((3, 1)), np.array(direction, float)[:, None]
     c = np.array(corners, float).transpose(1, 2, 0)
     batch = Batch(Rays(o, d), c)
-    found = [((0, k), batch.meeting(0, k)) for k in range(c.shape[2])]
+    found = [((0, k), batch.hit(0, k)) for k in range(c.shape[2])]
     seen, ties = nearest([(name, m) for name, m in found if m], NOTHING)
     return seen, {k if i == 0 else None for i, k in ties}, sights(o, d, c)[0]
 
@@ -187,7 +187,7 @@ def test_t_is_correctly_rounded(rng, scale):
     _, depth, towards = functions(o, d, c)
     checked = 0
     for k in range(400):
-        if m := batch.meeting(k, k):
+        if m := batch.hit(k, k):
             assert batch.t(m) == rounded(depth[k] / towards[k])
             checked += 1
     assert checked > 20
@@ -202,9 +202,9 @@ def test_t_too_large_or_too_small_for_a_float():
     ):
         d = np.array([[0], [0], [direction]])
         batch = Batch(Rays(np.zeros((3, 1)), d), corners * length)
-        assert batch.t(batch.meeting(0, 0)) == expected
+        assert batch.t(batch.hit(0, 0)) == expected
         behind = Batch(Rays(np.zeros((3, 1)), -d), corners * length, start=-np.inf)
-        assert behind.t(behind.meeting(0, 0)) == -expected
+        assert behind.t(behind.hit(0, 0)) == -expected
 
 
 @pytest.mark.parametrize("scale", [0, -700, 700])
@@ -212,18 +212,18 @@ def test_the_clip_range_is_inclusive_and_exact(rng, scale):
     """A surface exactly on an end is seen, one beside it by a rounding is not."""
     inside = Fraction(2) ** scale
     for start, end in ((0.75, 1.5), (0.0, 1.5), (-1.5, 0.75), (-1.0, 0.0), (0.1, np.inf)):
-        o, d, c, _, found = meetings(rng, 700, scale, start=start * inside, end=end * inside)
+        o, d, c, _, found = hits(rng, 700, scale, start=start * inside, end=end * inside)
         _, depth, towards = functions(o, d, c)
-        for k, m in enumerate(meetings_of_all(o, d, c)):
+        for k, m in enumerate(hits_of_all(o, d, c)):
             t = depth[k] / towards[k] if m else None
             open_ = start == 0 and t == 0
             expected = m is not None and start * inside <= t <= end * inside and not open_
             assert (found[k] is not None) == expected
 
 
-def meetings_of_all(o, d, c) -> list[Meeting | None]:
+def hits_of_all(o, d, c) -> list[Hit | None]:
     batch = Batch(Rays(o, d), c, start=-np.inf)
-    return [batch.meeting(k, k) for k in range(o.shape[1])]
+    return [batch.hit(k, k) for k in range(o.shape[1])]
 
 
 def test_clip_ends_a_rounding_away(rng):
@@ -238,4 +238,4 @@ def test_clip_ends_a_rounding_away(rng):
             (0, np.nextafter(z[k], 0), False),
         ):
             batch = Batch(rays, np.zeros((3, 3, 0)), [(point, normal)], start, end)
-            assert (batch.meeting(0, 0) is not None) == seen
+            assert (batch.hit(0, 0) is not None) == seen

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
-from reference_tracer.tracer.certified import contest as certified
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.reasons import Reason
+from reference_tracer.tracer.certified.settle import Decisions
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -51,7 +51,9 @@ def test_as_by_every_ray_itself(rng, orthographic, with_plane, monkeypatch):
         scene = layers(rng, orthographic, with_plane)
         frame = render(scene, Settings("certified"))
         with monkeypatch.context() as patch:
-            patch.setattr(certified, "by_order", lambda *a: a[4])  # leaves all to the slow way
+            patch.setattr(
+                Decisions, "by_order", lambda self, found: found
+            )  # leaves all to the slow way
             slow = render(scene, Settings("certified"))
         for name in ("t", "instance_index", "triangle_index", "certainty"):
             assert np.array_equal(getattr(frame, name), getattr(slow, name)), name
@@ -63,8 +65,8 @@ def test_as_by_every_ray_itself(rng, orthographic, with_plane, monkeypatch):
 
 
 def test_coplanar_surfaces_do_not_cost_a_ray_each(make, monkeypatch):
-    """Where only the order is asked for, no ray is turned into whole numbers."""
-    monkeypatch.setattr(certified, "by_numbers", lambda *a: pytest.fail("a ray by itself"))
+    """Where only the order is asked for, no ray is turned into integers."""
+    monkeypatch.setattr(Decisions, "by_integers", lambda *a: pytest.fail("a ray by itself"))
     quads = make.quad(-9, 9.3, -8, 9.17, -2), make.quad(-8, 9.1, -9, 8.7, -2)
     scene = make.scene(make.camera(), *quads)
     frame = render(scene, Settings("certified"))

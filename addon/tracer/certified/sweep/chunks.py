@@ -181,23 +181,3 @@ def _world(matrices: NDArray[np.float64], vertices: NDArray) -> Iterator[tuple[i
             local = vertices[first : first + _CHUNK].T.astype(np.float64)
             world = transform_points(some, local[:, None, :])
             yield copy * count + first, world.reshape(3, -1)
-
-
-def refused(scene: Scene) -> int:
-    """Return how many triangles have a corner that is not finite in world space."""
-    count = 0
-    for instance in scene.instances:
-        mesh = scene.meshes[instance.mesh]
-        with np.errstate(over="ignore", invalid="ignore"):
-            largest = np.abs(mesh.bounds).max(axis=0)
-            m = np.abs(instance.world_from_object[:3])
-            if np.isfinite((m[:, :3] * largest).sum(axis=1) + m[:, 3]).all():
-                continue
-            finite = np.concatenate(
-                [
-                    np.isfinite(world).all(axis=0)
-                    for _, world in _world(instance.world_from_object[..., None], mesh.vertices)
-                ]
-            )
-        count += int((~finite[mesh.triangles]).any(axis=1).sum())
-    return count

@@ -1,8 +1,8 @@
-"""What pixels keep: surfaces that may be their nearest, in the range in which they are seen."""
+"""Fragments: pairs of a pixel and a surface that may be its nearest, and the clip range."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,10 +16,10 @@ Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
-class Kept:
+class Fragments:
     """c pairs of a pixel and a surface that may be its nearest, (c,) each.
 
-    `surface` counts the triangles of all pieces; `nearest` is the most that its nearness can be;
+    `surface` counts the triangles of all chunks; `nearest` is the most that its nearness can be;
     `sure` whether it is hit for sure.
     """
 
@@ -28,16 +28,28 @@ class Kept:
     nearest: NDArray[np.float64]
     sure: NDArray[np.bool_]
 
-    def take(self, index: Index) -> Kept:
+    def take(self, index: Index) -> Fragments:
         """Return those at `index`."""
-        return Kept(*(v.take(index) for v in vars(self).values()))
+        return Fragments(*(v.take(index) for v in vars(self).values()))
 
     @staticmethod
-    def joined(parts: Sequence[Kept]) -> Kept:
+    def joined(parts: Sequence[Fragments]) -> Fragments:
         """Return them all as one."""
-        return Kept(
+        return Fragments(
             *(np.concatenate(f) for f in zip(*(vars(p).values() for p in parts), strict=True))
         )
+
+    @staticmethod
+    def together(parts: Sequence[Fragments], count: int) -> Iterator[Fragments]:
+        """Yield them all, small parts joined, at least `count` at a time but at the end."""
+        some: list[Fragments] = []
+        for part in parts:
+            some.append(part)
+            if sum(len(p.pixel) for p in some) >= count:
+                yield Fragments.joined(some)
+                some = []
+        if some:
+            yield Fragments.joined(some)
 
 
 class ClipRange:

@@ -17,8 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...candidates import spread
-from ...vector import gather
+from ...vector import gather, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import Footprints
 

@@ -18,13 +18,13 @@ from ...camera import camera_rays, film_positions_of
 from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, timed
 from ...vector import gather
-from ..bounds import plane_depths
+from ..bounds import plane_fractions
 from .chunks import Expanded, Names, Numbering, Piece, expand, pieces
 from .depth_bins import slabs
 from .depth_buffer import FINE, DepthBuffer
 from .edge_functions import Footprints, footprints
 from .film import Film
-from .fragments import ROUNDING, ClipRange, Kept
+from .fragments import ROUNDING, ClipRange, Fragments
 from .instance_boxes import InstanceBoxes
 from .rasterise import LARGE, Boxes, Covered, covered, split
 from .triangle_boxes import boxes_of
@@ -32,6 +32,7 @@ from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
 _PIXELS = 1 << 15  # of a plane, at a time
+_PAIRS = 1 << 16  # that the depth buffer is asked about together
 _BYTES_PER_TRIANGLE = 128  # of a piece, with its vertices
 
 Index = NDArray[np.integer]
@@ -84,7 +85,7 @@ class Sweep:
         self._scene, self._film, self._statistics = scene, film, statistics
         self._depths = DepthBuffer(region)
         self._clip = ClipRange(film.camera)
-        self._kept: list[Kept] = []
+        self._fragments: list[Fragments] = []
         self._numbers = Numbering()
 
     def steps(self, limit: int) -> Work[Hits]:
@@ -95,12 +96,12 @@ class Sweep:
         around = InstanceBoxes.of(self._scene, self._film) if self._scene.instances else None
         parts = pieces(self._scene, around, self._depths.region, limit)
         for number, piece in enumerate(parts):
-            if self._kept:
+            if self._fragments:
                 piece = self._not_behind(piece, around)
             for _ in timed(self.enter(piece), stages):
                 yield 0.6 * number / len(parts)
         verdict = Verdict(self._scene, self._film, self._depths, self._numbers, self._statistics)
-        return (yield from timed(verdict.steps(self._kept), stages, 0.6))
+        return (yield from timed(verdict.steps(self._fragments), stages, 0.6))
 
     def _not_behind(self, piece: Piece, around: InstanceBoxes) -> Piece:
         """Return a piece without the instances that what is nearer hides."""
@@ -115,23 +116,22 @@ class Sweep:
             return
         count = np.arange(len(planes) + 1)
         start = self._numbers.enter(Names((first + count[:-1]).astype(np.int32), count, NOTHING))
-        size, kept = self._depths.region.width * self._depths.region.height, []
+        size = self._depths.region.width * self._depths.region.height
         for number, infinite in enumerate(planes):
             for low in range(0, size, _PIXELS):
                 pixel = np.arange(low, min(low + _PIXELS, size))
-                kept.append(self._keep_plane(infinite, pixel, start + number))
+                self._fragments.append(self._of_plane(infinite, pixel, start + number))
                 yield "planes"
-        self._kept.append(Kept.joined(kept))
 
-    def _keep_plane(self, infinite: Plane, pixel: Index, surface: int) -> Kept:
+    def _of_plane(self, infinite: Plane, pixel: Index, surface: int) -> Fragments:
         film = self._film
         px, py = film_positions_of(self._depths.region, pixel, film.dx, film.dy)
         rays = camera_rays(film.camera, px, py)
-        depths = plane_depths(rays, infinite.point[:, None], infinite.normal[:, None])
-        low, high = (np.broadcast_to(v, pixel.shape) for v in depths.interval())
+        fractions = plane_fractions(rays, infinite.point[:, None], infinite.normal[:, None])
+        low, high = (np.broadcast_to(v, pixel.shape) for v in fractions.interval())
         least, most = film.camera.projection.nearness(low, high, ROUNDING)
         place, of = self._depths.places(pixel), np.full(len(pixel), surface)
-        return self._keep(place, of, least, most, np.isfinite(high))
+        return self._test(place, of, least, most, np.isfinite(high))
 
     def enter(self, piece: Piece) -> Steps[None]:
         """Sweep the triangles of a piece, in small steps; yields which stage of work each was."""
@@ -152,11 +152,10 @@ class Sweep:
         if not len(seen):
             return
         yield "boxes"
-        kept: list[Kept] = []
         parts, y0, y1 = slabs(seen, nearest, part_low, part_high)
         yield "slabs"
         for number, slab in enumerate(parts):
-            if number or self._kept:
+            if number or self._fragments:
                 self._depths.refresh(y0, y1)
             for first in range(0, len(slab), _TRIANGLES):
                 some = slab[first : first + _TRIANGLES]
@@ -182,10 +181,8 @@ class Sweep:
                 boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
                 yield "footprints"
                 for pairs in self._pairs(found, boxes, shape):
-                    kept.append(self._keep_pairs(found, pairs, start + some))
+                    self._fragments.append(self._of_pairs(found, pairs, start + some))
                     yield "pixels"
-        if kept:
-            self._kept.append(Kept.joined(kept))
 
     def _boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
         return boxes_of(self._scene, self._film, expanded)
@@ -201,34 +198,43 @@ class Sweep:
     def _pairs(
         self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]
     ) -> Iterator[Covered]:
-        """Yield the pairs of sorted boxes, the large ones last, each with its own footprint."""
+        """Yield the pairs of sorted boxes, so many at a time as are a short step."""
+        parts, count = [], 0
+        for block in self._blocks(found, boxes, shape):
+            parts.append(block)
+            count += len(block.pixel)
+            if count >= _PAIRS:
+                yield _joined(parts)
+                parts, count = [], 0
+        if parts:
+            yield _joined(parts)
+
+    def _blocks(
+        self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]
+    ) -> Iterator[Covered]:
+        """Yield the blocks of sorted boxes, the large ones last, each with its own footprint."""
         large = int(np.searchsorted(shape, LARGE))
-        parts = list(covered(found, boxes, shape[:large], self._depths))
+        yield from covered(found, boxes, shape[:large], self._depths)
         rest = np.arange(large, len(found.row))  # and those that occur twice
         row = found.row.take(rest)
         rest = Boxes(rest, boxes.low.take(row, axis=1), boxes.high.take(row, axis=1))
         for some in split(found, rest, self._depths) if len(row) else ():
             order = np.argsort(own := some.shape, kind="stable")
-            parts += covered(found, some.take(order), own.take(order), self._depths)
-            if parts:
-                yield _joined(parts)
-                parts = []
-        if parts:
-            yield _joined(parts)
+            yield from covered(found, some.take(order), own.take(order), self._depths)
 
-    def _keep_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Kept:
+    def _of_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Fragments:
         error = gather(found.nearness_error, pairs.owner)
         least, most = pairs.nearness - error, pairs.nearness + error
         np.minimum(most, gather(found.nearest, pairs.owner), out=most)
         sure = pairs.least > gather(found.edge_error, pairs.owner)
         sure &= gather(found.sure, pairs.owner)
-        return self._keep(
+        return self._test(
             pairs.pixel, gather(surface.take(found.row), pairs.owner), least, most, sure
         )
 
-    def _keep(
+    def _test(
         self, pixel: Index, surface: Index, least: NDArray, most: NDArray, sure: NDArray[np.bool_]
-    ) -> Kept:
+    ) -> Fragments:
         """Enter the sure hits into the depth buffer; return what may be the nearest."""
         self._statistics.pairs_tested += len(pixel)
         sure = sure & self._clip.inside(least, most)
@@ -241,7 +247,7 @@ class Sweep:
             keep = ~(most < gather(self._depths.nearness, pixel))
             keep &= ~self._clip.outside(least, most)
         keep = np.flatnonzero(keep)
-        return Kept(*(gather(v, keep) for v in (pixel, surface, most, sure)))
+        return Fragments(*(gather(v, keep) for v in (pixel, surface, most, sure)))
 
 
 def _joined(parts: Sequence[Covered]) -> Covered:

@@ -10,10 +10,10 @@ from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.certified.sweep import chunks as module
-from reference_tracer.tracer.certified.sweep.chunks import Piece, expand, pieces, refused
+from reference_tracer.tracer.certified.sweep.chunks import Piece, expand, pieces
 from reference_tracer.tracer.certified.sweep.film import Film
 from reference_tracer.tracer.certified.sweep.instance_boxes import InstanceBoxes
-from reference_tracer.tracer.world import Batch, world_triangles
+from reference_tracer.tracer.world import Batch, refused, world_triangles
 
 from ...exact_film import ExactFilm
 from ...hostile import hostile_camera, hostile_triangles
