@@ -87,6 +87,25 @@ def resolution(render: Any) -> tuple[int, int]:
     return render.resolution_x * percent // 100, render.resolution_y * percent // 100
 
 
+def window_of(scene: Any) -> ViewWindow:
+    """Return what the camera of a `bpy.types.Scene` shows."""
+    data, render = scene.camera.data, scene.render
+    width, height = resolution(render)
+    return view_window(
+        width=width,
+        height=height,
+        sensor_fit=data.sensor_fit,
+        lens=data.lens,
+        sensor_width=data.sensor_width,
+        sensor_height=data.sensor_height,
+        ortho_scale=data.ortho_scale if data.type == "ORTHO" else None,
+        shift_x=data.shift_x,
+        shift_y=data.shift_y,
+        aspect_x=render.pixel_aspect_x,
+        aspect_y=render.pixel_aspect_y,
+    )
+
+
 def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
     """Return world_from_camera, (4, 4) float64, without the scale of the camera object.
 
@@ -132,30 +151,12 @@ def export_camera(scene: Any) -> Camera:
             "resolution or its percentage."
         )
     region = None
-    if render.use_border:
-        region = border_region(
-            width,
-            height,
-            render.border_min_x,
-            render.border_max_x,
-            render.border_min_y,
-            render.border_max_y,
-        )
+    if (r := render).use_border:
+        edges = r.border_min_x, r.border_max_x, r.border_min_y, r.border_max_y
+        region = border_region(width, height, *edges)
     return Camera(
         world_from_camera=camera_axes(obj.matrix_world, obj.name),
-        window=view_window(
-            width=width,
-            height=height,
-            sensor_fit=data.sensor_fit,
-            lens=data.lens,
-            sensor_width=data.sensor_width,
-            sensor_height=data.sensor_height,
-            ortho_scale=data.ortho_scale if data.type == "ORTHO" else None,
-            shift_x=data.shift_x,
-            shift_y=data.shift_y,
-            aspect_x=render.pixel_aspect_x,
-            aspect_y=render.pixel_aspect_y,
-        ),
+        window=window_of(scene),
         width=width,
         height=height,
         projection=projections[data.type],

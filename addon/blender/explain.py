@@ -69,8 +69,6 @@ def exported(context: Any, as_rendered: bool = False) -> Scene:
 
 
 class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
-    """The maths of one pixel."""
-
     bl_idname = "reference_tracer.explain"
     bl_label = "Explain Pixel"
     bl_description = (
@@ -143,8 +141,6 @@ class _OfLatest:
 
 
 class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
-    """The ray as objects."""
-
     bl_idname = "reference_tracer.draw_ray"
     bl_label = "Draw the Ray"
     bl_description = (
@@ -161,8 +157,6 @@ class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
 
 
 class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
-    """The ray's objects go."""
-
     bl_idname = "reference_tracer.remove_ray"
     bl_label = "Remove the Ray"
     bl_description = "Remove the objects that Draw the Ray has made, and nothing else"
@@ -180,8 +174,6 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
 
 
 class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
-    """The pixel as a file that stands alone."""
-
     bl_idname = "reference_tracer.save_pixel"
     bl_label = "Save Pixel"
     bl_description = (

@@ -1,8 +1,9 @@
-"""Arrays -> images in Blender."""
+"""Arrays -> images in Blender, and back; its texts and areas."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -49,6 +50,29 @@ def show_in_editor(context: Any, image: Any) -> None:
     spaces = (area.spaces.active for area in areas(context, "IMAGE_EDITOR"))
     if space := next((s for s in spaces if s.mode == "VIEW"), None):
         space.image = image
+
+
+def read(path: Path, colorspace: str = "") -> NDArray[np.float32]:
+    """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below."""
+    image = bpy.data.images.load(str(path))
+    try:
+        if colorspace:
+            image.colorspace_settings.name = colorspace
+        width, height = image.size
+        pixels = np.empty(width * height * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        return pixels.reshape(height, width, 4)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def set_format(render: Any, file_format: str, color_mode: str, color_depth: str) -> None:
+    """Set what files a `bpy.types.RenderSettings` writes."""
+    settings = render.image_settings
+    if hasattr(settings, "media_type"):  # from 5.0 on
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_mode = file_format, color_mode
+    settings.color_depth = color_depth
 
 
 def show_text(context: Any, name: str, content: str) -> Any:

@@ -23,8 +23,6 @@ _HINT = (
 
 
 class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
-    """Click on a pixel, read its maths."""
-
     bl_idname = "reference_tracer.inspect"
     bl_label = "Inspect Pixels"
     bl_description = (

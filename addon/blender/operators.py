@@ -33,8 +33,6 @@ _ENGINES = f"{', '.join(_FIRST)} and {_LAST}"
 
 
 class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
-    """The button and the script's way to one comparison."""
-
     bl_idname = "reference_tracer.compare"
     bl_label = "Trace and Compare"
     bl_description = (
@@ -56,8 +54,6 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
 
 class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
-    """Every engine in one table."""
-
     bl_idname = "reference_tracer.compare_all"
     bl_label = "Compare All Engines"
     bl_description = (
@@ -78,8 +74,6 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
 
 
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
-    """What each way of tracing costs on the user's own scene."""
-
     bl_idname = "reference_tracer.trade"
     bl_label = "Measure the Trade"
     bl_description = (
@@ -116,8 +110,6 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
 
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
-    """Where each method breaks."""
-
     bl_idname = "reference_tracer.extremes"
     bl_label = "Find Where Methods Break"
     bl_description = (
@@ -148,8 +140,6 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
 
 
 class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
-    """A scenario to look at."""
-
     bl_idname = "reference_tracer.extreme_scene"
     bl_label = "Open Scenario as a Scene"
     bl_description = (

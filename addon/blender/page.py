@@ -21,8 +21,6 @@ from .long_work import LongWork
 
 
 class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
-    """One HTML file that shows the comparison, also to those who have no Blender."""
-
     bl_idname = "reference_tracer.open_page"
     bl_label = "Open Page"
     bl_description = (

@@ -13,11 +13,12 @@ import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
 
-from ..scene import Camera, Instance, Mesh, Scene, SceneError, ViewWindow
+from ..scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
 from ..study.extreme_rows import written
 from ..study.scenarios.scenario import Scenario
 from ..study.scenarios.sweeps import SCENARIOS
-from .camera import resolution, view_window
+from ..tracer.vector import transform_points
+from .camera import window_of
 from .engine import ENGINE
 from .images import areas
 
@@ -103,21 +104,15 @@ def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, NDAr
             f"'{title}' cannot be a scene in Blender: its numbers are float32, from 1e-45 to "
             "3e+38. Choose a scale nearer to the first."
         )
-    return Mesh(*_finite(vertices, mesh.triangles), name=mesh.name), small
-
-
-def _finite(vertices: NDArray, triangles: NDArray) -> tuple[NDArray, NDArray]:
-    """Leave out triangles with a corner beyond float32: Blender would cut it off at the limit."""
-    finite = np.isfinite(vertices).all(axis=1)
-    return np.where(finite[:, None], vertices, np.float32(0)), triangles[finite[triangles].all(1)]
+    # Blender would cut a corner beyond float32 off at the limit: its triangles are left out.
+    vertices, keep = drop_non_finite(vertices, mesh.triangles)
+    return Mesh(vertices, mesh.triangles[keep], name=mesh.name), small
 
 
 def _placed(points: NDArray, matrix: NDArray) -> NDArray[np.float64]:
     """Return points (n, 3) in world space."""
     with np.errstate(over="ignore", invalid="ignore"):
-        x, y, z = points.astype(np.float64).T
-        rows = (m[0] * x + m[1] * y + m[2] * z + m[3] for m in matrix[:3])
-        return np.stack(list(rows), axis=1)
+        return transform_points(matrix, points.astype(np.float64).T).T
 
 
 def _set_up(scene: Any, wanted: Scene) -> None:
@@ -169,7 +164,7 @@ def _camera_changes(camera: Camera, scene: Any) -> list[str]:
     data, lines = scene.camera.data, []
     if moved := np.abs(np.array(scene.camera.location, np.float64) - camera.origin).max():
         lines.append(f"camera moved by up to {moved:.1e} m, at {np.abs(camera.origin).max():.1e} m")
-    window = shown_window(scene)
+    window = window_of(scene)
     for what, low, high in (("width", "left", "right"), ("height", "bottom", "top")):
         should = getattr(camera.window, high) - getattr(camera.window, low)
         is_now = getattr(window, high) - getattr(window, low)
@@ -186,7 +181,7 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera to a Blender scene, make it the active one, and set the picture's size.
 
     Blender itself sets what it cannot have to the nearest that it can, such as a pixel's shape of
-    more than 200 to 1 or a clip start below `LEAST_CLIP`: `shown_window` says what is shown.
+    more than 200 to 1 or a clip start below `LEAST_CLIP`: `window_of` says what is shown.
     """
     w = camera.window
     extent = w.right - w.left
@@ -209,24 +204,6 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     obj.matrix_world = Matrix(camera.world_from_camera.tolist())
     scene.camera = obj
     return obj
-
-
-def shown_window(scene: Any) -> ViewWindow:
-    """Return what a Blender scene's camera, with its horizontal sensor fit, shows."""
-    data, render = scene.camera.data, scene.render
-    width, height = resolution(render)
-    return view_window(
-        width=width,
-        height=height,
-        sensor_fit=data.sensor_fit,
-        lens=data.lens,
-        sensor_width=data.sensor_width,
-        ortho_scale=data.ortho_scale if data.type == "ORTHO" else None,
-        shift_x=data.shift_x,
-        shift_y=data.shift_y,
-        aspect_x=render.pixel_aspect_x,
-        aspect_y=render.pixel_aspect_y,
-    )
 
 
 def _go_to(context: Any, scene: Any) -> None:

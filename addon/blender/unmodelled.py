@@ -116,40 +116,36 @@ def of_object(
 def of_scene(scene: Any) -> Iterator[Unmodelled]:
     """Yield what is not modelled of the scene and its camera as a whole; it has no bounds."""
     camera, render, shading = scene.camera, scene.render, scene.display.shading
-
-    def found(feature: str, detail: str = "", name: str | None = None) -> Unmodelled:
-        return Unmodelled(name or f"scene '{scene.name}'", feature, detail)
-
-    if camera.data.dof.use_dof:
-        yield found("depth of field", name=camera.name)
-    if render.use_motion_blur:
-        yield found("motion blur")
-    if render.use_multiview:
-        yield found("multiview", "not part of what is traced")
-    strips = scene.sequence_editor and len(
-        scene.sequence_editor.strips_all
-        if hasattr(scene.sequence_editor, "strips_all")
-        else scene.sequence_editor.sequences_all
-    )
-    if render.use_sequencer and strips:
-        yield found("sequencer", "not part of what is traced")
-    composited = (
-        scene.compositing_node_group is not None
-        if hasattr(scene, "compositing_node_group")
-        else scene.use_nodes
-    )
-    if render.use_compositing and composited:
-        yield found("compositor", "not part of what is traced")
-    if render.use_freestyle:
-        yield found("freestyle lines")
-    if shading.color_type == "TEXTURE":
-        yield found("texture colours", "surfaces show their material's viewport colour")
-    if shading.show_xray:
-        yield found("x-ray shading")
-    if shading.show_backface_culling:
-        yield found("backface culling", "both sides of a surface are traced")
-    if scene.world and scene.world.mist_settings.use_mist:
-        yield found("mist")
+    sequence = scene.sequence_editor
+    strips = sequence and getattr(sequence, "strips_all", getattr(sequence, "sequences_all", ()))
+    new = hasattr(scene, "compositing_node_group")  # from 5.0 on
+    composited = scene.compositing_node_group if new else scene.use_nodes
+    aside = "not part of what is traced"
+    name = f"scene '{scene.name}'"
+    for of, feature, detail, has in (
+        (camera.name, "depth of field", "", camera.data.dof.use_dof),
+        (name, "motion blur", "", render.use_motion_blur),
+        (name, "multiview", aside, render.use_multiview),
+        (name, "sequencer", aside, render.use_sequencer and strips),
+        (name, "compositor", aside, render.use_compositing and composited),
+        (name, "freestyle lines", "", render.use_freestyle),
+        (
+            name,
+            "texture colours",
+            "surfaces show their material's viewport colour",
+            shading.color_type == "TEXTURE",
+        ),
+        (name, "x-ray shading", "", shading.show_xray),
+        (
+            name,
+            "backface culling",
+            "both sides of a surface are traced",
+            shading.show_backface_culling,
+        ),
+        (name, "mist", "", scene.world and scene.world.mist_settings.use_mist),
+    ):
+        if has:
+            yield Unmodelled(of, feature, detail)
 
 
 def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:

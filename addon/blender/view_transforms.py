@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from ..compare.transforms import Named
 from ..images import curve_undone
 from ..scene import Scene
+from . import images
 from .temporary import temporary_scene
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
@@ -69,26 +70,11 @@ def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
         opaque = np.ones((len(table), 1), np.float32)
         image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
         tmp.render.dither_intensity = 0.0
-        settings = tmp.render.image_settings
-        if hasattr(settings, "media_type"):  # from 5.0 on
-            settings.media_type = "IMAGE"
-        settings.file_format, settings.color_mode, settings.color_depth = "PNG", "RGB", "16"
+        images.set_format(tmp.render, "PNG", "RGB", "16")
         with tempfile.TemporaryDirectory() as folder:
-            path = str(Path(folder) / "colours.png")
-            image.save_render(path, scene=tmp)
-            return curve_undone(_read(path, len(table)))
-    finally:
-        bpy.data.images.remove(image)
-
-
-def _read(path: str, count: int) -> NDArray[np.float64]:
-    """Return the values (n, 3) of a PNG as they are stored, 0 to 1."""
-    image = bpy.data.images.load(path)
-    try:
-        image.colorspace_settings.name = "Non-Color"
-        values = np.empty(4 * count, np.float32)
-        image.pixels.foreach_get(values)
-        return values.reshape(-1, 4)[:, :3].astype(np.float64)
+            path = Path(folder) / "colours.png"
+            image.save_render(str(path), scene=tmp)
+            return curve_undone(images.read(path, "Non-Color")[0, :, :3].astype(np.float64))
     finally:
         bpy.data.images.remove(image)
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ..compare.comparison import SizeError
 from ..scene import Camera
+from . import images
 from .animation import values_kept
 from .judges import Judge
 
@@ -58,10 +59,7 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
         owner, _, name = path.rpartition(".")
         setattr(scene.path_resolve(owner), name, value)
     render, shading = scene.render, scene.display.shading
-    image = render.image_settings
-    if hasattr(image, "media_type"):  # from 5.0 on
-        image.media_type = "IMAGE"
-    image.file_format, image.color_mode, image.color_depth = "OPEN_EXR", "RGBA", "32"
+    images.set_format(render, "OPEN_EXR", "RGBA", "32")
     return {
         "like_for_like": like_for_like,
         "light": shading.light,
@@ -131,7 +129,7 @@ def picture(
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
-        pixels = _read(found[0])
+        pixels = images.read(found[0])
     r = camera.region
     if judge.needs_window and pixels.shape[:2] == (camera.height, camera.width):
         pixels = pixels[r.y0 : r.y1, r.x0 : r.x1]
@@ -167,14 +165,3 @@ def _viewport_aa(value: str) -> Iterator[None]:
     finally:
         preferences.system.viewport_aa = before
         preferences.is_dirty = dirty
-
-
-def _read(path: Path) -> NDArray[np.float32]:
-    image = bpy.data.images.load(str(path))
-    try:
-        width, height = image.size
-        pixels = np.empty(width * height * 4, np.float32)
-        image.pixels.foreach_get(pixels)
-        return pixels.reshape(height, width, 4)
-    finally:
-        bpy.data.images.remove(image)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.camera import window_of
 from reference_tracer.blender.engine import ENGINE
-from reference_tracer.blender.scenario_scene import CHANGED, add_camera, shown_window
+from reference_tracer.blender.scenario_scene import CHANGED, add_camera
 from reference_tracer.scene import Camera, ViewWindow
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.render import render
@@ -157,6 +158,6 @@ def test_a_pixel_that_blender_cannot_have_is_the_nearest():
     scene = bpy.context.scene
     add_camera(scene, camera)
     assert scene.render.pixel_aspect_x == 200
-    shown = shown_window(scene)
+    shown = window_of(scene)
     assert (shown.left, shown.right) == pytest.approx((-1, 1))
     assert shown.top == pytest.approx(2 / 20 * 10 / 200 / 2)
