@@ -302,3 +302,43 @@ def test_a_violation_is_found(path: str, source: str):
 )
 def test_what_is_allowed_passes(path: str, source: str):
     assert violations(path, source) == []
+
+
+PROOF = ADDON / "tracer" / "certified"
+
+
+def needed_by(file: Path) -> set[Path]:
+    """The files of the add-on that a module imports, itself and through others.
+
+    But what it names in annotations alone, and packages that hold no code.
+    """
+    found, waiting = set(), [file]
+    while waiting:
+        file = waiting.pop()
+        if file in found:
+            continue
+        found.add(file)
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        tree.body = [n for n in tree.body if "TYPE_CHECKING" not in ast.dump(n)[:60]]
+        package = list(file.parent.relative_to(ADDON).parts)
+        for statement, _ in imports(tree):
+            if isinstance(statement, ast.ImportFrom):
+                names = modules(statement, package)
+                names += [f"{n}.{alias.name}" for n in names for alias in statement.names]
+                paths = (ADDON.joinpath(*name.split(".")).with_suffix(".py") for name in names)
+                waiting += [path for path in paths if path.exists()]
+    return found
+
+
+def test_the_proof_is_short_enough_to_be_read():
+    """`certified/` without `sweep/`; and all that its definition needs."""
+    assert len(list(PROOF.glob("*.py"))) <= 12
+    files = needed_by(PROOF / "plain.py")
+    lines = sum(len(file.read_text(encoding="utf-8").splitlines()) for file in files)
+    assert {PROOF / "contest.py", PROOF / "exact.py", PROOF.parent / "culling.py"} < files
+    assert len(files) <= 20 and lines <= 2600, (len(files), lines)
+
+
+def test_the_definition_does_without_the_sweep():
+    for file in PROOF.glob("*.py"):
+        assert not any("sweep" in path.parts for path in needed_by(file)), file

@@ -14,12 +14,15 @@ resolution), which the text also allows, the formula holds for small angles only
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Camera, Region
 from .vector import Vectors
+
+if TYPE_CHECKING:
+    from ..scene import Camera, Region
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,14 +11,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Camera, Region
 from .camera import pixel_size, project
 from .vector import spread
 from .world import WorldTriangles
+
+if TYPE_CHECKING:
+    from ..scene import Camera, Region
 
 # Camera-space coordinates and rays are off by at most a few roundings, of half an eps each, of all
 # their terms: one for v - o, five for each dot product, three for a ray's direction, two for its

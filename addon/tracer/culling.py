@@ -8,14 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Region, Scene
 from .candidates import Pairs, pairs, pixel_bounds, within
 from .progress import Work
 from .world import Batch, batches, world_triangles
+
+if TYPE_CHECKING:
+    from ..scene import Region, Scene
 
 PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up

@@ -18,13 +18,17 @@ from . import shading
 from .any_rays import trace_rays
 from .camera import Rays
 from .certified.certainty import AssumptionError, check_assumptions
-from .certified.sweep.sweep import sweep as certified
 from .frame import Frame
 from .hits import Hits, Statistics, Ties
 from .nearest import plan, trace_tile
 from .progress import Work, result_of, scaled
 from .settings import Method, Precision, Settings
 from .world import refused
+
+try:
+    from .certified.sweep.sweep import sweep as certified
+except ModuleNotFoundError:  # `sweep/` is deleted: the definition finds the same, later
+    from .certified.plain import plain as certified
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32

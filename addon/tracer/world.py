@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
 from .camera import project
 from .vector import transform_points
+
+if TYPE_CHECKING:
+    from ..scene import Scene
 
 BATCH = 1 << 14  # triangles looked at together: a few milliseconds of work, some MiB
 

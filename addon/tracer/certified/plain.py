@@ -8,14 +8,19 @@ A `Contest` decides them: by error bounds (`bounds`) where these leave no doubt,
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from ...scene import Region, Scene
 from ..camera import camera_rays, corner_rays, film_positions
 from ..culling import Culled, candidates, cull
 from ..hits import Hits, Statistics
 from ..progress import Work
 from .contest import Contest
+
+if TYPE_CHECKING:
+    from ...scene import Region, Scene
 
 _ROWS = 8  # of a tile
 
@@ -51,7 +56,7 @@ def plain(
     culled = yield from cull(scene, np.dtype(np.float64), memory, max(abs(dx), abs(dy)))
     found = []
     for y in range(region.y0, region.y1, _ROWS):
-        tile = Region(region.x0, y, region.x1, min(y + _ROWS, region.y1))
+        tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
         found.append((yield from _tile(culled, tile, dx, dy, statistics)))
     return Hits.joined(found)
 
