@@ -103,6 +103,7 @@ def _stages(bench: Bench) -> Iterator[str]:
             *((r.scene, r.camera, *_shares(r, names)) for r in rows),
         ],
         left=(0, 1),
+        gap=" ",
     )
 
 
