@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from .compare.comparison import SizeError
 from .explain.candidates import LIMIT
-from .explain.output import WRITERS
+from .explain.writers import WRITERS
 from .images import MissingLibraryError
 from .projections import ORTHOGRAPHIC, PERSPECTIVE
 from .scene import Camera, SceneError, ViewWindow, check_size

@@ -108,9 +108,7 @@ def pictures() -> dict[str, dict[str, str]]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, help="write the digests here")
-    parser.add_argument(
-        "--against", type=Path, help="compare with what was written before"
-    )
+    parser.add_argument("--against", type=Path, help="compare with what was written before")
     options = parser.parse_args()
     now = pictures()
     if options.out:

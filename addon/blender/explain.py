@@ -10,11 +10,11 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..arguments import words
 from ..compare.comparison import Comparison
-from ..explain import markdown, reproducer
+from ..explain import document, reproducer
 from ..explain.candidates import LIMIT
 from ..explain.derivation import Derivation, derive
 from ..explain.document import answer_sentence
-from ..explain.output import WRITERS
+from ..explain.writers import WRITERS
 from ..report import folders
 from ..scene import Scene, SceneError
 from . import ray_objects, results
@@ -110,7 +110,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
             self.report({"ERROR"}, words(error))
             return {"CANCELLED"}
         said = results.keep_derivation(context.scene, found, answer_sentence(found)).lines[0]
-        show_text(context, TEXT, markdown.text(found))
+        show_text(context, TEXT, document.markdown(found))
         if self.draw_ray:
             ray_objects.draw(context.scene, found)
         redraw(context)

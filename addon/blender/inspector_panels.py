@@ -7,10 +7,9 @@ from typing import Any
 import bpy
 
 from ..explain.answers import SENTENCES
-from ..explain.arithmetic import Arithmetic
 from ..explain.derivation import Derivation, Test
 from ..explain.digits import exact_text, marked, off_text, ulps
-from ..explain.judgement import SENTENCES as REASONS
+from ..explain.textbook import REASONS, Arithmetic
 from . import results
 from .explain import (
     TEXT,
@@ -60,7 +59,7 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
     box = layout.box()
     box.label(text=f"Tested: {len(derivation.tests)}" + _left_out(derivation))
     for number, test in enumerate(derivation.tests, 1):
-        judged = test.judgements[Arithmetic.EXACT]
+        judged = test.verdicts[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:

@@ -1,7 +1,7 @@
 """What the tracer itself says of a pixel: every plain method in both precisions, and the proof.
 
-In comes a `Pixel`; out go `Answer`s, the certified one last. These are the tracer's own functions,
-not the steps that the derivation shows.
+In comes a `Pixel`; out go `Answer`s. These are the tracer's own functions, not the steps that the
+derivation shows.
 """
 
 from __future__ import annotations
@@ -11,12 +11,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..tracer import plane
+from ..tracer.camera import camera_rays
+from ..tracer.candidates import Pairs
 from ..tracer.certified.certainty import Certainty, broken_assumptions
-from ..tracer.hits import Hits, Name
+from ..tracer.certified.contest import Contest
+from ..tracer.hits import NOWHERE, Hits, Name, Statistics
+from ..tracer.nearest import within_clip
+from ..tracer.progress import result_of
 from ..tracer.settings import Method, Precision
-from .candidates import contest_hits, world_triangles
-from .methods import PLAIN, nearest
+from ..tracer.triangle import METHODS
+from ..tracer.world import WorldTriangles
 from .pixel import Pixel
+
+PLAIN = tuple((m, p) for m in Method if m.is_plain for p in Precision)
 
 SENTENCES = {
     Certainty.NOT_CERTIFIED: "by floating point alone: this machine's arithmetic allows no proof",
@@ -47,17 +55,50 @@ def plain_answers(pixel: Pixel) -> list[Answer]:
     They are the pictures' own, except where float32 rounds a triangle so far that its box on the
     film, which float64 keeps away from the pixel, holds it: that triangle is no candidate.
     """
-    triangles = world_triangles(pixel)
-    out = []
-    for method, precision in PLAIN:
-        t, seen, s = nearest(pixel, triangles, method, precision)
-        out.append(Answer(method, precision, seen, t, s))
-    return out
+    triangles = pixel.world_triangles()
+    return [plain_answer(pixel, triangles, *plain) for plain in PLAIN]
+
+
+def plain_answer(
+    pixel: Pixel, triangles: WorldTriangles, method: Method, precision: Precision
+) -> Answer:
+    """Return what a plain method sees of these triangles and the pixel's planes."""
+    rays = pixel.rays(precision.dtype)
+    with np.errstate(over="ignore"):  # what float32 cannot hold is inf, and is not hit
+        corners = triangles.corners.astype(precision.dtype)
+        planes = [(c.name, *c.points.astype(precision.dtype)) for c in pixel.planes]
+    met = [(np.inf, NOWHERE, np.zeros(3))]
+    if len(triangles.instance):
+        hit, t, s = METHODS[method](rays, *corners)
+        for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
+            name = int(triangles.instance[k]), int(triangles.triangle[k])
+            met.append((float(t[k]), name, s[:, k].astype(float)))
+    for name, point, normal in planes:
+        t = plane.intersect(rays, point[:, None], normal[:, None])
+        if within_clip(pixel.camera, t)[0]:
+            met.append((float(t[0]), name, np.zeros(3)))
+    t, seen, s = min(met, key=lambda m: m[:2])
+    return Answer(method, precision, seen, t, s)
+
+
+def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
+    """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
+    planes = [(c.points[0], c.points[1]) for c in pixel.planes]
+    camera = pixel.camera
+    # As in `tracer.verdict`: the bounds are those for all of the picture's rays.
+    px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5])
+    around = camera_rays(camera, px, np.array([0.5, camera.height - 0.5] * 2))
+    clip = camera.clip_start, camera.clip_end
+    contest = Contest(pixel.rays(), planes, pixel.first_plane, *clip, around)
+    every = np.arange(len(triangles.instance))
+    if len(every):
+        contest.enter(Pairs(np.zeros_like(every), every, triangles))
+    return result_of(contest.hits(Statistics()))
 
 
 def certified_answer(pixel: Pixel) -> Answer:
     """Return the answer that is proven; NOT_CERTIFIED where this process can prove nothing."""
-    hits: Hits = contest_hits(pixel, world_triangles(pixel))
+    hits = contest_hits(pixel, pixel.world_triangles())
     proven = not broken_assumptions()
     return Answer(
         Method.CERTIFIED,

@@ -1,13 +1,14 @@
-"""What a lecture is made of: headings, sentences, tables, numbers. Text, and no markup."""
+"""What a lecture is made of: headings, sentences, tables, numbers; and each of them in Markdown."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
-from .arithmetic import FLOATS
 from .derivation import Quantity
 from .digits import Parts, exact_text, marked, off_text, ulps
 from .formulas import Formula, component_labels
+from .textbook import FLOATS
 
 
 @dataclass(frozen=True)
@@ -82,3 +83,42 @@ def numbers(quantities: tuple[Quantity, ...]) -> Numbers:
             truth = "undefined" if exact is None else exact_text(exact)
             rows.append(Row(label, None if k else q.formula, floats, truth))
     return Numbers(tuple(rows))
+
+
+# What would be markup where it stands; an index as in u_min and a "<" before a space would not.
+_ESCAPED = re.compile(
+    r"([\\`*\[\]|~]|<(?=[a-zA-Z/!?])|&(?=#?\w+;)|(?<![a-zA-Z\d])_|_(?![a-zA-Z\d]))"
+)
+_HEAD = "| | | float32 | off | float64 | off | exact |\n|---|---|---|--:|---|--:|---|"
+_TONES = {"answer": "**{}**", "warning": "⚠ **{}**", "note": "*{}*"}
+
+
+def escaped(plain: str) -> str:
+    """Return text in which nothing is markup."""
+    return _ESCAPED.sub(r"\\\1", " ".join(plain.split()))
+
+
+def markdown(block: Block) -> str:
+    """Return a block as Markdown; wrong digits are bold."""
+    match block:
+        case Heading():
+            return f"{'#' * block.level} {escaped(block.text)}"
+        case Paragraph():
+            return _TONES.get(block.tone, "{}").format(escaped(block.text))
+        case Swatch():
+            return escaped(block.text)
+        case Table():
+            rows = [map(escaped, row) for row in (block.head, *block.rows)]
+            lines = [f"| {' | '.join(row)} |" for row in rows]
+            return "\n".join([lines[0], f"| {' | '.join(['---'] * len(block.head))} |", *lines[1:]])
+        case Numbers():
+            return "\n".join([_HEAD, *map(_row, block.rows)])
+    raise TypeError(type(block).__name__)
+
+
+def _row(row: Row) -> str:
+    cells = [str(row.formula or ""), row.label]
+    for parts, off in row.floats:
+        wrong = f"**{parts.wrong}**" if parts.wrong else ""
+        cells += [f"{parts.right}{wrong}{parts.exponent}", off]
+    return f"| {' | '.join([*cells, row.exact])} |"

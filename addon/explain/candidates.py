@@ -7,23 +7,21 @@ the other way; and first of the instances' own boxes, so that a forest takes no 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Instance, Mesh, Region, Scene
-from ..tracer.camera import camera_rays
 from ..tracer.candidates import Pairs
-from ..tracer.certified.contest import Contest
-from ..tracer.hits import NOTHING, Hits, Name, Statistics
+from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import Method, Settings
 from ..tracer.triangle import METHODS
 from ..tracer.world import WorldTriangles, refused
-from .methods import PLAIN, nearest
+from .answers import PLAIN, contest_hits, plain_answer
 from .pixel import Candidate, Pixel, check_pixel
 
 LIMIT = 8  # candidates that one still reads
@@ -171,23 +169,8 @@ def _seen_by_methods(
     pixel: Pixel, triangles: WorldTriangles, left: NDArray[np.intp]
 ) -> list[np.intp]:
     """Return which of those left out a plain method sees, in the order given."""
-    seen = {nearest(pixel, triangles, *plain)[1] for plain in PLAIN}
+    seen = {plain_answer(pixel, triangles, *plain).seen for plain in PLAIN}
     return [k for k in left if (int(triangles.instance[k]), int(triangles.triangle[k])) in seen]
-
-
-def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
-    """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
-    planes = [(c.points[0], c.points[1]) for c in pixel.candidates if c.is_plane]
-    camera = pixel.camera
-    # As in `tracer.verdict`: the bounds are those for all of the picture's rays.
-    px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5])
-    around = camera_rays(camera, px, np.array([0.5, camera.height - 0.5] * 2))
-    clip = camera.clip_start, camera.clip_end
-    contest = Contest(pixel.rays(), planes, pixel.first_plane, *clip, around)
-    every = np.arange(len(triangles.instance))
-    if len(every):
-        contest.enter(Pairs(np.zeros_like(every), every, triangles))
-    return result_of(contest.hits(Statistics()))
 
 
 def _candidate(scene: Scene, triangles: WorldTriangles, k: int) -> Candidate:
@@ -205,16 +188,4 @@ def _candidate(scene: Scene, triangles: WorldTriangles, k: int) -> Candidate:
         colors,
         mesh.name,
         slot,
-    )
-
-
-def world_triangles(pixel: Pixel, kept: Sequence[Candidate] | None = None) -> WorldTriangles:
-    """Return the pixel's candidates that are triangles, as the tracer takes them."""
-    kept = [c for c in (pixel.candidates if kept is None else kept) if not c.is_plane]
-    if not kept:
-        return WorldTriangles.none()
-    return WorldTriangles(
-        np.stack([c.points for c in kept], axis=2),
-        np.array([c.instance for c in kept], np.int32),
-        np.array([c.triangle for c in kept], np.int32),
     )

@@ -17,16 +17,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..scene import Scene
-from ..tracer.hits import Name
-from . import textbook
+from ..tracer.hits import NOWHERE, Name
 from .answers import Answer, certified_answer, plain_answers
-from .arithmetic import Arithmetic, Number
 from .candidates import LIMIT, gather
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
-from .judgement import Judgement, judge
-from .methods import NOWHERE
 from .pixel import Candidate, Pixel
-from .textbook import Steps
+from .textbook import (
+    Arithmetic,
+    Number,
+    Steps,
+    Verdict,
+    camera_steps,
+    steps,
+    surface_steps,
+    verdict,
+)
 
 Columns = dict[Arithmetic, Steps]
 
@@ -61,7 +66,7 @@ class Test:
 
     candidate: Candidate
     quantities: tuple[Quantity, ...]
-    judgements: Mapping[Arithmetic, Judgement]
+    verdicts: Mapping[Arithmetic, Verdict]
 
     def number(self, key: str, kind: Arithmetic) -> Number:
         """Return a step's value, of a vector the first component."""
@@ -126,10 +131,9 @@ def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
 def derive_pixel(pixel: Pixel) -> Derivation:
     """Derive a pixel that stands alone."""
     camera: Columns = {
-        kind: textbook.camera_steps(kind, pixel.camera, pixel.column, pixel.row)
-        for kind in Arithmetic
+        kind: camera_steps(kind, pixel.camera, pixel.column, pixel.row) for kind in Arithmetic
     }
-    ray: Columns = {kind: {"o": steps["o"], "d": steps["d"]} for kind, steps in camera.items()}
+    ray: Columns = {kind: {"o": made["o"], "d": made["d"]} for kind, made in camera.items()}
     ray[Arithmetic.EXACT] = {  # from here on, the truth is about what float64 has stored
         name: Arithmetic.EXACT.vector(ray[Arithmetic.FLOAT64][name]) for name in ("o", "d")
     }
@@ -153,7 +157,7 @@ def derive_pixel(pixel: Pixel) -> Derivation:
 def _quantities(columns: Columns, formulas: Mapping[str, Formula]) -> tuple[Quantity, ...]:
     def values(kind: Arithmetic, key: str) -> tuple[Number, ...]:
         value = columns[kind].get(key, ())
-        return value if isinstance(value, tuple) else (value,)
+        return (value,) if np.ndim(value) == 0 else tuple(value)
 
     return tuple(
         Quantity(key, formula, {kind: values(kind, key) for kind in Arithmetic})
@@ -163,15 +167,15 @@ def _quantities(columns: Columns, formulas: Mapping[str, Formula]) -> tuple[Quan
 
 
 def _test(pixel: Pixel, ray: Columns, candidate: Candidate) -> Test:
+    formulas = PLANE if candidate.is_plane else TRIANGLE
     columns = {}
     for kind in Arithmetic:
         points = [kind.vector(p) for p in candidate.points]
-        steps = textbook.plane_steps if candidate.is_plane else textbook.triangle_steps
-        columns[kind] = steps(ray[kind]["o"], ray[kind]["d"], *points)
+        columns[kind] = surface_steps(formulas, ray[kind]["o"], ray[kind]["d"], *points)
     return Test(
         candidate,
-        _quantities(columns, PLANE if candidate.is_plane else TRIANGLE),
-        {kind: judge(steps, pixel.camera) for kind, steps in columns.items()},
+        _quantities(columns, formulas),
+        {kind: verdict(found, pixel.camera) for kind, found in columns.items()},
     )
 
 
@@ -180,7 +184,7 @@ def _nearest(tests: tuple[Test, ...], kind: Arithmetic) -> int | None:
     accepted = [
         (test.number("t", kind), test.candidate.name, k)
         for k, test in enumerate(tests)
-        if test.judgements[kind].accepted
+        if test.verdicts[kind].accepted
     ]
     return min(accepted)[2] if accepted else None
 
@@ -200,7 +204,7 @@ def _color(
         return (), color
     columns = {}
     for kind in Arithmetic:
-        weights = [seen.number(f"s{k}", kind) for k in (1, 2, 3)]
-        corners = [kind.vector(c[:3]) for c in colors]
-        columns[kind] = textbook.color_steps(weights, corners)
+        given = {TRIANGLE[k].label: seen.number(k, kind) for k in ("s1", "s2", "s3")}
+        corners = (kind.vector(c[:3]) for c in colors)
+        columns[kind] = steps(COLOR, given | dict(zip(("c₁", "c₂", "c₃"), corners, strict=True)))
     return _quantities(columns, COLOR), color

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .arithmetic import Number
+from .textbook import Number
 
 EXACT_DIGITS = 24  # significant: a float64 has 17
 _PLAIN = range(-4, 16)  # decimal exponents that are written without "e"

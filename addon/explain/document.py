@@ -7,14 +7,13 @@ from __future__ import annotations
 
 from ..images import to_display
 from ..tracer.certified.certainty import Certainty
+from . import blocks
 from .answers import SENTENCES as CERTAINTIES
-from .arithmetic import FLOATS, Arithmetic
 from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
 from .derivation import Derivation, Test
 from .digits import text
 from .formulas import ERRATA
-from .judgement import SENTENCES as REASONS
-from .judgement import Judgement
+from .textbook import FLOATS, REASONS, Arithmetic, Verdict
 
 READING = (
     "How to read the tables: every number is computed three times, from the same input and by the "
@@ -26,7 +25,7 @@ READING = (
 )
 
 
-def blocks(derivation: Derivation) -> list[Block]:
+def lecture(derivation: Derivation) -> list[Block]:
     """Return the whole lecture."""
     return [
         *_opening(derivation),
@@ -41,6 +40,11 @@ def blocks(derivation: Derivation) -> list[Block]:
         *_color(derivation),
         *_certain(derivation),
     ]
+
+
+def markdown(derivation: Derivation) -> str:
+    """Return the lecture as Markdown."""
+    return "\n\n".join(map(blocks.markdown, lecture(derivation))) + "\n"
 
 
 def _opening(derivation: Derivation) -> list[Block]:
@@ -138,7 +142,7 @@ def _candidates(derivation: Derivation) -> list[Block]:
 
 def _summary(number: int, test: Test) -> tuple[str, ...]:
     values = {q.key: text(q.values[Arithmetic.FLOAT64][0]) for q in test.quantities}
-    said = [test.judgements[kind].accepted for kind in Arithmetic]
+    said = [test.verdicts[kind].accepted for kind in Arithmetic]
     cells = (values.get(key, "") for key in ("t", "s1", "s2", "s3"))
     return f"2.{number}", test.candidate.title, *cells, *("hit" if s else "no" for s in said)
 
@@ -146,27 +150,27 @@ def _summary(number: int, test: Test) -> tuple[str, ...]:
 def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
     c = test.candidate
     mesh = "" if c.is_plane else f" (mesh “{c.mesh}”, instance {c.instance}, slot {c.slot})"
-    rows = tuple(_judged(kind, test.judgements[kind]) for kind in Arithmetic)
+    rows = tuple(_verdict(kind, test.verdicts[kind]) for kind in Arithmetic)
     out: list[Block] = [
         Heading(3, f"2.{number} {c.title}{mesh}", f"2-{number}", not is_seen),
         numbers(test.quantities),
         Table(("", "verdict", "why", "as printed"), rows),
     ]
-    truth = test.judgements[Arithmetic.EXACT].accepted
+    truth = test.verdicts[Arithmetic.EXACT].accepted
     for kind in FLOATS:
-        said = test.judgements[kind].accepted
+        said = test.verdicts[kind].accepted
         if said != truth:
             does = "accepts what is truly missed" if said else "rejects what is truly hit"
             out.append(Paragraph(f"{kind.capitalize()} {does}.", "warning"))
     return out
 
 
-def _judged(kind: Arithmetic, judgement: Judgement) -> tuple[str, ...]:
-    why = "; ".join(REASONS[r] for r in judgement.reasons) or "all conditions hold"
-    printed = {None: "–", True: "hit", False: "no"}[judgement.literal]
-    if judgement.accepted and judgement.literal is False:
+def _verdict(kind: Arithmetic, verdict: Verdict) -> tuple[str, ...]:
+    why = "; ".join(REASONS[r] for r in verdict.reasons) or "all conditions hold"
+    printed = {None: "–", True: "hit", False: "no"}[verdict.literal]
+    if verdict.accepted and verdict.literal is False:
         printed = "lost: the sum is not 1"
-    return kind.value, "accepted" if judgement.accepted else "rejected", why, printed
+    return kind.value, "accepted" if verdict.accepted else "rejected", why, printed
 
 
 def _nearest(derivation: Derivation) -> list[Block]:

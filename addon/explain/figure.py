@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .arithmetic import Arithmetic
 from .derivation import Derivation, Test
+from .textbook import Arithmetic
 
 Color = tuple[float, float, float, float]
 
@@ -97,7 +97,7 @@ def _normal(test: Test) -> tuple[float, ...]:
 
 
 def _color(test: Test) -> Color:
-    return ACCEPTED if test.judgements[Arithmetic.EXACT].accepted else REJECTED
+    return ACCEPTED if test.verdicts[Arithmetic.EXACT].accepted else REJECTED
 
 
 def _weights(derivation: Derivation, test: Test, t: float) -> list[Shape]:

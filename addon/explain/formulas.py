@@ -1,7 +1,8 @@
-"""What each number is called, and the formula that it comes from, written once for all outputs.
+"""The textbook's formulas, and what each number is called: their one source.
 
-A formula is plain text: it is what Markdown shows, and `mathml.py` sets it for HTML. Vectors are
-the letters of `VECTORS`; everything else is a number.
+A formula is plain text. `textbook.py` evaluates it, Markdown shows it as it is, `html.py` sets it
+as MathML, and the documents' tables are made of it. Vectors are the letters of `VECTORS`;
+everything else is a number.
 """
 
 from __future__ import annotations

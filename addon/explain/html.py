@@ -1,22 +1,23 @@
 """A derivation as HTML: a fragment for a page of the caller's, or a page by itself.
 
-No script and no network: formulas are MathML. The fragment's classes begin with `derivation-`; its
+No script and no network: formulas are MathML, of what `formulas.py` writes: letters and words with
+indices (p₁, nₛ₁, u_min, x.y for a component), ² and operators, and one fraction, "/" between
+spaces, at the top of a right side. The fragment's classes begin with `derivation-`; its
 colours are the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page
 once.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
-from functools import singledispatch
 from html import escape
 
 from .blocks import Block, Heading, Numbers, Paragraph, Row, Swatch, Table
 from .derivation import Derivation
 from .digits import Parts
-from .document import blocks
-from .formulas import Formula
-from .mathml import math
+from .document import lecture
+from .formulas import VECTORS, Formula
 
 STYLE = """
 .derivation { color: var(--ink); line-height: 1.5; }
@@ -74,14 +75,14 @@ body { background: var(--paper); font: 17px/1.5 system-ui, "Segoe UI", "DejaVu S
 
 def fragment(derivation: Derivation) -> str:
     """Return a <section> for a page that has STYLE in it."""
-    parts = _parts(blocks(derivation))
+    parts = _parts(lecture(derivation))
     inner = "\n".join([_part(parts[0]), _contents(parts), *map(_part, parts[1:])])
     return f'<section class="derivation">\n{inner}\n</section>\n'
 
 
 def page(derivation: Derivation) -> str:
     """Return a page by itself, readable in light and dark."""
-    title = blocks(derivation)[0].text
+    title = lecture(derivation)[0].text
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -117,42 +118,27 @@ def _contents(parts: list[list[Block]]) -> str:
     return f'<nav class="derivation-contents" aria-label="Contents"><ol>{"".join(links)}</ol></nav>'
 
 
-@singledispatch
 def _block(block: Block) -> str:
+    match block:
+        case Heading():
+            name = f' id="derivation-{block.name}"' if block.name else ""
+            return f"<h{block.level}{name}>{escape(block.text)}</h{block.level}>"
+        case Paragraph():
+            kind = f' class="derivation-{block.tone}"' if block.tone else ""
+            return f"<p{kind}>{escape(block.text)}</p>"
+        case Swatch():
+            color = f'<span class="derivation-swatch" style="background:{block.srgb}"></span>'
+            return f"<p>{color}{escape(block.text)}</p>"
+        case Table():
+            return _table(block.head, map(_cells, block.rows), "derivation-text")
+        case Numbers():
+            head = "", "", "float32", "off", "float64", "off", "exact"
+            return _table(head, map(_number, block.rows), "derivation-numbers")
     raise TypeError(type(block).__name__)
-
-
-@_block.register
-def _(block: Heading) -> str:
-    name = f' id="derivation-{block.name}"' if block.name else ""
-    return f"<h{block.level}{name}>{escape(block.text)}</h{block.level}>"
-
-
-@_block.register
-def _(block: Paragraph) -> str:
-    kind = f' class="derivation-{block.tone}"' if block.tone else ""
-    return f"<p{kind}>{escape(block.text)}</p>"
-
-
-@_block.register
-def _(block: Swatch) -> str:
-    color = f'<span class="derivation-swatch" style="background:{block.srgb}"></span>'
-    return f"<p>{color}{escape(block.text)}</p>"
-
-
-@_block.register
-def _(block: Table) -> str:
-    return _table(block.head, (_cells(row) for row in block.rows), "derivation-text")
 
 
 def _cells(row: tuple[str, ...]) -> str:
     return f"<tr><th>{escape(row[0])}</th>{''.join(f'<td>{escape(c)}</td>' for c in row[1:])}</tr>"
-
-
-@_block.register
-def _(block: Numbers) -> str:
-    head = "", "", "float32", "off", "float64", "off", "exact"
-    return _table(head, (_number(row) for row in block.rows), "derivation-numbers")
 
 
 def _table(head: tuple[str, ...], rows: Iterable[str], kind: str) -> str:
@@ -183,3 +169,73 @@ def _number(row: Row) -> str:
 def _marked(parts: Parts) -> str:
     wrong = f'<mark class="derivation-wrong">{parts.wrong}</mark>' if parts.wrong else ""
     return f"{parts.right}{wrong}{parts.exponent}"
+
+
+_TOKEN = re.compile(r"([A-Za-z]+)([ₛᵢ₁₂₃]+)?(?:_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
+_BARS = '<mo stretchy="false">‖</mo>'
+_SIGNS = re.compile(r"\d|[a-z]+")
+_INDEX = str.maketrans("ₛᵢ₁₂₃", "si123")
+
+
+def math(formula: Formula) -> str:
+    """Return `label = right side`, or the label alone where a number is given."""
+    inner = inline(formula.label)
+    if formula.right:
+        inner += f"<mo>=</mo>{_right(formula.right)}"
+    return f'<math displaystyle="true">{inner}</math>'
+
+
+def _right(text: str) -> str:
+    """Return a right side; what is to the left of its slash goes above a bar."""
+    above, slash, below = text.partition(" / ")
+    if not slash:
+        return inline(text)
+    minus = "<mo>−</mo>" if above.startswith("−") else ""
+    parts = (inline(_bare(part.removeprefix("−"))) for part in (above, below))
+    return f"{minus}<mfrac>{''.join(f'<mrow>{p}</mrow>' for p in parts)}</mfrac>"
+
+
+def _bare(text: str) -> str:
+    """Return text without the brackets around all of it, which a bar makes needless."""
+    return text[1:-1] if text.startswith("(") and text.endswith(")") else text
+
+
+def inline(text: str) -> str:
+    """Return the MathML of text without fractions."""
+    out: list[str] = []
+    for token in _TOKEN.finditer(text):
+        word, small, index, component, number, square, bars, operator = token.groups()
+        if word:
+            out.append(_word(word, [(small or "").translate(_INDEX), index or component]))
+        elif number:
+            out.append(f"<mn>{number}</mn>")
+        elif square:
+            out.append(f"<msup>{_last_group(out)}<mn>2</mn></msup>")
+        elif bars:
+            out.append(_BARS)
+        else:
+            still = ' stretchy="false"' if operator in "()" else ""
+            out.append(f"<mo{still}>{escape(operator)}</mo>")
+    return "".join(out)
+
+
+def _word(word: str, indices: list[str | None]) -> str:
+    kind = ' class="derivation-vector"' if word in VECTORS else ""
+    letter = f"<mi{kind}>{word}</mi>"
+    below = "".join(_index(sign) for index in indices if index for sign in _SIGNS.findall(index))
+    return f"<msub>{letter}<mrow>{below}</mrow></msub>" if below else letter
+
+
+def _index(sign: str) -> str:
+    tag = "mn" if sign.isdigit() else "mi"
+    return f"<{tag}>{sign}</{tag}>"
+
+
+def _last_group(out: list[str]) -> str:
+    """Take ‖…‖, or the last sign alone, off the end of what is there."""
+    first = len(out) - 1
+    if out[first] == _BARS:
+        first = max(k for k in range(first) if out[k] == _BARS)
+    group = "".join(out[first:])
+    del out[first:]
+    return f"<mrow>{group}</mrow>"

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Camera, SceneError
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.hits import NOTHING, Name
+from ..tracer.world import WorldTriangles
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,6 +120,22 @@ class Pixel:
         """Return its ray as the tracer has it, one of one."""
         return camera_rays(
             self.camera, np.array([self.column + 0.5]), np.array([self.row + 0.5]), dtype
+        )
+
+    @property
+    def planes(self) -> list[Candidate]:
+        """Those of the candidates that are infinite planes."""
+        return [c for c in self.candidates if c.is_plane]
+
+    def world_triangles(self) -> WorldTriangles:
+        """Return the candidates that are triangles, as the tracer takes them."""
+        kept = [c for c in self.candidates if not c.is_plane]
+        if not kept:
+            return WorldTriangles.none()
+        return WorldTriangles(
+            np.stack([c.points for c in kept], axis=2),
+            np.array([c.instance for c in kept], np.int32),
+            np.array([c.triangle for c in kept], np.int32),
         )
 
     @cached_property

@@ -1,32 +1,127 @@
-"""The textbook's steps, each of them kept: from the film to the ray, to a plane, to a triangle.
+"""The textbook's steps and conditions, in three arithmetics: float32, float64, and exactly.
 
-In come numbers in one arithmetic, out go all that is computed on the way, by name and in order. The
-operations are those of `tracer/camera.py`, `plane.py` and `triangle.py` one by one: in float32 and
-float64 these numbers are the tracer's own, to the last bit, and a test holds them to it.
-
-    camera      u = u_min + X w,  v = v_min + Y h,  d = u right + v up + forward
-    plane       t = −((o − p) · n) / (d · n)
-    triangle    n = (p₃ − p₁) × (p₂ − p₁),  t = −((o − p₁) · n) / (d · n),  x = o + t d
-                nₛ₁ = (p₂ − p₃) × (x − p₃), nₛ₂ = (p₁ − p₂) × (x − p₂), nₛ₃ = (p₃ − p₁) × (x − p₁)
-                s₁ = n · nₛ₁ / ‖n‖²,  s₂ = n · nₛ₃ / ‖n‖²,  s₃ = n · nₛ₂ / ‖n‖²
-
-The last line has the textbook's first erratum mended: see `formulas.ERRATA`.
+In come numbers in one arithmetic; out go all that the formulas of `formulas.py` make of them, by
+name and in order, and a `Verdict` with every condition that fails. The formulas are evaluated as
+they are printed, one operation after the other: in float32 and float64 these numbers are those of
+`tracer/camera.py`, `plane.py` and `triangle.py`, to the last bit, and a test holds them to it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import operator
+import re
+from collections.abc import Iterable, Mapping
+from enum import StrEnum
+from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene import Camera
 from ..tracer.camera import pixel_size
-from .arithmetic import Arithmetic, Number, Vector, add, cross, divides, dot, scale, subtract
+from ..tracer.nearest import within_clip
+from ..tracer.triangle import SUM_TOLERANCE
+from ..tracer.vector import cross, dot
+from .formulas import CAMERA, Formula, ray_formulas
 
+Number = np.float32 | np.float64 | Fraction
+Vector = NDArray  # (3,), float32 or float64, which round after every operation, or of fractions
 Steps = dict[str, Number | Vector]
 
 
+class Arithmetic(StrEnum):
+    """What the numbers of a column are."""
+
+    FLOAT32 = "float32"
+    FLOAT64 = "float64"
+    EXACT = "exact"
+
+    def number(self, value: float) -> Number:
+        """Return a finite float64 in this arithmetic: rounded to float32, else as it is."""
+        if self is Arithmetic.EXACT:
+            return Fraction(float(value))
+        with np.errstate(over="ignore"):  # beyond float32's range it is inf, as in the tracer
+            return np.dtype(self.value).type(value)
+
+    def vector(self, values: Iterable[float]) -> Vector:
+        """Return three finite float64 in this arithmetic."""
+        return np.array([self.number(v) for v in values])
+
+
+FLOATS = Arithmetic.FLOAT32, Arithmetic.FLOAT64
+
+_TOKEN = re.compile(r"‖n‖²|[A-Za-z]+[ₛ₁₂₃]*(?:_[a-z]+)?|\S")
+_OPERATIONS = {
+    "+": (1, operator.add),
+    "−": (1, operator.sub),
+    "·": (2, dot),
+    "×": (2, cross),
+    "/": (2, operator.truediv),
+}
+
+
+def evaluate(text: str, names: Mapping[str, Number | Vector]) -> Number | Vector:
+    """Return what a formula comes to; `names` has the value of each letter in it.
+
+    Raises
+    ------
+    ZeroDivisionError
+        If a fraction would be divided by 0; floats have inf or NaN for that.
+    """
+    return _evaluate([*reversed(_TOKEN.findall(text))], names)
+
+
+def _evaluate(
+    tokens: list[str], names: Mapping[str, Number | Vector], binding: int = 0
+) -> Number | Vector:
+    """Take tokens off the end of the list, as far as operators bind more strongly."""
+    value = _operand(tokens, names)
+    while tokens and tokens[-1] != ")":
+        if tokens[-1] not in _OPERATIONS:  # side by side: a product
+            value = value * _operand(tokens, names)
+            continue
+        strength, operation = _OPERATIONS[tokens[-1]]
+        if strength <= binding:
+            break
+        tokens.pop()
+        value = operation(value, _evaluate(tokens, names, strength))
+    return value
+
+
+def _operand(tokens: list[str], names: Mapping[str, Number | Vector]) -> Number | Vector:
+    token = tokens.pop()
+    if token == "−":
+        return -_operand(tokens, names)
+    if token != "(":
+        return names[token]
+    value = _evaluate(tokens, names)
+    tokens.pop()  # the closing bracket
+    return value
+
+
 @np.errstate(all="ignore")
+def steps(formulas: Mapping[str, Formula], given: Mapping[str, Number | Vector]) -> Steps:
+    """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
+
+    Parameters
+    ----------
+    formulas : mapping of str to Formula
+        In order: each is made of what is given and of those before it.
+    given : mapping
+        Values by their labels; a formula whose label is among them is not computed.
+    """
+    names, out = dict(given), {}
+    for key, formula in formulas.items():
+        if formula.label not in names:
+            try:
+                names[formula.label] = evaluate(formula.right or formula.label, names)
+            except ZeroDivisionError:
+                break
+        out[key] = names[formula.label]
+    return out
+
+
 def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Steps:
     """Return how the ray through the centre of a pixel comes about.
 
@@ -38,73 +133,117 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Steps:
         Column and row of the whole picture.
     """
     w = camera.window
-    out: Steps = {
-        "left": kind.number(w.left),
-        "right_end": kind.number(w.right),
-        "bottom": kind.number(w.bottom),
-        "top": kind.number(w.top),
-        "width": _pixel_size(kind, camera, 0),
-        "height": _pixel_size(kind, camera, 1),
-        "px": kind.number(x + 0.5),
-        "py": kind.number(y + 0.5),
-        "right": kind.vector(camera.right),
-        "up": kind.vector(camera.up),
-        "forward": kind.vector(camera.forward),
-        "eye": kind.vector(camera.origin),
-    }
-    out["u"] = out["left"] + out["px"] * out["width"]
-    out["v"] = out["bottom"] + out["py"] * out["height"]
-    aside = add(scale(out["u"], out["right"]), scale(out["v"], out["up"]))
-    o, d = camera.projection.ray(out["eye"], aside, out["forward"], add)
-    return out | {"o": o, "d": d}
+    numbers = {"u_min": w.left, "u_max": w.right, "v_min": w.bottom, "v_max": w.top}
+    numbers |= {"columns": camera.width, "rows": camera.height, "X": x + 0.5, "Y": y + 0.5}
+    if kind is not Arithmetic.EXACT:  # float32 takes those of float64, as the tracer does
+        numbers |= zip("wh", pixel_size(camera), strict=True)
+    vectors = {"right": camera.right, "up": camera.up, "forward": camera.forward}
+    vectors["e"] = camera.origin
+    given = {label: kind.number(value) for label, value in numbers.items()}
+    given |= {label: kind.vector(value) for label, value in vectors.items()}
+    return steps(CAMERA | ray_formulas(camera.projection), given)
 
 
-def _pixel_size(kind: Arithmetic, camera: Camera, axis: int) -> Number:
-    """Return a pixel's width or height; float32 takes that of float64, as the tracer does."""
-    if kind is not Arithmetic.EXACT:
-        return kind.number(pixel_size(camera)[axis])
-    w = camera.window
-    low, high = (w.left, w.right) if axis == 0 else (w.bottom, w.top)
-    return (kind.number(high) - kind.number(low)) / (camera.width, camera.height)[axis]
+def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Steps:
+    """Return how a ray meets a triangle of three corners, or a plane of a point and a normal."""
+    labels = [formula.label for formula in formulas.values()]
+    return steps(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
 
 
-@np.errstate(all="ignore")
-def plane_steps(o: Vector, d: Vector, point: Vector, normal: Vector) -> Steps:
-    """Return how a ray meets an infinite plane; without `t` where one would divide by 0."""
-    out: Steps = {"p": point, "n": normal}
-    out["from_p"] = dot(subtract(o, point), normal)
-    out["towards"] = dot(d, normal)
-    if divides(out["towards"]):
-        out["t"] = -out["from_p"] / out["towards"]
-        out["x"] = add(o, scale(out["t"], d))
-    return out
+class Reason(StrEnum):
+    """Why a surface is rejected; the values are what JSON calls them."""
+
+    DEGENERATE = "degenerate"
+    PARALLEL = "parallel"
+    NOT_A_NUMBER = "not_a_number"
+    S1_NEGATIVE = "s1_negative"
+    S2_NEGATIVE = "s2_negative"
+    S3_NEGATIVE = "s3_negative"
+    S1_ABOVE_1 = "s1_above_1"
+    S2_ABOVE_1 = "s2_above_1"
+    S3_ABOVE_1 = "s3_above_1"
+    SUM = "sum"
+    BEHIND = "behind"
+    BEFORE_CLIP_START = "before_clip_start"
+    BEYOND_CLIP_END = "beyond_clip_end"
 
 
-@np.errstate(all="ignore")
-def triangle_steps(o: Vector, d: Vector, p1: Vector, p2: Vector, p3: Vector) -> Steps:
-    """Return how a ray meets a triangle; exactly, up to where one would divide by 0."""
-    out: Steps = {"p1": p1, "p2": p2, "p3": p3}
-    out["n"] = n = cross(subtract(p3, p1), subtract(p2, p1))
-    out["from_p"] = dot(subtract(o, p1), n)
-    out["towards"] = dot(d, n)
-    if not divides(out["towards"]):
-        return out
-    out["t"] = -out["from_p"] / out["towards"]
-    out["x"] = x = add(o, scale(out["t"], d))
-    out["ns1"] = cross(subtract(p2, p3), subtract(x, p3))
-    out["ns2"] = cross(subtract(p1, p2), subtract(x, p2))
-    out["ns3"] = cross(subtract(p3, p1), subtract(x, p1))
-    out["area"] = dot(n, n)
-    out["s1"] = dot(n, out["ns1"]) / out["area"]
-    out["s2"] = dot(n, out["ns3"]) / out["area"]  # printed as s3: it weighs p2
-    out["s3"] = dot(n, out["ns2"]) / out["area"]  # printed as s2: it weighs p3
-    out["sum"] = out["s1"] + out["s2"] + out["s3"]
-    return out
+REASONS = {
+    Reason.DEGENERATE: "n = 0: the corners lie on one line, there is no plane",
+    Reason.PARALLEL: "d · n = 0: the ray is parallel to the plane",
+    Reason.NOT_A_NUMBER: "t is not a finite number: an operation overflowed",
+    Reason.S1_NEGATIVE: "s₁ < 0: x lies beyond the edge p₂p₃",
+    Reason.S2_NEGATIVE: "s₂ < 0: x lies beyond the edge p₃p₁",
+    Reason.S3_NEGATIVE: "s₃ < 0: x lies beyond the edge p₁p₂",
+    Reason.S1_ABOVE_1: "s₁ > 1: x lies beyond the corner p₁",
+    Reason.S2_ABOVE_1: "s₂ > 1: x lies beyond the corner p₂",
+    Reason.S3_ABOVE_1: "s₃ > 1: x lies beyond the corner p₃",
+    Reason.SUM: "s₁ + s₂ + s₃ is farther from 1 than rounding takes it: the sᵢ have lost their "
+    "digits",
+    Reason.BEHIND: "t < 0: the plane is behind the eye",
+    Reason.BEFORE_CLIP_START: "t < clip start: nearer than the camera shows",
+    Reason.BEYOND_CLIP_END: "t > clip end: farther than the camera shows",
+}
 
 
-@np.errstate(all="ignore")
-def color_steps(weights: Sequence[Number], corners: Sequence[Sequence[Number]]) -> Steps:
-    """Return the colour between corners: red, green and blue as weighed sums."""
-    (s1, s2, s3), (c1, c2, c3) = weights, (tuple(c[:3]) for c in corners)
-    color = add(add(scale(s1, c1), scale(s2, c2)), scale(s3, c3))
-    return {"c1": c1, "c2": c2, "c3": c3, "color": color}
+class Verdict(NamedTuple):
+    """What one arithmetic says of a surface.
+
+    `literal` is whether the test as printed, sum = 1 included, accepts it, too; None of a plane.
+    """
+
+    accepted: bool
+    reasons: tuple[Reason, ...]
+    literal: bool | None = None
+
+
+def verdict(found: Steps, camera: Camera) -> Verdict:
+    """Hold the steps of a plane or a triangle against the textbook's conditions and the clip."""
+    undefined = _undefined(found)
+    if undefined:
+        return Verdict(False, (undefined,), False if "p1" in found else None)
+    reasons = _inside(found) + _clipped(found["t"], camera)
+    literal = not reasons and bool(found["sum"] == 1) if "sum" in found else None
+    return Verdict(not reasons, tuple(reasons), literal)
+
+
+def _undefined(found: Steps) -> Reason | None:
+    """Return why there is no t; floats have one by the rules for inf, but it means nothing."""
+    if not any(found["n"]):
+        return Reason.DEGENERATE
+    if found["towards"] == 0:
+        return Reason.PARALLEL
+    values = [found[k] for k in ("t", "s1", "s2", "s3") if k in found]
+    if not all(isinstance(v, Fraction) or np.isfinite(v) for v in values):
+        return Reason.NOT_A_NUMBER
+    return None
+
+
+def _inside(found: Steps) -> list[Reason]:
+    if "s1" not in found:
+        return []
+    outside = [
+        Reason(f"s{k}_{'negative' if found[f's{k}'] < 0 else 'above_1'}")
+        for k in (1, 2, 3)
+        if not 0 <= found[f"s{k}"] <= 1
+    ]
+    total = found["sum"]
+    if not outside and not isinstance(total, Fraction):
+        if not abs(total - total.dtype.type(1)) <= total.dtype.type(SUM_TOLERANCE[total.dtype]):
+            return [Reason.SUM]
+    negative = [r for r in outside if "negative" in r]  # it also says why others are above 1
+    return negative or outside
+
+
+def _clipped(t: Number, camera: Camera) -> list[Reason]:
+    """Return how t lies outside the clip range, in t's own arithmetic, as the tracer has it."""
+    start, end = float(camera.clip_start), float(camera.clip_end)
+    if isinstance(t, Fraction):
+        seen = start <= t <= end and (t != 0 or start != 0)  # Python compares them exactly
+    else:
+        seen = bool(within_clip(camera, np.array([t]))[0])
+    if seen:
+        return []
+    if t < 0 and start >= 0:
+        return [Reason.BEHIND]
+    return [Reason.BEYOND_CLIP_END if t > end else Reason.BEFORE_CLIP_START]

@@ -5,8 +5,6 @@ Every function is that of the same name in `perspective.py`, which says what com
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -29,11 +27,9 @@ class Orthographic:
         "d": ("forward", "the same for all pixels: t is the depth"),
     }
 
-    def ray(
-        self, eye: Any, aside: Any, forward: Any, add: Callable = operator.add
-    ) -> tuple[Any, Any]:
+    def ray(self, eye: Any, aside: Any, forward: Any) -> tuple[Any, Any]:
         """Return an origin beside the eye, and the direction that all share."""
-        return add(eye, aside), forward
+        return eye + aside, forward
 
     def scale(self, depth: Any) -> float:
         """Return 1: the window is in metres."""

@@ -6,8 +6,6 @@ on the projection.
 
 from __future__ import annotations
 
-import operator
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -33,11 +31,9 @@ class Perspective:
         "d": ("u right + v up + forward", "not normalised: t is the depth"),
     }
 
-    def ray(
-        self, eye: Any, aside: Any, forward: Any, add: Callable = operator.add
-    ) -> tuple[Any, Any]:
+    def ray(self, eye: Any, aside: Any, forward: Any) -> tuple[Any, Any]:
         """Return origin and direction of rays that pass the window at `aside`, u right + v up."""
-        return eye, add(aside, forward)
+        return eye, aside + forward
 
     def scale(self, depth: Any) -> Any:
         """Return how many metres the window's unit is at a depth."""

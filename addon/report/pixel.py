@@ -7,8 +7,8 @@ from pathlib import Path
 from ..explain import reproducer
 from ..explain.derivation import derive_pixel
 from ..explain.document import answer_sentence
-from ..explain.output import WRITERS
 from ..explain.pixel import Pixel
+from ..explain.writers import WRITERS
 from . import folders
 
 

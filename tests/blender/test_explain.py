@@ -12,7 +12,7 @@ from reference_tracer.blender import ray_objects, results
 from reference_tracer.blender.compare import export_open_file
 from reference_tracer.blender.images import MARK
 from reference_tracer.compare.comparison import Comparison
-from reference_tracer.explain import markdown, reproducer
+from reference_tracer.explain import document, reproducer
 from reference_tracer.explain.candidates import gather
 from reference_tracer.explain.derivation import Derivation, derive
 
@@ -44,9 +44,10 @@ def test_explain_shows_the_derivation_of_the_export(suzanne, export):
     assert ops.explain(**PIXEL) == {"FINISHED"}
     found = latest()
     scene, _ = export.render()  # what a comparison takes in background
-    assert markdown.text(found) == markdown.text(derive(scene, 60, 33, source="suzanne.blend"))
+    again = derive(scene, 60, 33, source="suzanne.blend")
+    assert document.markdown(found) == document.markdown(again)
     assert found.seen.object == "Suzanne"
-    assert text() == markdown.text(found)
+    assert text() == document.markdown(found)
 
 
 def test_a_second_pixel_takes_the_place_of_the_first(suzanne):
@@ -201,9 +202,9 @@ def test_no_picture_has_the_ray(suzanne, compare):
     entries = {e.name: e for e in drawn.manifest.objects}
     for obj in bpy.data.collections[ray_objects.NAME].objects:  # not dropped without a word
         assert not entries[obj.name].exported and entries[obj.name].reason
-    first = markdown.text(latest())
+    first = document.markdown(latest())
     ops.explain(**PIXEL)
-    assert markdown.text(latest()) == first
+    assert document.markdown(latest()) == first
 
 
 def test_undo_takes_one_step_each(suzanne):

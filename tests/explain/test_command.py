@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
-from reference_tracer.explain import as_json, reproducer
+from reference_tracer.explain import reproducer, writers
 from reference_tracer.scene_files import save_scene
 
 SMALL = ["--width", "24", "--height", "16"]
@@ -44,7 +44,7 @@ def test_files_by_their_endings(ball, tmp_path, capsys):
         assert path.read_text(encoding="utf-8").startswith(begins)
         printed = capsys.readouterr().out
         assert printed.startswith("The pixel sees ball.ply, triangle") and str(path) in printed
-    assert json.loads((out / "pixel.JSON").read_text())["schema"] == as_json.SCHEMA
+    assert json.loads((out / "pixel.JSON").read_text())["schema"] == writers.SCHEMA
 
 
 def test_reproducer_reruns_without_the_scene(ball, tmp_path, capsys):

@@ -8,10 +8,9 @@ from itertools import product
 
 import numpy as np
 import pytest
-from reference_tracer.explain import as_json, html, markdown
-from reference_tracer.explain.arithmetic import Arithmetic
+from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.judgement import Reason
+from reference_tracer.explain.textbook import Arithmetic, Reason
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -30,10 +29,10 @@ def reasons(scene, index=0):
     found = derive(scene, 1, 1)
     assert render(scene).instance_index[1, 1] == -1
     [test] = [t for t in found.tests if t.candidate.instance == index]
-    said = {test.judgements[kind].reasons for kind in Arithmetic}
+    said = {test.verdicts[kind].reasons for kind in Arithmetic}
     assert len(said) == 1 and found.seen is None
     assert found.color == pytest.approx((0.2, 0.3, 0.4, 0.5))
-    for text in (markdown.text(found), html.page(found), as_json.text_of(found)):
+    for text in (document.markdown(found), html.page(found), writers.json_text(found)):
         assert "nothing" in text
     return said.pop()
 
@@ -72,7 +71,7 @@ def test_a_hit(one_triangle):
     assert found.seen.object == "Thing 0" and found.certified.t == 4
     assert found.nearest == dict.fromkeys(Arithmetic, 0)
     assert found.certified.certainty == Certainty.BOUND
-    assert all(j.accepted and j.literal for j in test.judgements.values())
+    assert all(j.accepted and j.literal for j in test.verdicts.values())
     assert found.color == pytest.approx((0.1, 0.5, 0.25, 1))
 
 
@@ -102,7 +101,7 @@ def test_planes(one_triangle):
     found = derive(one_triangle(shifted(z=-9), planes=[((0, 0, -8), (0, 1, 2))]), 1, 1)
     assert found.seen.is_plane and found.seen.object == "Thing 1"
     assert found.color == pytest.approx((0.5, 0.5, 0, 1))  # alpha is 1 on every surface
-    assert "infinite plane" in markdown.text(found)
+    assert "infinite plane" in document.markdown(found)
 
 
 def test_an_edge_is_ambiguous(one_triangle):
@@ -110,9 +109,9 @@ def test_an_edge_is_ambiguous(one_triangle):
     found = derive(one_triangle(left, right), 1, 1)
     assert found.certified.certainty == Certainty.AMBIGUOUS
     assert found.certified.ties == {(0, 0), (1, 0)}
-    assert [t.judgements[Arithmetic.EXACT].accepted for t in found.tests] == [True, True]
-    assert "may be said to see" in markdown.text(found)
-    assert len(as_json.to_dict(found)["certified"]["may_be_seen"]) == 2
+    assert [t.verdicts[Arithmetic.EXACT].accepted for t in found.tests] == [True, True]
+    assert "may be said to see" in document.markdown(found)
+    assert len(writers.to_dict(found)["certified"]["may_be_seen"]) == 2
 
 
 def test_the_limit_keeps_what_is_seen_and_what_is_tied(one_triangle):
@@ -126,7 +125,7 @@ def test_the_limit_keeps_what_is_seen_and_what_is_tied(one_triangle):
     names = [t.candidate.name for t in tied.tests]
     assert names == [(5, 0), (6, 0), (7, 0), (8, -1)]
     assert tied.pixel.left_out == 5 and tied.certified.seen == (5, 0)
-    assert "5 are left out" in markdown.text(tied)
+    assert "5 are left out" in document.markdown(tied)
     whole = derive(one_triangle(*farther, FACING), 1, 1, limit=99)
     assert [t.candidate.instance for t in whole.tests] == [5, 0, 1, 2, 3, 4]  # by t
     assert whole.pixel.left_out == 0
@@ -142,7 +141,7 @@ def test_of_a_border(one_triangle):
     part = replace(scene, camera=replace(scene.camera, region=Region(1, 1, 3, 3)))
     found = derive(part, 0, 0)
     assert found.certified.t == 4 and (found.pixel.column, found.pixel.row) == (1, 1)
-    assert "pixel (1, 1) of the whole" in markdown.text(found)
+    assert "pixel (1, 1) of the whole" in document.markdown(found)
 
 
 @pytest.mark.parametrize(("x", "y", "name"), [(3, 0, "x"), (-1, 0, "x"), (0, 3, "y"), (0, -1, "y")])
@@ -188,7 +187,7 @@ def test_colors_between_corners(make):
         s = found.certified.s[[0, 2, 1]]
         swapped = (colors[found.certified.seen[1], :, :3] * s[:, None]).sum(axis=0)
         assert np.abs(swapped - exact).max() > 1e-3
-        assert "weighed by s₁, s₂, s₃" in markdown.text(found)
+        assert "weighed by s₁, s₂, s₃" in document.markdown(found)
 
 
 def test_from_inside_what_is_behind_is_told(make):
@@ -196,7 +195,7 @@ def test_from_inside_what_is_behind_is_told(make):
     front, back = make.quad(-9, 9, -9, 9, -5, "Front"), make.quad(-9, 9, -9, 9, 5, "Back")
     across = Mesh(np.array([(-1, -1, 3), (1, -1, -9), (0, 2, -9.0)]), [[0, 1, 2]], name="Across")
     found = derive(make.scene(make.camera(9, 9), front, back, across), 4, 5)
-    said = [(t.candidate.object, t.judgements[Arithmetic.EXACT]) for t in found.tests]
+    said = [(t.candidate.object, t.verdicts[Arithmetic.EXACT]) for t in found.tests]
     assert ("Front", True) in [(name, j.accepted) for name, j in said]
     assert ("Back", (Reason.BEHIND,)) in [(name, j.reasons) for name, j in said]
     assert "Across" in [name for name, _ in said]
@@ -208,10 +207,10 @@ def test_at_the_ends_of_floats(one_triangle, scale):
     scene = one_triangle((np.array(FACING) * (scale, scale, 1)).tolist())
     found = derive(scene, 1, 1)
     assert found.certified.t == 4
-    assert not found.tests[0].judgements[Arithmetic.FLOAT32].accepted
-    content = json.loads(as_json.text_of(found))
+    assert not found.tests[0].verdicts[Arithmetic.FLOAT32].accepted
+    content = json.loads(writers.json_text(found))
     assert content["certified"]["t"] == 4
-    assert "rejects what is truly hit" in markdown.text(found)
+    assert "rejects what is truly hit" in document.markdown(found)
     html.page(found)
 
 
@@ -224,7 +223,7 @@ def test_triangles_that_are_not_finite_are_counted(one_triangle):
         replace(scene, meshes=[scene.meshes[0], mesh], instances=[scene.instances[0], moved]), 1, 1
     )
     assert found.pixel.refused == 1 and found.certified.seen == (0, 0)
-    assert "not finite" in markdown.text(found)
+    assert "not finite" in document.markdown(found)
 
 
 def test_a_miss_of_float32_is_said(make):
@@ -232,7 +231,7 @@ def test_a_miss_of_float32_is_said(make):
     from .conftest import ball
 
     scene = ball(make, far=1e6)
-    told = [markdown.text(derive(scene, x, 9)) for x in range(8, 16)]
+    told = [document.markdown(derive(scene, x, 9)) for x in range(8, 16)]
     assert any("Float32 rejects what is truly hit" in t or "Float32 accepts" in t for t in told)
 
 
@@ -246,6 +245,6 @@ def test_a_color_that_is_not_finite(make, value):
     scene = make.scene(make.camera(4, 4), mesh)
     found = derive(scene, 1, 1)
     np.testing.assert_array_equal(np.float32(found.color), render(scene).color[1, 1])
-    assert "not finite" in markdown.text(found) and "not finite" in html.page(found)
-    linear = json.loads(as_json.text_of(found))["color"]["linear_rgba"]
+    assert "not finite" in document.markdown(found) and "not finite" in html.page(found)
+    linear = json.loads(writers.json_text(found))["color"]["linear_rgba"]
     assert linear == [0.5, 0.5, str(value), 1.0]

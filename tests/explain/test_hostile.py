@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from reference_tracer.explain import as_json, html, markdown, reproducer
-from reference_tracer.explain.arithmetic import FLOATS, Arithmetic
+from reference_tracer.explain import document, html, reproducer, writers
+from reference_tracer.explain.answers import PLAIN
 from reference_tracer.explain.candidates import gather
 from reference_tracer.explain.derivation import derive, derive_pixel
-from reference_tracer.explain.methods import NOWHERE, PLAIN
+from reference_tracer.explain.textbook import FLOATS, Arithmetic
 from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.hits import NOWHERE
 from reference_tracer.tracer.render import trace
 from reference_tracer.tracer.settings import Precision, Settings
 
@@ -55,10 +56,10 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
                 seen = None if nearest is None else found.tests[nearest].candidate
                 assert seen is found.seen
                 disagreed += any(found.nearest[kind] != nearest for kind in FLOATS)
-        texts = markdown.text(found), html.page(found), as_json.text_of(found)
+        texts = document.markdown(found), html.page(found), writers.json_text(found)
         json.loads(texts[2])
         path = tmp_path / f"{number}.json"
         path.write_text(reproducer.text(found.pixel), encoding="utf-8")
         again = derive_pixel(reproducer.read(path))
-        assert (markdown.text(again), html.page(again), as_json.text_of(again)) == texts
+        assert (document.markdown(again), html.page(again), writers.json_text(again)) == texts
     assert {Certainty.BOUND, Certainty.AMBIGUOUS} <= kinds and disagreed and kept

@@ -7,11 +7,11 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
-from reference_tracer.explain import formulas, html, markdown
-from reference_tracer.explain.arithmetic import Arithmetic
+from reference_tracer.explain import blocks, document, formulas, html
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.formulas import Formula
-from reference_tracer.explain.mathml import math
+from reference_tracer.explain.html import math
+from reference_tracer.explain.textbook import Arithmetic
 
 from ..report.browser import chromium
 from .printed import tables
@@ -127,7 +127,7 @@ def test_no_table_is_cut_off(derivation, chromium, width):
 
 def test_the_numbers_are_those_of_the_markdown(derivation):
     expected = []
-    for _, columns, _ in tables(markdown.text(derivation)):
+    for _, columns, _ in tables(document.markdown(derivation)):
         for label in columns["float32"]:
             row = (
                 columns[kind].get(label, "undefined") for kind in ("float32", "float64", "exact")
@@ -148,7 +148,7 @@ def test_names_are_text(ball_scene, name):
     reader = read(html.page(found))
     assert "script" not in reader.tags
     assert any(name in piece for piece in reader.text)
-    rows = [line for line in markdown.text(found).splitlines() if line.startswith("| 2.")]
+    rows = [line for line in document.markdown(found).splitlines() if line.startswith("| 2.")]
     assert len(rows) == len(found.tests)
     assert {row.replace("\\|", "").count("|") for row in rows} == {10}  # no cell more
 
@@ -184,4 +184,4 @@ def test_a_fraction():
     ],
 )
 def test_markdown_escapes_what_would_be_markup(plain, escaped):
-    assert markdown.escaped(plain) == escaped
+    assert blocks.escaped(plain) == escaped

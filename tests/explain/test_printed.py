@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.explain import as_json, markdown
+from reference_tracer.explain import document, writers
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.digits import EXACT_DIGITS, ulps
 
@@ -35,7 +35,7 @@ def derivations(ball_scene):
 def test_markdown(derivations):
     compared = 0
     for d in derivations:
-        tables = printed.tables(markdown.text(d))
+        tables = printed.tables(document.markdown(d))
         assert len(tables) == 2 + len(d.tests)
         (_, camera, _), (_, ray, _), *tests = tables
         c = d.pixel.camera
@@ -141,8 +141,8 @@ def from_json(steps, kind):
 @np.errstate(all="ignore")
 def test_json(derivations):
     for d in derivations:
-        content = json.loads(as_json.text_of(d))
-        assert content == json.loads(json.dumps(as_json.to_dict(d)))
+        content = json.loads(writers.json_text(d))
+        assert content == json.loads(json.dumps(writers.to_dict(d)))
         camera, pixel = content["camera"], content["pixel"]
         size = camera["width"], camera["height"], pixel["column"], pixel["row"]
         for kind in ("float32", "float64", "exact"):

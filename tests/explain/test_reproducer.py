@@ -7,7 +7,7 @@ from copy import deepcopy
 
 import numpy as np
 import pytest
-from reference_tracer.explain import as_json, html, markdown, reproducer
+from reference_tracer.explain import document, html, reproducer, writers
 from reference_tracer.explain.candidates import gather
 from reference_tracer.explain.derivation import derive, derive_pixel
 from reference_tracer.scene import SceneError
@@ -28,9 +28,9 @@ def test_the_same_derivation_again(ball_scene, tmp_path, pixel, limit):
     first = derive(ball_scene, *pixel, limit=limit, source="ball.npz")
     path.write_text(reproducer.text(first.pixel), encoding="utf-8")
     again = derive_pixel(reproducer.read(path))
-    assert markdown.text(again) == markdown.text(first)
+    assert document.markdown(again) == document.markdown(first)
     assert html.page(again) == html.page(first)
-    assert as_json.text_of(again) == as_json.text_of(first)
+    assert writers.json_text(again) == writers.json_text(first)
     assert reproducer.text(again.pixel) == path.read_text(encoding="utf-8")
 
 
@@ -132,7 +132,7 @@ def test_an_endless_clip_range(make, tmp_path):
     assert json.loads(path.read_text(), parse_constant=pytest.fail)["camera"]["clip_end"] == "inf"
     again = derive_pixel(reproducer.read(path))
     assert again.pixel.camera.clip_end == np.inf and again.certified.t == found.certified.t
-    assert json.loads(as_json.text_of(again))["camera"]["clip_end"] == "inf"
+    assert json.loads(writers.json_text(again))["camera"]["clip_end"] == "inf"
 
 
 @pytest.mark.parametrize("text", ["", "{", "[" * 100_000, "\x80", "null", "[]", '"x"', "NaN"])

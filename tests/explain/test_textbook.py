@@ -6,9 +6,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.explain.arithmetic import FLOATS, Arithmetic
-from reference_tracer.explain.judgement import judge
-from reference_tracer.explain.textbook import camera_steps, plane_steps, triangle_steps
+from reference_tracer.explain.formulas import PLANE, TRIANGLE
+from reference_tracer.explain.textbook import (
+    FLOATS,
+    Arithmetic,
+    camera_steps,
+    evaluate,
+    surface_steps,
+    verdict,
+)
 from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.nearest import within_clip
@@ -43,13 +49,13 @@ def test_triangles_are_the_tracers(make, rng, kind):
     assert 50 < (hit & seen).sum() < 390 and 0 < (literal & seen).sum() < (hit & seen).sum()
     for k in range(len(t)):
         o, d, *p = (kind.vector(v[:, k]) for v in (origins, directions, *corners))
-        steps = triangle_steps(o, d, *p)
-        shown = np.array([steps["t"], steps["s1"], steps["s2"], steps["s3"]], dtype)
+        found = surface_steps(TRIANGLE, o, d, *p)
+        shown = np.array([found["t"], found["s1"], found["s2"], found["s3"]], dtype)
         np.testing.assert_array_equal(shown, [t[k], *s[:, k]])
-        judged = judge(steps, camera)
-        assert judged.accepted == (hit & seen)[k], judged
-        assert judged.literal == (literal & seen)[k]
-        assert judged.accepted != bool(judged.reasons)
+        said = verdict(found, camera)
+        assert said.accepted == (hit & seen)[k], said
+        assert said.literal == (literal & seen)[k]
+        assert said.accepted != bool(said.reasons)
 
 
 @pytest.mark.parametrize("kind", FLOATS)
@@ -59,14 +65,14 @@ def test_planes_are_the_tracers(make, rng, kind):
         o, d, p, n = rng.normal(size=(4, 3)) * 10.0 ** rng.choice((-3, 0, 3), (4, 1))
         if rng.random() < 0.2:
             d, n = np.array([1.0, 2, 0]), np.array([0, 0, 3.0])
-        steps = plane_steps(*(kind.vector(v) for v in (o, d, p, n)))
+        found = surface_steps(PLANE, *(kind.vector(v) for v in (o, d, p, n)))
         rays = Rays(*(v[:, None].astype(dtype) for v in (o, d)))
         t = plane.intersect(rays, p[:, None].astype(dtype), n[:, None].astype(dtype))
         if np.isnan(t[0]):
-            assert steps["towards"] == 0
+            assert found["towards"] == 0
         else:
-            np.testing.assert_array_equal(dtype.type(steps["t"]), t[0])
-        assert judge(steps, camera).accepted == within_clip(camera, t)[0]
+            np.testing.assert_array_equal(dtype.type(found["t"]), t[0])
+        assert verdict(found, camera).accepted == within_clip(camera, t)[0]
 
 
 @pytest.mark.parametrize("kind", FLOATS)
@@ -74,10 +80,10 @@ def test_planes_are_the_tracers(make, rng, kind):
 def test_rays_are_the_cameras(make, kind, orthographic):
     camera = make.camera(37, 23, eye=(3, -4, 5), target=(0.1, 0.2, 0), orthographic=orthographic)
     for x, y in ((0, 0), (36, 22), (11, 7)):
-        steps = camera_steps(kind, camera, x, y)
+        found = camera_steps(kind, camera, x, y)
         rays = camera_rays(camera, np.array([x + 0.5]), np.array([y + 0.5]), np.dtype(kind.value))
-        np.testing.assert_array_equal(steps["o"], rays.origins[:, 0])
-        np.testing.assert_array_equal(steps["d"], rays.directions[:, 0])
+        np.testing.assert_array_equal(found["o"], rays.origins[:, 0])
+        np.testing.assert_array_equal(found["d"], rays.directions[:, 0])
 
 
 def test_exactly_the_weights_sum_to_one_and_make_x(rng):
@@ -85,19 +91,40 @@ def test_exactly_the_weights_sum_to_one_and_make_x(rng):
     for _ in range(20):
         vectors = rng.normal(size=(5, 3))
         o, d, *p = (Arithmetic.EXACT.vector(v) for v in vectors)
-        steps = triangle_steps(o, d, *p)
-        weights = steps["s1"], steps["s2"], steps["s3"]
-        assert sum(weights) == steps["sum"] == Fraction(1)
+        found = surface_steps(TRIANGLE, o, d, *p)
+        weights = found["s1"], found["s2"], found["s3"]
+        assert sum(weights) == found["sum"] == Fraction(1)
         for axis in range(3):
             made = sum(w * q[axis] for w, q in zip(weights, p, strict=True))
-            assert made == steps["x"][axis]
+            assert made == found["x"][axis]
 
 
 def test_exactly_parallel_ends_where_one_would_divide():
     exact = Arithmetic.EXACT.vector
     corners = exact((0, 0, -1)), exact((1, 0, -1)), exact((0, 1, -1))
-    steps = triangle_steps(exact((0, 0, 0)), exact((1, 1, 0)), *corners)
-    assert steps["towards"] == 0 and "t" not in steps
-    assert "t" not in plane_steps(
-        exact((0, 0, 0)), exact((1, 1, 0)), exact((0, 0, 1)), exact((0, 0, 2))
-    )
+    found = surface_steps(TRIANGLE, exact((0, 0, 0)), exact((1, 1, 0)), *corners)
+    assert found["towards"] == 0 and "t" not in found
+    vectors = exact((0, 0, 0)), exact((1, 1, 0)), exact((0, 0, 1)), exact((0, 0, 2))
+    assert "t" not in surface_steps(PLANE, *vectors)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("a − b − c", -9),
+        ("a / b / c", Fraction(1, 12)),
+        ("a + b c − a b", 20),
+        ("−(a − b) / c", Fraction(1, 8)),
+        ("(a + b) (b + c) c", 440),
+        ("u · v", 11),
+        ("(u × v) · (v + b u)", 0),
+        ("a u · b v", 66),
+        ("(u · v) b c / ‖n‖²", Fraction(264, 7)),
+    ],
+)
+def test_formulas_are_read_as_they_are_printed(text, value):
+    exact = Arithmetic.EXACT
+    names = {"a": 2, "b": 3, "c": 8, "‖n‖²": 7}
+    names = {name: exact.number(number) for name, number in names.items()}
+    names |= {"u": exact.vector((1, 2, 0)), "v": exact.vector((1, 5, 9))}
+    assert evaluate(text, names) == value

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
-from reference_tracer.explain import formulas, markdown, reproducer
+from reference_tracer.explain import document, formulas, reproducer
 from reference_tracer.explain.derivation import derive, derive_pixel
 
 from .figures import scene
@@ -25,7 +25,7 @@ _SUM = "s₁ + s₂ + s₃"
 def blocks(name: str) -> list[str]:
     """The Markdown of a pixel: that of docs/pixel.json, or of a lesson."""
     found = derive(scene(name), *OF_LESSONS[name]) if name else derive_pixel(reproducer.read(PIXEL))
-    return markdown.text(found).split("\n\n")
+    return document.markdown(found).split("\n\n")
 
 
 def after(name: str, heading: str, *which: int) -> str:

@@ -1,27 +1,30 @@
-"""A derivation as JSON: every number whole, exact ones as a fraction, too.
+"""A derivation as a file, by its ending: Markdown, HTML, or JSON.
 
-A float is a JSON number that means it to the bit; inf and NaN, which JSON lacks, are strings. What
-is exact is {"decimal": "…", "rational": "numerator/denominator"}.
+In JSON every number is whole, exact ones as a fraction, too. A float is a JSON number that means it
+to the bit; inf and NaN, which JSON lacks, are strings. What is exact is
+{"decimal": "…", "rational": "numerator/denominator"}.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from .answers import Answer
-from .arithmetic import FLOATS, Arithmetic, Number
 from .derivation import Derivation, Quantity, Test
 from .digits import exact_text, text, ulps
-from .judgement import SENTENCES
+from .document import markdown
+from .html import page
+from .textbook import FLOATS, REASONS, Arithmetic, Number
 
 SCHEMA = "reference_tracer.derivation/1"
 
 
-def text_of(derivation: Derivation) -> str:
+def json_text(derivation: Derivation) -> str:
     """Return the JSON text."""
     return json.dumps(to_dict(derivation), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -107,9 +110,9 @@ def _test(test: Test) -> dict[str, Any]:
             kind: {
                 "accepted": j.accepted,
                 "as_printed": j.literal,
-                "reasons": [{"code": r.value, "sentence": SENTENCES[r]} for r in j.reasons],
+                "reasons": [{"code": r.value, "sentence": REASONS[r]} for r in j.reasons],
             }
-            for kind, j in ((kind, test.judgements[kind]) for kind in Arithmetic)
+            for kind, j in ((kind, test.verdicts[kind]) for kind in Arithmetic)
         },
     }
 
@@ -123,3 +126,10 @@ def _answer(answer: Answer, derivation: Derivation) -> dict[str, Any]:
         "triangle": answer.seen[1],
         "t": number(np.float64(answer.t)),
     }
+
+
+WRITERS: dict[str, Callable[[Derivation], str]] = {
+    ".md": markdown,
+    ".html": page,
+    ".json": json_text,
+}
