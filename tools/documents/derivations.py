@@ -8,6 +8,7 @@ from pathlib import Path
 
 from reference_tracer.explain import document, formulas, reproducer
 from reference_tracer.explain.derivation import derive, derive_pixel
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 
 from .figures import scene
 
@@ -51,8 +52,9 @@ def rows(table: str, labels: Sequence[str]) -> str:
 def formula_table() -> str:
     """Every formula of a ray and a triangle, in the order in which it is computed."""
     lines = ["| | formula | |", "|---|---|---|"]
-    orthographic = [f._replace(remark="orthographic") for f in formulas.RAY[True].values()]
-    of = [*formulas.CAMERA.values(), *formulas.RAY[False].values(), *orthographic]
+    perspective, orthographic = (formulas.ray_formulas(p) for p in (PERSPECTIVE, ORTHOGRAPHIC))
+    of = [*formulas.CAMERA.values(), *perspective.values()]
+    of += [f._replace(remark="orthographic") for f in orthographic.values()]
     of += [*formulas.TRIANGLE.values(), *formulas.COLOR.values()]
     lines += [f"| {f.label} | {f.right} | {f.remark} |" for f in of if f.right]
     return "\n".join(lines)
