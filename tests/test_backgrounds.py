@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer import images
+from reference_tracer.compare.case import Case
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.comparison import compare, trace_and_compare
-from reference_tracer.compare.known import Known
-from reference_tracer.compare.shown import Shown
+from reference_tracer.compare.picture import Picture
 from reference_tracer.manifest import Manifest
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -19,8 +19,6 @@ from reference_tracer.tracer.settings import Settings
 
 WORLD = (0.05, 0.06, 0.07, 1)
 PLAIN = Manifest("a.npz", "Scene", "", 0, "FILE", "Camera")
-ABOUT = {"version": None, "source": "picture", "picture": "a.png", "settings": {}}
-FOREIGN = Known(curves=())
 
 
 @pytest.fixture
@@ -41,12 +39,15 @@ def on(scene, background):
 def stored(color, opaque=False):
     """Return a picture as an 8-bit PNG has it."""
     color = images.decoded(images.to_display(color) / 255).astype(np.float32)
-    return Shown(color, levels=255, opaque=opaque)
+    return Picture(color, levels=255, opaque=opaque)
 
 
-def judged(scene, shown, known=FOREIGN, settings=None):
-    settings = settings or Settings()
-    return result_of(trace_and_compare(scene, PLAIN, settings, shown, ABOUT, known=known))
+def case_of(scene, picture, curves=(), settings=None):
+    return Case(scene, PLAIN, settings or Settings(), picture, curves=curves)
+
+
+def compared(scene, picture, curves=(), settings=None):
+    return result_of(trace_and_compare(case_of(scene, picture, curves, settings)))
 
 
 @pytest.mark.parametrize(
@@ -59,7 +60,7 @@ def judged(scene, shown, known=FOREIGN, settings=None):
     ],
 )
 def test_its_background_is_named(scene, background, name, opaque, verdict):
-    found = judged(scene, stored(on(scene, background), opaque))
+    found = compared(scene, stored(on(scene, background), opaque))
     assert found.pixels["unexplained"] == 0 and found.pixels["agree"] == 120 * 90
     said = found.to_dict()["background"]
     assert said["text"].startswith(f"the picture's background is {name} where the scene's is (")
@@ -77,38 +78,38 @@ def test_damage_in_it_is_found(scene, background, size):
     patch[3 : 3 + size[1], 4 : 4 + size[0]] = True
     assert (render(scene).instance_index[patch] < 0).all()
     color[patch] = (1, 0, 0, 1)
-    found = judged(scene, stored(color))
+    found = compared(scene, stored(color))
     assert np.array_equal(found.causes.cause == Cause.UNEXPLAINED, patch)
     assert found.verdict == "differences"
 
 
 def test_a_missing_object_is_found_on_it(scene):
     color = on(replace(scene, instances=scene.instances[:1]), (0, 0, 0, 0))
-    found = judged(scene, stored(color))
+    found = compared(scene, stored(color))
     assert found.background is not None and found.pixels["unexplained"] > 250
 
 
 def test_the_scenes_own_is_not_named(scene):
-    assert judged(scene, stored(render(scene).color)).background is None
+    assert compared(scene, stored(render(scene).color)).background is None
 
 
 def test_several_colours_are_no_background(scene):
     color = render(scene).color.copy()
     nothing = render(scene).instance_index < 0
     color[nothing, 0] = np.linspace(0.2, 1, nothing.sum())
-    found = judged(scene, stored(color))
+    found = compared(scene, stored(color))
     assert found.background is None and found.pixels["unexplained"] > 0.9 * nothing.sum()
 
 
 def test_blenders_own_picture_must_have_the_scenes(scene):
-    found = judged(scene, Shown(on(scene, (0, 0, 0, 0))), Known())
+    found = compared(scene, Picture(on(scene, (0, 0, 0, 0))), None)
     assert found.background is None and found.verdict == "differences"
 
 
 def test_a_transform_of_the_scenes_own_is_named_as_that(scene):
     color = render(scene).color.copy()
     color[..., :3] = images.curve(color[..., :3])
-    found = judged(scene, Shown(color))
+    found = compared(scene, Picture(color))
     assert found.background is None and found.pixels["unexplained"] == 0
     assert found.causes.transform == "sRGB's curve applied once more"
 
@@ -118,7 +119,7 @@ def test_a_transform_and_another_background(scene, background):
     color = render(scene).color.copy()
     color[..., :3] = images.curve(color[..., :3])
     color[render(scene).instance_index < 0] = background
-    found = judged(scene, Shown(color))
+    found = compared(scene, Picture(color))
     assert found.background is not None and found.pixels["unexplained"] == 0
     assert found.causes.transform == "sRGB's curve applied once more"
 
@@ -126,12 +127,11 @@ def test_a_transform_and_another_background(scene, background):
 def test_several_samples_are_mixed_with_it(scene):
     settings = Settings(samples=4)
     color = render(replace(scene, background=(0, 0, 0, 0)), settings).color
-    found = judged(scene, Shown(color), settings=settings)
+    found = compared(scene, Picture(color), settings=settings)
     assert found.background is not None and found.pixels["agree"] == 120 * 90
 
 
-def test_comparing_alone_leaves_it(scene):
-    frame = render(scene)
-    picture = Shown(on(scene, (0, 0, 0, 0)))
-    found = result_of(compare(scene, PLAIN, Settings(), frame, picture, {}, FOREIGN))
-    assert found.background is None
+def test_what_was_traced_already_has_it_too(scene):
+    picture = Picture(on(scene, (0, 0, 0, 0)))
+    found = result_of(compare(case_of(scene, picture), render(scene)))
+    assert found.background == compared(scene, picture).background is not None

@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 import trimesh
 from reference_tracer import cli
-from reference_tracer.compare.cause import DESCRIPTIONS, Cause
+from reference_tracer.compare.cause import Cause
 from reference_tracer.report.page.content import _hex
-from reference_tracer.report.pictures import CAUSE_COLORS
 
 PROJECT = Path(__file__).parent.parent
 TEXT = (PROJECT / "README.md").read_text(encoding="utf-8")
@@ -74,7 +73,7 @@ def test_its_code_runs(tmp_path, monkeypatch, capsys):
 def test_the_table_of_causes_is_that_of_the_code():
     rows = re.findall(r"^\| [^|]*`(#[0-9a-f]{6})` \| \**(\d+) ([^|*]+)\** \|", TEXT, re.M)
     assert {(int(n), label.strip(), color) for color, n, label in rows} == {
-        (int(cause), DESCRIPTIONS[cause].label, _hex(color))
-        for cause, color in CAUSE_COLORS.items()
-        if cause is not Cause.NOT_TRACED
+        (int(cause), cause.label, _hex(cause.color))
+        for cause in Cause
+        if cause.color is not None and cause is not Cause.NOT_TRACED
     }

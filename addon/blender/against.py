@@ -9,14 +9,14 @@ from typing import Any
 
 import bpy
 
-from ..compare.alternatives import Alternative, with_object, without
-from ..compare.known import Known
-from ..compare.shown import Shown
+from ..compare.case import Alternative, Case
+from ..compare.checks.hidden import with_object, without
+from ..compare.picture import Picture
 from ..manifest import Manifest, ObjectEntry
 from ..scene import Scene
 from ..tracer.settings import Settings
 from .animation import values_kept
-from .compare import Gathered, export_open_file
+from .compare import export_open_file
 from .engine import export_for_render
 from .export import export
 from .temporary import temporary_scene
@@ -26,12 +26,8 @@ MOST = 16  # each is traced where pixels are left open
 
 
 def gather_against(
-    context: Any,
-    picture: Shown,
-    about: dict[str, Any],
-    settings: Settings,
-    self_check: bool = False,
-) -> Gathered:
+    context: Any, picture: Picture, settings: Settings, self_check: bool = False
+) -> Case:
     """Export the context's scene as a render has it, for a picture that Blender need not have made.
 
     Raises
@@ -40,12 +36,15 @@ def gather_against(
         If the scene cannot be traced.
     """
     scene, manifest, _ = export_open_file(context)
-    known = Known(
+    return Case(
+        scene,
+        manifest,
+        settings,
+        picture,
         alternatives=alternatives(context, scene, manifest),
         curves=view_transforms(context.scene, scene),
         self_check=self_check,
     )
-    return Gathered(scene, manifest, settings, picture, about, known)
 
 
 def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:

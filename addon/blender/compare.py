@@ -8,17 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
+from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
-from ..compare.known import Known
-from ..compare.shown import Shown, numbered
+from ..compare.picture import Picture, Source, numbered
 from ..manifest import Manifest
 from ..report import comparison as comparison_report
 from ..report import folders, page
@@ -37,30 +35,10 @@ from .unmodelled import of_shading
 from .viewport import anti_aliasing, picture, prepare, use_view_shading
 
 
-@dataclass(frozen=True, eq=False)
-class Gathered:
-    """The exported scene, how to trace it, and the picture of it that is judged by it."""
-
-    scene: Scene
-    manifest: Manifest
-    settings: Settings
-    shown: Shown
-    blender: dict[str, Any]
-    known: Known
-
-    @property
-    def picture(self) -> NDArray[np.float32]:
-        """The picture's colours, (h, w, 4) linear RGBA."""
-        return self.shown.color
-
-    def steps(self) -> Work[Comparison]:
-        """Do the work that is left; yields the share of it that is done."""
-        manifest = yield from diagnosed(self.scene, self.manifest)
-        return (
-            yield from trace_and_compare(
-                self.scene, manifest, self.settings, self.shown, self.blender, self.known
-            )
-        )
+def compared(case: Case) -> Work[Comparison]:
+    """Do what is left once all is gathered; yields the share of it that is done."""
+    manifest = yield from diagnosed(case.scene, case.manifest)
+    return (yield from trace_and_compare(replace(case, manifest=manifest)))
 
 
 def gather(
@@ -70,7 +48,7 @@ def gather(
     as_is: bool | None = None,
     identity: bool | None = None,
     self_check: bool | None = None,
-) -> Gathered:
+) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
 
     Parameters
@@ -121,23 +99,25 @@ def gather(
             if stored.identity if identity is None else identity:
                 found = draw_identity(tmp, layer, engine, exported.camera)
     names, owner = found or ((), None)
-    blender = {
-        "version": bpy.app.version_string,
-        "source": engine.name,
-        "sample_radius": engine.sample_radius,
-        "filter_radius": 0.0 if smooth == "OFF" else engine.filter_radius,
-        "settings": used,
-    }
-    known = Known(
-        names=names,
-        certificate=certificate,
+    shown = Picture(
+        drawn,
+        Source(engine.name, bpy.app.version_string, settings=used),
+        owner,
+        numbered(names, manifest.owners) if found else None,
+        names,
+        engine.sample_radius,
+        0.0 if smooth == "OFF" else engine.filter_radius,
+        sums=int(smooth) if smooth.isdigit() else 0,
+    )
+    return Case(
+        exported,
+        manifest,
+        settings,
+        shown,
+        certificate,
         self_check=checked,
         next_frame=later,
     )
-    shown = Shown(drawn, sums=int(smooth) if smooth.isdigit() else 0)
-    if found:
-        shown = replace(shown, owner=owner, owners=numbered(names, manifest.owners))
-    return Gathered(exported, manifest, settings, shown, blender, known)
 
 
 def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
@@ -172,7 +152,7 @@ def compare_to_folder(
     """
     folder = made(directory)  # now, not after all the work
     with _failure_written(folder):
-        work = gather(context, **choices).steps()
+        work = compared(gather(context, **choices))
         return _written(folder, work, trade, extremes)
 
 

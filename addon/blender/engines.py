@@ -11,12 +11,13 @@ from typing import Any
 import bpy
 
 from ..arguments import words
+from ..compare.case import Case
 from ..compare.engines import EngineRow
 from ..report import comparison as comparison_report
 from ..report import page
 from ..scene import SceneError
 from ..tracer.progress import Work, scaled
-from .compare import Gathered, gather, made
+from .compare import compared, gather, made
 from .judges import JUDGES
 
 
@@ -47,7 +48,7 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
     return _compared(drawn, folder)
 
 
-def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Gathered | str:
+def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Case | str:
     """Return what is gathered for an engine, or why it makes no picture."""
     try:
         return gather(context, judge=engine.upper(), **choices)
@@ -56,7 +57,7 @@ def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Gathered | str
 
 
 def _compared(
-    drawn: list[tuple[str, Gathered | str]], folder: Path | None
+    drawn: list[tuple[str, Case | str]], folder: Path | None
 ) -> Work[tuple[EngineRow, ...]]:
     rows = []
     for number, (engine, gathered) in enumerate(drawn):
@@ -65,7 +66,7 @@ def _compared(
             continue
         share = 1 / len(drawn)
         part = 0.9 if folder else 1.0  # of the share; the rest is what the page shows besides
-        work = gathered.steps()
+        work = compared(gathered)
         comparison = yield from scaled(work, number * share, part * share)
         rows.append(EngineRow.of(comparison))
         if folder:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare.identity import MOST, colors_of, decode
+from ..compare.identity import MOST_OBJECTS, colors_of, decode
 from ..scene import Camera
 from .judges import Judge
 from .temporary import STANDS_FOR, colored_copies, drawn
@@ -48,7 +48,7 @@ def draw_identity(
     objects = drawn(tmp, layer)
     owners = [o.get(STANDS_FOR) or o.name_full for o in objects]
     names = tuple(dict.fromkeys(owners))
-    if len(names) > MOST:
+    if len(names) > MOST_OBJECTS:
         return None
     number = {name: n for n, name in enumerate(names)}
     numbers = [number[owner] for owner in owners]

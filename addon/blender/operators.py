@@ -16,7 +16,7 @@ from ..study import tradeoff
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from ..tracer.progress import Work
 from . import results, scenario_scene, studies
-from .compare import compare_to_folder, gather
+from .compare import compare_to_folder, compared, gather
 from .engines import compare_all
 from .judges import JUDGES
 from .long_work import LongWork
@@ -44,7 +44,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         """Have Blender draw the scene at once; return the work that is left."""
         if self.directory:
             return compare_to_folder(context, self.directory)
-        return gather(context).steps()
+        return compared(gather(context))
 
     def finish(self, context: Any, result: Comparison) -> tuple[str, str]:
         """Show the pictures and the numbers."""

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from ..compare import self_check
-from ..compare.cause import DESCRIPTIONS, Cause
+from ..compare.cause import Cause
 from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
 from . import results
@@ -79,7 +79,7 @@ class _Result:
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
         rows = [("Agree", pixels["agree"]), ("Differ", pixels["differ"])]
         rows += [
-            (f"  {DESCRIPTIONS[Cause[name.upper()]].label.capitalize()}", n)
+            (f"  {Cause[name.upper()].label.capitalize()}", n)
             for name, n in pixels["by_cause"].items()
             if n
         ]
@@ -92,7 +92,7 @@ class _Result:
             ("PSNR", "infinite" if psnr is None else f"{psnr:.1f} dB"),
             ("SSIM", f"{measured['ssim']:.6f}"),
             ("Largest Difference", f"{measured['largest_difference']['value']:.3g} at ({x}, {y})"),
-            ("Compared With", JUDGES[comparison.blender["source"]].label),
+            ("Compared With", JUDGES[comparison.case.picture.source.name].label),
             ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
         ]
         table(self.layout, rows)

@@ -15,7 +15,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare.transforms import Named
+from ..compare.picture import Curve
 from ..images import curve_undone
 from ..scene import Scene
 from . import images
@@ -25,7 +25,7 @@ COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
 MOST = 4096  # colours
 
 
-def view_transforms(user: Any, scene: Scene) -> tuple[Named, ...]:
+def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
     """Return the scene's own view transform, then the common ones that this Blender has.
 
     Parameters
@@ -41,7 +41,7 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Named, ...]:
         return ()
     with temporary_scene(user) as tmp:
         return tuple(
-            Named(f"the view transform {name}", _looked_up(table, shown))
+            Curve(f"the view transform {name}", _looked_up(table, shown))
             for name, shown in _shown(tmp, table)
         )
 

@@ -7,15 +7,14 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from .. import images
 from ..arguments import add_camera, add_judge, add_page, add_settings, camera_from, settings_from
+from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
-from ..compare.known import Known
-from ..compare.shown import Shown
+from ..compare.picture import Picture, Source
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
 from ..report import comparison as comparison_report
@@ -103,19 +102,11 @@ def _with_blender(options: argparse.Namespace) -> int:
 def _against(options: argparse.Namespace) -> int:
     """Compare with a picture of unknown make."""
     picture = images.load(options.against)
-    about = {
-        "version": None,
-        "source": "picture",
-        "picture": options.against.name,
-        "sample_radius": 0.0,
-        "filter_radius": options.filter or 0.0,
-        "settings": {},
-    }
     with progress_bar() as progress:
         if options.scene.suffix.lower() == ".blend":
-            comparison = result_of(_blend(options, picture, about), progress)
+            comparison = result_of(_blend(options, picture), progress)
         else:
-            comparison = result_of(_file(options, picture, about), progress)
+            comparison = result_of(_file(options, picture), progress)
         finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
     comparison_report.write(options.out, comparison, extras)
@@ -124,47 +115,48 @@ def _against(options: argparse.Namespace) -> int:
     return EXIT_CODES[comparison.verdict]
 
 
-def _blend(
-    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any]
-) -> Work[Comparison]:
+def _blend(options: argparse.Namespace, picture: images.Picture) -> Work[Comparison]:
     with open_blend(options.scene) as blender:
         from ..blender.against import gather_against
         from ..blender.camera import export_camera
+        from ..blender.compare import compared
 
         context = blender.context
         dither = context.scene.render.dither_intensity
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = settings_from(options, context.scene.reference_tracer.settings())
-        gathered = gather_against(context, shown, about, settings, bool(options.self_check))
-        return (yield from gathered.steps())
+        case = gather_against(context, shown, settings, bool(options.self_check))
+        return (yield from compared(case))
 
 
-def _file(
-    options: argparse.Namespace, picture: images.Picture, about: dict[str, Any]
-) -> Work[Comparison]:
+def _file(options: argparse.Namespace, picture: images.Picture) -> Work[Comparison]:
     scene, stored = load(options.scene, *camera_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
+    settings, shown = settings_from(options, stored), _shown(options, picture, scene.camera)
+    checked = bool(options.self_check)
     return (
         yield from trace_and_compare(
-            scene,
-            manifest,
-            settings_from(options, stored),
-            _shown(options, picture, scene.camera),
-            about,
-            Known(curves=(), self_check=bool(options.self_check)),
+            Case(scene, manifest, settings, shown, curves=(), self_check=checked)
         )
     )
 
 
 def _shown(
     options: argparse.Namespace, picture: images.Picture, camera: Camera, dither: float = 0.0
-) -> Shown:
+) -> Picture:
     """Return what is compared of a picture: of one of the whole view, the camera's border."""
     color, r = picture.color, camera.region
     if color.shape[:2] == (camera.height, camera.width):
         color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
     dither = dither if options.dither is None else options.dither
-    return Shown(color, levels=picture.levels, dither=dither, opaque=picture.opaque)
+    return Picture(
+        color,
+        Source(file=options.against.name),
+        filter_radius=options.filter or 0.0,
+        levels=picture.levels,
+        dither=dither,
+        opaque=picture.opaque,
+    )
 
 
 def _manifest(path: Path, scene: Scene) -> Manifest:

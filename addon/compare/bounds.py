@@ -1,7 +1,8 @@
-"""How far Blender's own arithmetic may move what a pixel shows: float32, snapping, depth buffer.
+"""How far Blender's own arithmetic may move or recolour what a pixel shows.
 
-These are bounds on *Blender's* side; the tracer's own errors in float64 are far below them.
-u = 2^-24 is the rounding unit of float32.
+Float32, snapping, the depth buffer, half floats and 8-bit files: these are bounds on *Blender's*
+side; the tracer's own errors in float64 are far below them. u = 2^-24 is the rounding unit of
+float32.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..images import encoded
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.nearest import Hits
@@ -27,6 +29,25 @@ _MODEL, _VIEW = 4, 12
 _FILM = 4
 # A depth buffer has 24 bits; the depth itself comes from a product of 2 terms and a division.
 _DEPTH_STEPS = 5
+
+# Blender hands its viewport's colours over as half floats, 11 bits, and cuts off rather than
+# rounds: 1 reads 0.9995. Next to an edge a window copies them once more, and up to 3 units in the
+# last place are missing (measured in 4.3). So many units of the larger value are allowed.
+HALF_UNITS = 4
+
+# That copy lets a little of the neighbour through: beside a white pixel, black reads 3 * 2^-14
+# (measured in 4.3). Eight such steps are allowed.
+LEAST_STEP = 8 * 2.0**-14
+
+# Workbench adds up the logarithms of 1 + a colour in half floats; of a dark one, this is lost.
+LEAST_SUM = 2.0**-12
+
+# A rasteriser interpolates a colour attribute between corners that it has rounded to 1/256 pixel,
+# by an approximate 1/w: a ramp over a few pixels is off by as much as this (measured 0.0013).
+INTERPOLATED = 2.0**-9
+
+# What a writer's own rounding of sRGB's curve may add to half a level (float32, tables).
+LEVEL_SLACK = 0.02
 
 
 def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -98,3 +119,49 @@ def depth_resolution(
     near, far = camera.clip_start, camera.clip_end
     step = camera.projection.depth_step((far - near) * U, depth, near, far)
     return _DEPTH_STEPS * step + 2 * view
+
+
+def differing(
+    first: NDArray,
+    second: NDArray,
+    interpolated: NDArray[np.bool_] | bool = False,
+    levels: int = 0,
+    sums: int = 0,
+    dither: float = 0.0,
+) -> NDArray[np.bool_]:
+    """Return which pixels of two (..., c) pictures differ by more than rounding.
+
+    HALF_UNITS of a half float's last place are allowed, but at least LEAST_STEP; where a colour is
+    `interpolated` (...), INTERPOLATED more. What is not finite differs from everything. Where the
+    second picture was stored in so many `levels` above 0 of sRGB's curve, as a PNG is, half a level
+    is allowed in place of that, and `dither` levels of noise. A mean of `sums` samples, added up in
+    half floats, loses half a unit with each.
+    """
+    size = np.maximum(np.abs(first), np.abs(second))
+    apart, allowed = difference(first, second, interpolated, levels, sums, dither)
+    with np.errstate(invalid="ignore"):
+        return ~((apart <= allowed) & np.isfinite(size)).all(axis=-1)
+
+
+def difference(
+    first: NDArray,
+    second: NDArray,
+    interpolated: NDArray[np.bool_] | bool = False,
+    levels: int = 0,
+    sums: int = 0,
+    dither: float = 0.0,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return how far two pictures are apart, (..., c), and how far :func:`differing` allows."""
+    first, second = first.astype(np.float64), second.astype(np.float64)
+    more = INTERPOLATED * np.asarray(interpolated, dtype=np.float64)[..., None]
+    if levels:
+        first, second = encoded(first), encoded(second)
+    with np.errstate(invalid="ignore"):
+        apart = np.abs(first - second)
+        if levels:
+            return apart, np.broadcast_to((0.5 + LEVEL_SLACK + dither) / levels + more, apart.shape)
+        size = np.maximum(np.abs(first), np.abs(second))
+        unit = np.spacing(np.minimum(size, 2.0**15).astype(np.float16))  # the last binade
+        unit = unit.astype(np.float64)
+        more = more + sums / 2 * np.maximum(unit, LEAST_SUM)
+        return apart, np.maximum(HALF_UNITS * unit, LEAST_STEP) + more

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, SceneError
 from ..tracer.camera import film_of, pixel_size
+from .bounds import U
 
 POINTS = 1024  # besides the volume's corners
 SEED = 1
 # Blender's projection, and the axes of its camera without their scale, are float32: each number has
 # been rounded about so many times.
 ROUNDINGS = 16
-U = 2.0**-24
 
 
 class CameraMismatchError(SceneError):

@@ -1,4 +1,4 @@
-"""How many pixels each cause has: the score."""
+"""How many pixels each cause has: the score, at the boundaries of what is traced and inside."""
 
 from __future__ import annotations
 
@@ -7,11 +7,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .cause import EXPLAINED, Cause, Causes
+from ..tracer.frame import Frame
+from .cause import Cause, Causes
 from .identity import Identity
 
 EXAMPLES = 10  # pixels named of each cause
-_COUNTED = tuple(c for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED))
+
+
+def boundary(frame: Frame) -> NDArray[np.bool_]:
+    """Return which pixels see, with the eight around them, more than one appearance of an object.
+
+    The background is one, too. Beyond the picture's rim is what its outermost pixels see.
+    """
+    seen = np.pad(frame.instance_index, 1, mode="edge")
+    out = np.zeros(frame.instance_index.shape, bool)
+    height, width = out.shape
+    for y in range(3):
+        for x in range(3):
+            out |= seen[y : y + height, x : x + width] != frame.instance_index
+    return out
 
 
 def count_pixels(
@@ -28,9 +42,8 @@ def count_pixels(
     out = _counts(cause)
     out["interior"] = _counts(cause[~at_boundary])
     out["boundary"] = _counts(cause[at_boundary])
-    shown = (c for c in Cause if c not in (Cause.AGREE, Cause.NOT_DECIDABLE, Cause.NOT_TRACED))
     out["examples"] = {
-        c.name.lower(): _positions(cause == c) for c in shown if out["by_cause"][c.name.lower()]
+        c.key: _positions(cause == c) for c in sorted(Cause) if c.differs and out["by_cause"][c.key]
     }
     if identity is not None:
         out["unexplained_shows"] = identity.counts(cause == Cause.UNEXPLAINED)
@@ -38,8 +51,8 @@ def count_pixels(
 
 
 def _counts(cause: NDArray[np.uint8]) -> dict[str, Any]:
-    count = {c: int((cause == c).sum()) for c in Cause}
-    explained = sum(count[c] for c in EXPLAINED)
+    count = {c: int((cause == c).sum()) for c in sorted(Cause)}
+    explained = sum(n for c, n in count.items() if c.explains)
     return {
         "total": cause.size,
         "agree": count[Cause.AGREE],
@@ -48,7 +61,7 @@ def _counts(cause: NDArray[np.uint8]) -> dict[str, Any]:
         "unexplained": count[Cause.UNEXPLAINED],
         "not_decidable": count[Cause.NOT_DECIDABLE],
         "not_traced": count[Cause.NOT_TRACED],
-        "by_cause": {c.name.lower(): count[c] for c in _COUNTED},
+        "by_cause": {c.key: n for c, n in count.items() if c.differs or c is Cause.NOT_DECIDABLE},
     }
 
 

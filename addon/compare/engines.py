@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .cause import DESCRIPTIONS, Cause
+from .cause import Cause
 from .comparison import EXIT_CODES, Comparison
 from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
@@ -33,7 +33,7 @@ class EngineRow:
         """Return the row of a comparison."""
         identity = comparison.identity
         return cls(
-            comparison.blender["source"],
+            comparison.case.picture.source.name,
             comparison.verdict,
             {k: v for k, v in comparison.pixels.items() if k != "examples"},
             tuple(_wrong(comparison)),
@@ -49,12 +49,12 @@ def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
     causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
     cause = causes.cause
-    differ = (cause != Cause.AGREE) & (cause != Cause.NOT_TRACED) & (cause != Cause.NOT_DECIDABLE)
+    differ = np.isin(cause, [c for c in Cause if c.differs])
     places = np.argwhere(differ)
     order = np.argsort(cause[differ] != Cause.UNEXPLAINED, kind="stable")
     out = []
     for y, x in places[order][:EXAMPLES]:
-        told = DESCRIPTIONS[Cause(cause[y, x])]
+        told = Cause(cause[y, x])
         row = {
             "pixel": [int(x), int(y)],
             "traced": _object(comparison, int(frame.object_index[y, x])),

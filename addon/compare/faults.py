@@ -1,61 +1,38 @@
 """Faults on purpose, one function each: what a mistaken exporter, camera or reader would have made.
 
-In comes a right comparison; out goes the scene or the picture with one thing wrong, or None where
-there is nothing to get wrong.
+In comes a right comparison; out goes the same with one thing wrong, or None where there is nothing
+to get wrong. A mistake in the scene is one in all that is exported: the alternatives have it, too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..manifest import Unmodelled
-from ..scene import Mesh, Scene, ViewWindow
+from ..scene import Instance, Mesh, Scene, ViewWindow
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
-from .shown import Shown
+from .case import Case
+
+Make = Callable[[Case, Frame], Case | None]  # of a comparison's case, and what was traced of it
 
 
-@dataclass(frozen=True, eq=False)
-class Case:
-    """A comparison as it was: what was traced and shown, and what is known of it."""
-
-    scene: Scene
-    frame: Frame
-    shown: Shown
-    unmodelled: tuple[Unmodelled, ...] = ()
-    sample_radius: float = 0.0
-    filter_radius: float = 0.0
-    next_frame: Scene | None = None
-
-    def seen(self) -> list[int]:
-        """Return the instances of meshes that are seen, those of the most pixels first."""
-        index = self.frame.instance_index
-        index = index[(index >= 0) & (index < len(self.scene.instances))]
-        found, count = np.unique(index, return_counts=True)
-        return [int(i) for i in found[np.argsort(-count, kind="stable")]]
+def _exported(case: Case, change: Callable[[Scene], Scene]) -> Case:
+    """Change the scene and the alternatives alike."""
+    others = tuple(replace(a, scene=change(a.scene)) for a in case.alternatives)
+    return replace(case, scene=change(case.scene), alternatives=others)
 
 
-class Wrong(NamedTuple):
-    """What is wrong: the scene, or the picture."""
-
-    scene: Scene
-    shown: Shown
-
-
-Make = Callable[[Case], Wrong | None]
-
-
-def _camera(case: Case, **changes: object) -> Wrong:
+def _camera(case: Case, **changes: object) -> Case:
     camera = replace(case.scene.camera, **changes)
-    return Wrong(replace(case.scene, camera=camera), case.shown)
+    return _exported(case, lambda scene: replace(scene, camera=camera))
 
 
-def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) -> Wrong:
+def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) -> Case:
     """Scale the view window, and move it by some pixels."""
     w, (width, height) = case.scene.camera.window, pixel_size(case.scene.camera)
     x, y = dx * width, dy * height
@@ -63,63 +40,100 @@ def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) ->
     return _camera(case, window=ViewWindow(left + x, right + x, bottom + y, top + y))
 
 
-def _axes(case: Case, change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Wrong:
+def _axes(case: Case, change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Case:
     matrix = case.scene.camera.world_from_camera.copy()
     matrix[:3, :3] = change(matrix[:3, :3])
     return _camera(case, world_from_camera=matrix)
 
 
-def sensor_fit(case: Case) -> Wrong:
+def _seen(case: Case, frame: Frame) -> list[int]:
+    """Return the instances of meshes that are seen, those of the most pixels first."""
+    index = frame.instance_index
+    index = index[(index >= 0) & (index < len(case.scene.instances))]
+    found, count = np.unique(index, return_counts=True)
+    return [int(i) for i in found[np.argsort(-count, kind="stable")]]
+
+
+def _in(other: Scene, scene: Scene, number: int) -> int | None:
+    """Return which instance of another export is a scene's: the same one of its object's."""
+    if other is scene:
+        return number
+    index = scene.instances[number].object
+    name, of_object = scene.objects[index], [i.object == index for i in scene.instances]
+    there = [n for n, i in enumerate(other.instances) if other.objects[i.object] == name]
+    rank = sum(of_object[:number])
+    return there[rank] if rank < len(there) else None
+
+
+def _instance(case: Case, number: int, change: Callable[[Instance], Instance | None]) -> Case:
+    """Change an instance, or drop it, wherever it is exported."""
+
+    def changed(scene: Scene) -> Scene:
+        own, instances = _in(scene, case.scene, number), list(scene.instances)
+        if own is not None:
+            instances[own : own + 1] = [i for i in [change(instances[own])] if i is not None]
+        return replace(scene, instances=tuple(instances))
+
+    return _exported(case, changed)
+
+
+def sensor_fit(case: Case, _: Frame) -> Case:
     """Fit the lens to the picture's other side."""
     w = case.scene.camera.window
     return _window(case, (w.right - w.left) / (w.top - w.bottom))
 
 
-def clip_start(case: Case) -> Wrong | None:
+def clip_start(case: Case, frame: Frame) -> Case | None:
     """Clip halfway between the nearest and the farthest that is seen."""
-    t = case.frame.t[np.isfinite(case.frame.t)]
+    t = frame.t[np.isfinite(frame.t)]
     if not len(t) or t.min() == t.max():
         return None
     return _camera(case, clip_start=float(t.min() + t.max()) / 2)
 
 
-def flipped_winding(case: Case) -> Wrong:
+def flipped_winding(case: Case, _: Frame) -> Case:
     """Turn the normals of all triangles over."""
-    meshes = tuple(
-        replace(
-            m,
-            triangles=m.triangles[:, ::-1],
-            corner_colors=None if m.corner_colors is None else m.corner_colors[:, ::-1],
-        )
-        for m in case.scene.meshes
+    return _exported(
+        case, lambda scene: replace(scene, meshes=tuple(_flipped(m) for m in scene.meshes))
     )
-    return Wrong(replace(case.scene, meshes=meshes), case.shown)
 
 
-def dropped_instance(case: Case) -> Wrong | None:
+def _flipped(mesh: Mesh) -> Mesh:
+    colors = mesh.corner_colors
+    return replace(
+        mesh,
+        triangles=mesh.triangles[:, ::-1],
+        corner_colors=None if colors is None else colors[:, ::-1],
+    )
+
+
+def dropped_instance(case: Case, frame: Frame) -> Case | None:
     """Leave out the instance that is seen in the most pixels."""
-    if not (seen := case.seen()):
+    if not (seen := _seen(case, frame)):
         return None
-    kept = [i for n, i in enumerate(case.scene.instances) if n != seen[0]]
-    owners = case.shown.owners
+    owners = case.picture.owners
     owners = None if owners is None else np.delete(owners, seen[0])
-    return Wrong(replace(case.scene, instances=tuple(kept)), replace(case.shown, owners=owners))
+    wrong = _instance(case, seen[0], lambda _: None)
+    return replace(wrong, picture=replace(case.picture, owners=owners))
 
 
-def dropped_triangle(case: Case) -> Wrong | None:
+def dropped_triangle(case: Case, frame: Frame) -> Case | None:
     """Leave out the triangle that is seen in the most pixels."""
-    if not case.seen():
+    if not _seen(case, frame):
         return None
-    frame = case.frame
-    names = np.stack((frame.instance_index, frame.triangle_index), axis=-1)[
-        frame.triangle_index >= 0
-    ]
-    found, count = np.unique(names, axis=0, return_counts=True)
-    instance, triangle = found[count.argmax()]
-    number = case.scene.instances[instance].mesh
-    meshes = list(case.scene.meshes)
-    meshes[number] = _less(meshes[number], int(triangle))
-    return Wrong(replace(case.scene, meshes=tuple(meshes)), case.shown)
+    names = np.stack((frame.instance_index, frame.triangle_index), axis=-1)
+    found, count = np.unique(names[frame.triangle_index >= 0], axis=0, return_counts=True)
+    instance, triangle = (int(n) for n in found[count.argmax()])
+
+    def less(scene: Scene) -> Scene:
+        own, meshes = _in(scene, case.scene, instance), list(scene.meshes)
+        if own is not None and triangle < len(
+            (mesh := meshes[number := scene.instances[own].mesh]).triangles
+        ):
+            meshes[number] = _less(mesh, triangle)
+        return replace(scene, meshes=tuple(meshes))
+
+    return _exported(case, less)
 
 
 def _less(mesh: Mesh, triangle: int) -> Mesh:
@@ -132,50 +146,50 @@ def _less(mesh: Mesh, triangle: int) -> Mesh:
     )
 
 
-def moved_object(case: Case) -> Wrong | None:
+def moved_object(case: Case, frame: Frame) -> Case | None:
     """Move the instance that is seen in the most pixels by one of them, to the right."""
-    if not (seen := case.seen()):
+    if not (seen := _seen(case, frame)):
         return None
-    camera, t = case.scene.camera, case.frame.t[case.frame.instance_index == seen[0]]
+    camera, t = case.scene.camera, frame.t[frame.instance_index == seen[0]]
     length = pixel_size(camera)[0] * camera.projection.scale(float(np.median(t)))
-    instances = list(case.scene.instances)
-    matrix = instances[seen[0]].world_from_object.copy()
-    matrix[:3, 3] += length * camera.right
-    instances[seen[0]] = replace(instances[seen[0]], world_from_object=matrix)
-    return Wrong(replace(case.scene, instances=tuple(instances)), case.shown)
+
+    def moved(instance: Instance) -> Instance:
+        matrix = instance.world_from_object.copy()
+        matrix[:3, 3] += length * camera.right
+        return replace(instance, world_from_object=matrix)
+
+    return _instance(case, seen[0], moved)
 
 
-def swapped_colors(case: Case) -> Wrong | None:
+def swapped_colors(case: Case, frame: Frame) -> Case | None:
     """Give two objects that are seen one another's colours."""
-    instances = list(case.scene.instances)
-    plain = [n for n in case.seen() if case.scene.meshes[instances[n].mesh].corner_colors is None]
-    for first in plain[:1]:
-        for second in plain[1:]:
-            a, b = instances[first], instances[second]
-            if not np.array_equal(a.colors, b.colors):
-                instances[first] = replace(a, colors=b.colors)
-                instances[second] = replace(b, colors=a.colors)
-                return Wrong(replace(case.scene, instances=tuple(instances)), case.shown)
+    scene = case.scene
+    colors = {n: scene.instances[n].colors for n in _seen(case, frame)}
+    plain = [n for n in colors if scene.meshes[scene.instances[n].mesh].corner_colors is None]
+    for second in plain[1:]:
+        first = plain[0]
+        if not np.array_equal(colors[first], colors[second]):
+            wrong = _instance(case, first, lambda i, c=colors[second]: replace(i, colors=c))
+            return _instance(wrong, second, lambda i, c=colors[first]: replace(i, colors=c))
     return None
 
 
-def wrong_frame(case: Case) -> Wrong | None:
+def wrong_frame(case: Case, _: Frame) -> Case | None:
     """Trace the scene a frame later."""
     if case.next_frame is None or len(case.next_frame.instances) != len(case.scene.instances):
         return None
-    return Wrong(case.next_frame, case.shown)
+    return replace(case, scene=case.next_frame)
 
 
-def _picture(case: Case, change: Callable[[NDArray], NDArray]) -> Wrong:
-    color = change(case.shown.color.copy())
-    return Wrong(case.scene, replace(case.shown, color=np.ascontiguousarray(color)))
+def _picture(case: Case, change: Callable[[NDArray], NDArray]) -> Case:
+    color = np.ascontiguousarray(change(case.picture.color.copy()))
+    return replace(case, picture=replace(case.picture, color=color))
 
 
-def _moved_picture(case: Case, change: Callable[[NDArray], NDArray]) -> Wrong:
-    owner = case.shown.owner
+def _moved_picture(case: Case, change: Callable[[NDArray], NDArray]) -> Case:
+    owner, wrong = case.picture.owner, _picture(case, change)
     owner = None if owner is None else change(owner)
-    wrong = _picture(case, change)
-    return Wrong(case.scene, replace(wrong.shown, owner=owner))
+    return replace(wrong, picture=replace(wrong.picture, owner=owner))
 
 
 def _gamma(color: NDArray) -> NDArray:
@@ -192,20 +206,22 @@ class Fault(NamedTuple):
 
 
 FAULTS = (
-    Fault("half_pixel", "rays through the pixels' corners", lambda c: _window(c, 1, 0.5, 0.5)),
-    Fault("one_pixel", "the camera off by a pixel to the right", lambda c: _window(c, 1, 1)),
+    Fault("half_pixel", "rays through the pixels' corners", lambda c, _: _window(c, 1, 0.5, 0.5)),
+    Fault("one_pixel", "the camera off by a pixel to the right", lambda c, _: _window(c, 1, 1)),
     Fault(
         "mirrored_x",
         "the camera mirrored left to right",
-        lambda c: _axes(c, lambda m: m * (-1, 1, 1)),
+        lambda c, _: _axes(c, lambda m: m * (-1, 1, 1)),
     ),
     Fault(
         "mirrored_y",
         "the camera mirrored upside down",
-        lambda c: _axes(c, lambda m: m * (1, -1, 1)),
+        lambda c, _: _axes(c, lambda m: m * (1, -1, 1)),
     ),
     Fault("sensor_fit", "the lens fitted to the picture's other side", sensor_fit),
-    Fault("camera_transposed", "the camera's rotation inverted", lambda c: _axes(c, np.transpose)),
+    Fault(
+        "camera_transposed", "the camera's rotation inverted", lambda c, _: _axes(c, np.transpose)
+    ),
     Fault("clip_start", "the clip start halfway into the scene", clip_start),
     Fault("flipped_winding", "all normals turned over", flipped_winding),
     Fault("dropped_instance", "the largest object left out", dropped_instance),
@@ -216,11 +232,13 @@ FAULTS = (
     Fault(
         "border",
         "the border off by one row",
-        lambda c: _moved_picture(c, lambda v: np.roll(v, 1, axis=0)),
+        lambda c, _: _moved_picture(c, lambda v: np.roll(v, 1, axis=0)),
     ),
-    Fault("rows", "the picture's rows from top to bottom", lambda c: _moved_picture(c, np.flipud)),
     Fault(
-        "channels", "red and blue swapped", lambda c: _picture(c, lambda v: v[..., [2, 1, 0, 3]])
+        "rows", "the picture's rows from top to bottom", lambda c, _: _moved_picture(c, np.flipud)
     ),
-    Fault("gamma", "a gamma of 2.2 applied to the picture", lambda c: _picture(c, _gamma)),
+    Fault(
+        "channels", "red and blue swapped", lambda c, _: _picture(c, lambda v: v[..., [2, 1, 0, 3]])
+    ),
+    Fault("gamma", "a gamma of 2.2 applied to the picture", lambda c, _: _picture(c, _gamma)),
 )

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
-MOST = LEVELS**3 // 2  # objects that are told apart
+MOST_OBJECTS = LEVELS**3 // 2  # objects that are told apart
 _OFF = 0.1  # of a step: so far a channel may lie from its digit (1/255 is 0.12 of one, halved)
 
 
@@ -53,10 +53,12 @@ def colors_of(count: int) -> NDArray[np.float32]:
     Raises
     ------
     ValueError
-        If there are more than MOST.
+        If there are more than MOST_OBJECTS.
     """
-    if count > MOST:
-        raise ValueError(f"{count} objects are more than the {MOST} that colours tell apart")
+    if count > MOST_OBJECTS:
+        raise ValueError(
+            f"{count} objects are more than the {MOST_OBJECTS} that colours tell apart"
+        )
     number = np.arange(count)
     red, green = number // (LEVELS // 2) // LEVELS, number // (LEVELS // 2) % LEVELS
     blue = 2 * (number % (LEVELS // 2)) + (red + green) % 2

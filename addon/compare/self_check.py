@@ -1,6 +1,8 @@
 """The threshold self-check: whether this comparison would have found a fault in this very scene.
 
-Known faults are made, one at a time, and judged as the comparison itself was. A fault that changes
+Known faults are made, one at a time, and explained as the comparison itself was: by the same
+function, method, alternatives and curves. A fault is caught where it leaves pixels unexplained, or
+where the comparison names a transform of the colours that it did not name before. One that changes
 no pixel here, as a mirrored camera before a symmetric scene, cannot be seen: that is said, with the
 number of pixels that it changed, and not counted as caught.
 """
@@ -18,12 +20,12 @@ from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
-from ..tracer.settings import Settings
-from .cause import Cause, differing
-from .causes import find_causes
-from .faults import FAULTS, Case, Fault, Wrong
+from .bounds import differing
+from .case import Case
+from .cause import Cause, Causes
+from .causes import explain
+from .faults import FAULTS, Fault
 
-ROUNDING = Cause.EDGE, Cause.DEPTH_TIE, Cause.CLIP_PLANE
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
 
@@ -33,7 +35,8 @@ class FaultRow:
 
     `changed` pixels of the traced picture (or of Blender's) are others than without the fault;
     `differ` then differ, `looked_at` of these were asked for their cause, and `unexplained` had
-    none. All are `within_rounding` where what Blender's own float32 may do accounts for each.
+    none. All are `within_rounding` where what Blender's own float32 may do accounts for each. A
+    transform of the colours that only the faulty comparison names is in `named`.
     """
 
     name: str
@@ -44,13 +47,14 @@ class FaultRow:
     unexplained: int = 0
     within_rounding: bool = False
     note: str = ""
+    named: bool = False
 
     @property
     def result(self) -> str:
         """One of 'caught', 'missed', 'within rounding', 'cannot be seen here'."""
         if not self.changed:
             return "cannot be seen here"
-        if self.unexplained:
+        if self.unexplained or self.named:
             return "caught"
         return "within rounding" if self.within_rounding else "missed"
 
@@ -61,63 +65,74 @@ class FaultRow:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
-        return asdict(self) | {"result": self.result}
+        held = asdict(self) | {"result": self.result}
+        del held["named"]  # the note says it
+        return held
 
 
-def self_check(case: Case, faults: Sequence[Fault] = FAULTS) -> Work[tuple[FaultRow, ...]]:
-    """Make every fault and judge it; yields the share of the work done."""
-    rows = []
+def self_check(
+    case: Case, frame: Frame, causes: Causes, faults: Sequence[Fault] = FAULTS
+) -> Work[tuple[FaultRow, ...]]:
+    """Make every fault and see what becomes of it; yields the share of the work done.
+
+    Parameters
+    ----------
+    case : Case
+        The right one, as it was given.
+    frame : Frame
+        What was traced of it.
+    causes : Causes
+        What was found of it.
+    faults : sequence of Fault, optional
+    """
+    rows, part = [], 1 / len(faults)
     for number, fault in enumerate(faults):
-        part = 1 / len(faults)
-        rows.append((yield from scaled(_judged(case, fault), number * part, part)))
+        row = yield from scaled(_checked(case, frame, causes, fault), number * part, part)
+        rows.append(row)
     return tuple(rows)
 
 
-def _judged(case: Case, fault: Fault) -> Work[FaultRow]:
+def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[FaultRow]:
     try:
-        wrong = fault.make(case)
+        wrong = fault.make(case, frame)
     except SceneError as error:  # nothing can be traced with it: nobody would miss that
         return FaultRow(fault.name, fault.text, note=f"refused: {error}")
     if wrong is None:
         return FaultRow(fault.name, fault.text, note="there is nothing to get wrong")
-    frame = case.frame
+    traced = frame
     if wrong.scene is not case.scene:
-        frame = Frame.empty(wrong.scene)
-        yield from scaled(steps(wrong.scene, Settings(), frame), 0.0, 0.3)
-    changed = int(_changed(case, wrong, frame).sum())
+        traced = Frame.empty(wrong.scene)
+        yield from scaled(steps(wrong.scene, case.settings, traced), 0.0, 0.3)
+    changed = int(_changed(case, frame, wrong, traced).sum())
     if not changed:
         return FaultRow(fault.name, fault.text)
-    finding = find_causes(
-        wrong.scene,
-        frame,
-        wrong.shown,
-        case.unmodelled,
-        case.sample_radius,
-        case.filter_radius,
-        at_most=SAMPLE,
-    )
-    found = yield from scaled(finding, 0.3, 0.7)
+    found = (yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)).causes
     looked_at = int((found.cause != Cause.AGREE).sum())
-    unexplained = int((found.cause == Cause.UNEXPLAINED).sum())
-    differ = looked_at + found.passed_over
-    within = bool(np.isin(found.cause, (Cause.AGREE, *ROUNDING)).all())
-    return FaultRow(fault.name, fault.text, changed, differ, looked_at, unexplained, within)
+    named = bool(found.transform) and found.transform != causes.transform
+    rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
+    return FaultRow(
+        fault.name,
+        fault.text,
+        changed,
+        looked_at + found.passed_over,
+        looked_at,
+        int((found.cause == Cause.UNEXPLAINED).sum()),
+        bool(np.isin(found.cause, rounding).all()),
+        f"named: {found.transform}" if named else "",
+        named,
+    )
 
 
-def _changed(case: Case, wrong: Wrong, frame: Frame) -> NDArray[np.bool_]:
+def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> NDArray[np.bool_]:
     """Return which pixels (h, w) the fault changes: their colour, or whose surface they show."""
+    right, picture = case.picture, wrong.picture
     if wrong.scene is case.scene:
-        changed = differing(case.shown.color, wrong.shown.color)
-        return (
-            changed
-            if case.shown.owner is None
-            else changed | (case.shown.owner != wrong.shown.owner)
-        )
-    changed = differing(case.frame.color, frame.color)
-    if case.shown.owners is None:
+        changed = differing(right.color, picture.color)
+        return changed if right.owner is None else changed | (right.owner != picture.owner)
+    changed = differing(frame.color, traced.color)
+    if right.owners is None:
         return changed
-    before = case.shown.owners[case.frame.instance_index]
-    return changed | (before != wrong.shown.owners[frame.instance_index])
+    return changed | (right.owners[frame.instance_index] != picture.owners[traced.instance_index])
 
 
 def table(rows: Sequence[FaultRow]) -> list[str]:
@@ -128,7 +143,8 @@ def table(rows: Sequence[FaultRow]) -> list[str]:
     seen = caught + sum(r.missed for r in rows)
     out = [f"self-check: {caught} of {seen} faults that can be seen here are caught"]
     for r in rows:
-        pixels = f"{r.unexplained:,} of {r.looked_at:,} px unexplained" if r.changed else r.note
-        told = f" ({pixels})" if pixels else ""
+        pixels = f"{r.unexplained:,} of {r.looked_at:,} px unexplained" if r.changed else ""
+        said = ", ".join(filter(None, (pixels, r.note)))
+        told = f" ({said})" if said else ""
         out.append(f"  {r.name.replace('_', ' '):18} {r.result}{told}: {r.text}")
     return out

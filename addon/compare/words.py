@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .cause import DESCRIPTIONS, Cause
+from .cause import Cause
 from .self_check import table
 
 
@@ -17,10 +17,10 @@ def lines(comparison: Any) -> list[str]:
     psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
     x, y = m["largest_difference"]["pixel"]
     return [
-        f"{p['agree']:,} of {p['total']:,} pixels agree with {_other(comparison)}, "
+        f"{p['agree']:,} of {p['total']:,} pixels agree with {comparison.case.picture.source}, "
         f"{p['differ']:,} differ",
         *(
-            f"  {DESCRIPTIONS[Cause[name.upper()]].label}: {n:,}{_at(p['examples'].get(name, ()))}"
+            f"  {Cause[name.upper()].label}: {n:,}{_at(p['examples'].get(name, ()))}"
             for name, n in p["by_cause"].items()
             if n
         ),
@@ -33,14 +33,6 @@ def lines(comparison: Any) -> list[str]:
         *table(comparison.self_check),
         f"verdict: {comparison.verdict}",
     ]
-
-
-def _other(comparison: Any) -> str:
-    """Name the picture that is compared."""
-    about = comparison.blender
-    if "picture" in about:
-        return f"the picture '{about['picture']}'"
-    return f"Blender's {about['source']} picture"
 
 
 def _evidence(comparison: Any) -> list[str]:
@@ -63,8 +55,8 @@ def _evidence(comparison: Any) -> list[str]:
             f"of the unexplained pixels {shows['same_object']:,} show the same object in another "
             f"colour, {shows['other_object']:,} another object"
         )
-    if comparison.certificate:
-        out.append(comparison.certificate.line())
+    if comparison.case.certificate:
+        out.append(comparison.case.certificate.line())
     return out
 
 

@@ -8,20 +8,6 @@ from numpy.typing import NDArray
 from ..compare.cause import Cause
 from ..compare.comparison import Comparison
 
-# Linear RGB, told apart by the colour-blind, too. Pixels that agree show the traced picture, dimmed
-# and grey.
-CAUSE_COLORS = {
-    Cause.EDGE: (1.0, 0.3, 0.0),
-    Cause.DEPTH_TIE: (0.0, 0.7, 1.0),
-    Cause.CLIP_PLANE: (1.0, 1.0, 0.4),
-    Cause.ANTI_ALIASING: (0.7, 0.4, 0.2),
-    Cause.COLOR: (0.4, 0.7, 0.7),
-    Cause.HIDDEN: (0.08, 0.2, 0.08),
-    Cause.NOT_MODELLED: (0.3, 0.08, 0.9),
-    Cause.NOT_DECIDABLE: (0.25, 0.3, 0.6),
-    Cause.UNEXPLAINED: (1.0, 0.0, 0.0),
-    Cause.NOT_TRACED: (0.0, 0.0, 0.0),
-}
 _DIM = 0.25
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
@@ -31,10 +17,9 @@ def difference(comparison: Comparison) -> NDArray[np.float32]:
     grey = _DIM * (np.nan_to_num(comparison.frame.color[..., :3]) @ np.array(_LUMINANCE))
     out = np.ones((*grey.shape, 4), np.float32)
     out[..., :3] = grey[..., None]
-    for cause, color in CAUSE_COLORS.items():
-        where = comparison.causes.cause == cause
-        if cause in (Cause.NOT_DECIDABLE, Cause.COLOR):  # of whole surfaces: they stay to be seen
-            out[where, :3] = 0.5 * out[where, :3] + 0.5 * np.array(color)
-        else:
-            out[where, :3] = color
+    for cause in Cause:
+        if cause.color is not None:
+            where = comparison.causes.cause == cause
+            share = 0.5 if cause.see_through else 1.0
+            out[where, :3] = (1 - share) * out[where, :3] + share * np.array(cause.color)
     return out

@@ -32,7 +32,7 @@ SETTINGS = (
 def test_every_camera_has_one(setting, build):
     build.scene(160, 90)
     setting(build)
-    found = gather(bpy.context).known.certificate
+    found = gather(bpy.context).certificate
     assert found.passed and found.largest < 0.01 and found.points > 1000
 
 

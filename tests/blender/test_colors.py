@@ -202,7 +202,7 @@ def test_the_background_as_it_is(world, film, kind, build, compare):
     build.square(material=build.material("Green", 0.2, 0.9, 0.3))
     build.camera()
     comparison = compare(as_is=True)
-    assert comparison.blender["settings"]["like_for_like"] is False
+    assert comparison.case.picture.source.settings["like_for_like"] is False
     np.testing.assert_allclose(
         comparison.picture[0, 0], comparison.frame.color[0, 0], atol=HALF_FLOAT
     )

@@ -140,8 +140,8 @@ def flat_faces(scene, frame) -> np.ndarray:
 def test_cycles_picture_has_no_unexplained_pixel(name, opened, compare):
     opened(name, WIDTH)
     comparison = compare(judge="CYCLES")
-    assert comparison.blender["source"] == "cycles"
-    assert comparison.blender["sample_radius"] == RADIUS
+    assert comparison.case.picture.source.name == "cycles"
+    assert comparison.case.picture.sample_radius == RADIUS
     pixels = comparison.pixels
     assert pixels["unexplained"] == pixels["not_decidable"] == 0
     assert pixels["differ"] <= 0.02 * pixels["total"]

@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.cause import Cause, differing
-from reference_tracer.compare.causes import find_causes
+from reference_tracer.compare.bounds import differing
+from reference_tracer.compare.cause import Cause
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
+
+from .cases import find_causes
 
 
 def _explained(scene, picture, unmodelled=(), settings=None, sample_radius=0.0):

@@ -1,45 +1,73 @@
-"""When two pixels differ."""
+"""The causes' records, and the errand: a new cause is its record and its check, nothing else."""
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
-from reference_tracer.compare.cause import LEAST, UNITS, Cause, differing
+import pytest
+from reference_tracer.compare import causes
+from reference_tracer.compare.cause import Cause, Record
+from reference_tracer.compare.comparison import compare
+from reference_tracer.report.page.content import _hex, content
+from reference_tracer.report.pictures import difference
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 
-WHITE = (1.0, 1.0, 1.0, 1.0)
+from .cases import case_of
+
+COMET = Record(
+    42,
+    "comet",
+    "a comet passed {figure:.0f} km away (seen up to {allowed:.0f} km)",
+    "km",
+    (0.9, 0.8, 0.1),
+    explains=True,
+    warns=True,
+)
 
 
-def test_half_float_colours_agree(room, explained):
-    """Cut off to half floats, with three units in the last place missing; not with six."""
-    traced = render(room).color
-    cut = traced.astype(np.float16)
-    for units, agree in ((3, True), (6, False)):
-        worn = (cut - units * np.spacing(cut) * (cut > 0)).astype(np.float32)
-        cause = explained(room, worn).cause
-        assert ((cause == Cause.AGREE) == (agree | ~traced.any(axis=-1))).all()
+@pytest.fixture
+def comet(monkeypatch):
+    """Add a cause as a line in its class and one among the checks would."""
+    member = Cause._new_member_(Cause, COMET)
+    member._name_ = "COMET"
+    monkeypatch.setattr(Cause, "_member_names_", [*Cause._member_names_, "COMET"])
+    monkeypatch.setitem(Cause._member_map_, "COMET", member)
+    monkeypatch.setitem(Cause._value2member_map_, 42, member)
+
+    def check(pixels):
+        white = (pixels.picture.color == 1).all(axis=-1)
+        pixels.settle(pixels.open & white, member, 7.0, 9.0)
+        yield 1.0
+
+    monkeypatch.setattr(causes, "CHECKS", [(check, 1.0), *causes.CHECKS])
+    return member
 
 
-def test_dark_colours_are_told_apart():
-    """What is allowed goes with the value: near black, too, one colour is not another."""
-    dark, darker = np.full((1, 1, 4), 0.0019), np.full((1, 1, 4), 0.0002)
-    assert differing(dark, darker).all()
-    assert not differing(dark * 1e3, dark * 1e3 * (1 - 2.0**-10)).any()
-    assert differing(np.full((1, 1, 4), 1e9), np.full((1, 1, 4), 2e9)).all()
+def test_a_new_cause_is_everywhere_by_its_record_and_its_check(room, comet):
+    frame = render(room)
+    color = frame.color.copy()
+    color[3:5, 4:9] = 1
+    found = result_of(compare(case_of(room, color), frame))
+    pixels = found.pixels
+    assert pixels["by_cause"]["comet"] == pixels["explained"] == pixels["differ"] == 10
+    assert pixels["unexplained"] == 0 and found.verdict == "warnings"
+    assert pixels["examples"]["comet"][0] == [4, 3]
+    assert "  comet: 10, as at (4, 3)" in "\n".join(found.lines())
+    held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
+    assert held == {key: getattr(COMET, key) for key in ("number", "label", "sentence", "unit")}
+    assert np.array_equal(difference(found)[3:5, 4:9, :3], np.full((2, 5, 3), COMET.color, "f4"))
+    [entry] = [c for c in content(found)["causes"] if c["name"] == "comet"]
+    assert entry["label"] == "Comet" and entry["pixels"] == 10 and entry["value"] == 42
+    assert entry["color"] == _hex(COMET.color) and entry["sentence"] == COMET.sentence
+    assert Cause(42).told(7.0, 9.0) == "a comet passed 7 km away (seen up to 9 km)"
 
 
-def test_differing_is_symmetric_and_strict(rng):
-    first = (3 * rng.random((5, 6, 4)) + 0.01).astype(np.float16).astype(np.float64)
-    unit = np.spacing(first.astype(np.float16)).astype(np.float64)
-    allowed = np.maximum(UNITS * unit, LEAST)
-    second = first - allowed * rng.choice([0, 0.9, 1.1], first.shape, p=[0.6, 0.3, 0.1])
-    expected = (first - second > allowed).any(axis=-1)
-    assert 0 < expected.sum() < 30
-    assert np.array_equal(differing(first, second), expected)
-    assert np.array_equal(differing(second, first), expected)
-
-
-def test_half_floats_agree_and_bytes_do_not():
-    """Three units of a half float are missing at most; one step of an 8-bit picture is a fault."""
-    white = np.ones((1, 1, 4), np.float32)
-    assert not differing(white, white - 3 * np.float32(2.0**-11)).any()
-    assert differing(white, white - np.float32(1 / 255)).all()
+def test_records_are_told_apart():
+    assert len(Cause) == len({c.label for c in Cause}) == len({c.color for c in Cause}) == 11
+    assert [c.key for c in sorted(Cause)][:3] == ["agree", "edge", "depth_tie"]  # in frame.npz
+    for cause in Cause:
+        assert cause.told(0.5, 1.0) and (cause.color is None) == (cause is Cause.AGREE)
+        assert ("{figure" in cause.sentence) == bool(cause.unit)
+    assert {c for c in Cause if c.rounding} == {Cause.EDGE, Cause.DEPTH_TIE, Cause.CLIP_PLANE}

@@ -10,9 +10,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.band import sample_band
-from reference_tracer.compare.cause import Cause, differing
-from reference_tracer.compare.causes import covered, find_causes
+from reference_tracer.compare.bounds import differing
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.checks.band import sample_band
+from reference_tracer.compare.checks.unmodelled import covered
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering
@@ -20,6 +21,8 @@ from reference_tracer.tracer.camera import film_of, pixel_size
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
+
+from .cases import find_causes
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 

@@ -7,8 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.boundary import boundary
-from reference_tracer.compare.cause import DESCRIPTIONS, Cause
+from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.comparison import (
     EXIT_CODES,
     SCHEMA,
@@ -16,14 +15,21 @@ from reference_tracer.compare.comparison import (
     compare,
     trace_and_compare,
 )
-from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
+from reference_tracer.compare.counts import boundary
+from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Settings
 
-BLENDER = {"version": "5.2.3", "source": "workbench", "sample_radius": 0.0, "settings": {}}
-PLAIN = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
+from .cases import MANIFEST, case_of
+
+BLENDER = {
+    "version": "5.2.3",
+    "source": "workbench",
+    "sample_radius": 0.0,
+    "filter_radius": 0.0,
+    "settings": {},
+}
 BOX = np.array([[-2.0, -2, -2.1], [0.1, 0.1, -2]])
 
 
@@ -37,9 +43,9 @@ def scene(make):
     )
 
 
-def compared(scene, picture, manifest=PLAIN, frame=None):
+def compared(scene, picture, manifest=MANIFEST, frame=None):
     frame = frame or render(scene)
-    return result_of(compare(scene, manifest, Settings(), frame, picture, BLENDER))
+    return result_of(compare(replace(case_of(scene, picture), manifest=manifest), frame))
 
 
 def mixed(scene):
@@ -47,7 +53,7 @@ def mixed(scene):
     picture = render(scene).color.copy()
     picture.reshape(-1, 4)[::3] = 1
     hair = Unmodelled("Hair", "hair", bounds=BOX)
-    return compared(scene, picture, replace(PLAIN, unmodelled=(hair,)))
+    return compared(scene, picture, replace(MANIFEST, unmodelled=(hair,)))
 
 
 def test_counts_add_up(scene):
@@ -93,7 +99,7 @@ def test_verdicts(scene):
     picture = render(scene).color
     glass = Unmodelled("Glass", "transparency", bounds=BOX)
     torn = ObjectEntry("Torn", "MESH", True, left_out=1)
-    for manifest in (replace(PLAIN, unmodelled=(glass,)), replace(PLAIN, objects=(torn,))):
+    for manifest in (replace(MANIFEST, unmodelled=(glass,)), replace(MANIFEST, objects=(torn,))):
         assert compared(scene, picture, manifest).verdict == "warnings"
         assert compared(scene, picture[::-1].copy(), manifest).verdict == "differences"
     assert mixed(scene).verdict == "differences"
@@ -159,7 +165,12 @@ def test_json_has_what_is_promised(scene):
         "certificate",
         "self_check",
     }
-    assert held["causes"]["edge"] == {"number": 1, **DESCRIPTIONS[Cause.EDGE]._asdict()}
+    assert held["causes"]["edge"] == {
+        "number": 1,
+        "label": Cause.EDGE.label,
+        "sentence": Cause.EDGE.sentence,
+        "unit": "px",
+    }
     assert set(held["causes"]) == {c.name.lower() for c in Cause}
     assert held["identity"] is held["certificate"] is None and held["self_check"] == []
     assert held["blender"] == BLENDER and held["pixels"] == found.pixels
@@ -190,7 +201,7 @@ def test_sizes_must_match(scene, shape):
 def test_tracing_and_comparing_in_one(scene):
     shares = []
     picture = render(scene).color[::-1].copy()
-    work = trace_and_compare(scene, PLAIN, Settings(), picture, BLENDER)
+    work = trace_and_compare(case_of(scene, picture))
     found = result_of(work, shares.append)
     assert (np.diff(shares) >= 0).all() and 0 <= shares[0] < 0.5 < shares[-1] <= 1
     apart = compared(scene, picture)

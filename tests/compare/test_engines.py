@@ -10,15 +10,12 @@ import pytest
 from reference_tracer.compare import engines
 from reference_tracer.compare.comparison import compare
 from reference_tracer.compare.engines import EngineRow
-from reference_tracer.compare.known import Known
-from reference_tracer.compare.shown import Shown, numbered
-from reference_tracer.manifest import Manifest
+from reference_tracer.compare.picture import Picture, Source, numbered
 from reference_tracer.report.comparison import write_engines
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Settings
 
-PLAIN = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
+from .cases import case_of
 
 
 @pytest.fixture
@@ -31,9 +28,8 @@ def rows(room):
     of_lacking = np.array([0, 2, -1], np.int32)[lacking.instance_index]
 
     def row(source, color, owner):
-        about = {"version": "5.2.3", "source": source, "sample_radius": 0.0, "settings": {}}
-        shown = Shown(color, owner, owners)
-        work = compare(room, PLAIN, Settings(), frame, shown, about, Known(names=names))
+        shown = Picture(color, Source(source, "5.2.3"), owner, owners, names)
+        work = compare(case_of(room, shown), frame)
         return EngineRow.of(result_of(work))
 
     return [

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.identity import MOST, NOTHING, UNKNOWN, Identity, colors_of, decode
+from reference_tracer.compare.identity import (
+    MOST_OBJECTS,
+    NOTHING,
+    UNKNOWN,
+    Identity,
+    colors_of,
+    decode,
+)
 
 
 def picture(count):
@@ -13,8 +20,8 @@ def picture(count):
 
 
 def test_every_number_comes_back_through_half_floats_and_bytes():
-    shown = picture(MOST)
-    numbers = np.arange(MOST)[None]
+    shown = picture(MOST_OBJECTS)
+    numbers = np.arange(MOST_OBJECTS)[None]
     for stored in (
         shown,
         shown.astype(np.float16).astype(np.float32),
@@ -22,13 +29,13 @@ def test_every_number_comes_back_through_half_floats_and_bytes():
         np.rint(255 * shown) / 255,
         np.concatenate((shown[..., :3] * 0.999, shown[..., 3:]), axis=-1),
     ):
-        np.testing.assert_array_equal(decode(stored.astype(np.float32), MOST), numbers)
-    assert len(np.unique(shown[0], axis=0)) == MOST
+        np.testing.assert_array_equal(decode(stored.astype(np.float32), MOST_OBJECTS), numbers)
+    assert len(np.unique(shown[0], axis=0)) == MOST_OBJECTS
 
 
 def test_more_than_there_are_colours_is_refused():
-    with pytest.raises(ValueError, match=str(MOST)):
-        colors_of(MOST + 1)
+    with pytest.raises(ValueError, match=str(MOST_OBJECTS)):
+        colors_of(MOST_OBJECTS + 1)
 
 
 def test_background_and_what_is_nobodys():
@@ -41,14 +48,14 @@ def test_background_and_what_is_nobodys():
 
 def test_a_wrong_digit_is_noticed():
     """One channel off by a digit."""
-    shown = picture(MOST)
+    shown = picture(MOST_OBJECTS)
     for channel in range(3):
         for step in (-1, 1):
             wrong = shown.copy()
             wrong[..., channel] = np.clip(wrong[..., channel] + step / 31, 0, 1)
             moved = np.abs(wrong - shown).max(axis=-1) > 1e-3
             assert moved.sum() > 100
-            assert (decode(wrong, MOST)[moved] == UNKNOWN).all()
+            assert (decode(wrong, MOST_OBJECTS)[moved] == UNKNOWN).all()
 
 
 def test_mixes_and_chance_are_mostly_nobodys(rng):

@@ -10,11 +10,12 @@ import trimesh
 from reference_tracer.compare import methods
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.methods import list_methods
-from reference_tracer.manifest import Manifest
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
+
+from .cases import case_of
 
 
 @pytest.fixture
@@ -78,12 +79,8 @@ def test_where_nothing_can_be_certified_no_pixel_is_called_wrong(scene, monkeypa
 
 def test_a_comparison_has_the_list_and_says_what_was_required(scene):
     frame = render(scene, Settings("textbook"))
-    manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
-    picture = frame.color.astype(np.float32)
-    work = trace_and_compare(
-        scene, manifest, Settings("textbook"), picture, {"version": "5.2.3", "source": "workbench"}
-    )
-    found = result_of(work)
+    case = case_of(scene, frame.color.astype(np.float32), settings=Settings("textbook"))
+    found = result_of(trace_and_compare(case))
     assert [(r.method, r.precision) for r in found.methods] == BOTH
     held = found.to_dict()
     assert [r["method"] for r in held["methods"]] == ["certified", "textbook"]

@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.compare.case import Case
 from reference_tracer.compare.comparison import compare
+from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
 from reference_tracer.scene import Instance
 from reference_tracer.tracer.camera import camera_rays
@@ -61,8 +63,8 @@ def _compared(scene, change=None, unmodelled=(), settings=None):
     manifest = Manifest(
         "a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera", entries, tuple(unmodelled)
     )
-    blender = {"version": "5.2.3", "source": "workbench", "settings": {"light": "FLAT"}}
-    return result_of(compare(scene, manifest, settings, frame, picture, blender))
+    source = Source("workbench", "5.2.3", settings={"light": "FLAT"})
+    return result_of(compare(Case(scene, manifest, settings, Picture(picture, source)), frame))
 
 
 @pytest.fixture

@@ -7,12 +7,14 @@ import json
 import numpy as np
 import pytest
 from PIL import Image
+from reference_tracer.compare.case import Case
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.comparison import SCHEMA, compare
+from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
 from reference_tracer.report.comparison import write, write_failure
-from reference_tracer.report.pictures import CAUSE_COLORS, difference
+from reference_tracer.report.pictures import difference
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -27,13 +29,15 @@ def compared(make):
     camera = make.camera(12, 9, half=4.5, orthographic=True, eye=(6, 4.5, 0))
     scene = make.scene(camera, make.quad(0, 4, 0, 2, -2), background=(0, 0, 0, 1))
     manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "RENDER", "Camera")
-    blender = {"version": "5.2.3", "source": "workbench"}
+    source = Source("workbench", "5.2.3")
 
     def made(change):
         frame = render(scene)
         picture = frame.color.copy()
         change(picture)
-        return result_of(compare(scene, manifest, Settings(), frame, picture, blender))
+        return result_of(
+            compare(Case(scene, manifest, Settings(), Picture(picture, source)), frame)
+        )
 
     return made
 
@@ -113,7 +117,7 @@ def test_json_of_a_picture_that_is_not_finite(compared, tmp_path):
 
 def test_what_json_cannot_hold_is_an_error(comparison, tmp_path):
     """Rather than a file that other readers refuse."""
-    comparison.blender["gamma"] = float("nan")
+    comparison.case.picture.source.settings["gamma"] = float("nan")
     with pytest.raises(ValueError, match="JSON"):
         write(tmp_path, comparison)
     assert not (tmp_path / "comparison.json").exists()
@@ -150,11 +154,12 @@ def test_a_folder_that_cannot_be_written(comparison, tmp_path):
 
 
 def test_every_cause_has_a_colour_of_its_own(comparison):
-    assert set(CAUSE_COLORS) == set(Cause) - {Cause.AGREE}
+    colored = {cause for cause in Cause if cause.color is not None}
+    assert colored == set(Cause) - {Cause.AGREE}
     shown = set()
-    for cause in CAUSE_COLORS:
+    for cause in colored:
         comparison.causes.cause[...] = cause
         picture = difference(comparison)
         assert picture.shape == (9, 12, 4) and picture.dtype == np.float32
         shown.add(tuple(np.round(picture[5, 5], 3)))
-    assert len(shown) == len(CAUSE_COLORS)
+    assert len(shown) == len(colored)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...compare.cause import DESCRIPTIONS, Cause
+from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import MissingLibraryError, to_display
@@ -25,7 +25,6 @@ from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
 from .. import trade_plot
-from ..pictures import CAUSE_COLORS
 from . import surfaces
 from .extras import Extras
 from .packing import data_uri, packed, size
@@ -113,14 +112,14 @@ def _causes(comparison: Comparison) -> list[dict[str, Any]]:
     return [
         {
             "value": int(cause),
-            "name": cause.name.lower(),
-            "label": _words(told.label),
-            "sentence": told.sentence,
-            "unit": told.unit,
-            "pixels": count[cause.name.lower()],
-            "color": _hex(CAUSE_COLORS[cause]) if cause in CAUSE_COLORS else None,
+            "name": cause.key,
+            "label": _words(cause.label),
+            "sentence": cause.sentence,
+            "unit": cause.unit,
+            "pixels": count[cause.key],
+            "color": None if cause.color is None else _hex(cause.color),
         }
-        for cause, told in DESCRIPTIONS.items()
+        for cause in Cause
     ]
 
 
@@ -134,13 +133,12 @@ def _hex(linear: Sequence[float]) -> str:
 
 
 def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, str]]:
-    s, about = comparison.frame.statistics, comparison.blender
-    given = about["version"] is None  # somebody's picture, not Blender's
+    s, source = comparison.frame.statistics, comparison.case.picture.source
     found = [
         ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color),
-        ("blender", "Picture", about["picture"], comparison.picture)
-        if given
-        else ("blender", "Blender", _words(about["source"]).lower(), comparison.picture),
+        ("blender", "Picture", source.file, comparison.picture)
+        if source.file
+        else ("blender", "Blender", _words(source.name).lower(), comparison.picture),
     ]
     if literal is not None:
         found.append(("literal", "Literal textbook", "s₁ + s₂ + s₃ = 1 as printed", literal.color))

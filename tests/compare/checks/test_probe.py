@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.compare.checks.probe import Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer import culling
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.nearest import NOTHING, film_positions, plan, trace_tile
-from reference_tracer.tracer.probe import Probe
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.triangle import METHODS

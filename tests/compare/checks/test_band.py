@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare import band
 from reference_tracer.compare.bounds import SNAPPING
+from reference_tracer.compare.checks import band
 from reference_tracer.tracer.progress import result_of
 
 

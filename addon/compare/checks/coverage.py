@@ -12,11 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tracer import plane, shading
-from ..tracer.camera import camera_rays, film_of
-from ..tracer.nearest import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
-from ..tracer.probe import Probe
-from ..tracer.triangle import METHODS
+from ...tracer import plane, shading
+from ...tracer.camera import camera_rays, film_of
+from ...tracer.nearest import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
+from ...tracer.progress import Work
+from ...tracer.triangle import METHODS
+from .probe import Probe
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
 # rim; in a large triangle less, so that it stays within the band.
@@ -44,7 +45,7 @@ class Coverage:
     behind: NDArray[np.float64]  # (k,) depth of the sure surface where each of `hits` is
 
 
-def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
+def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
     """Return what may cover the pixels of a probe, whose samples lie within `band` (n,) pixels."""
     scene, settings = probe.plan.scene, probe.plan.settings
     dtype = settings.precision.dtype
@@ -81,6 +82,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Coverage:
                 s[:, hit],
             )
         )
+        yield 0.0
     if not found:
         return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure, np.zeros(0))
     pixel, distance, offset, t, instance, triangle, s = (

@@ -5,21 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import find_causes
-from reference_tracer.compare.mixing import NEAR, distance_to_triangles, is_mix
-from reference_tracer.compare.shown import Shown
+from reference_tracer.compare.checks.hull import NEAR, distance_to_triangles, is_mix
+from reference_tracer.compare.picture import Picture
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
+
+from ..cases import find_causes
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 9])
 def test_every_mix_is_found(count, rng):
     points = rng.random((count, 300, 4))
     weights = rng.dirichlet(np.full(count, 0.4), 300).T[..., None]
-    assert is_mix((weights * points).sum(axis=0), points).all()
+    assert result_of(is_mix((weights * points).sum(axis=0), points)).all()
     logs = 2 ** (weights * np.log2(1 + points)).sum(axis=0) - 1
-    assert is_mix(logs, points).all()
+    assert result_of(is_mix(logs, points)).all()
 
 
 def test_colours_almost_on_a_line(rng):
@@ -28,7 +29,7 @@ def test_colours_almost_on_a_line(rng):
     between = 0.6 * light + 0.4 * dark + (0, 0.003, -0.002, 0)
     points = np.stack([dark] * 9 + [light] * 5 + [between] * 3)[:, None].repeat(50, axis=1)
     share = rng.random((50, 1))
-    assert is_mix(share * dark + (1 - share) * light, points).all()
+    assert result_of(is_mix(share * dark + (1 - share) * light, points)).all()
 
 
 def test_what_is_no_mix_is_not_found(rng):
@@ -38,7 +39,7 @@ def test_what_is_no_mix_is_not_found(rng):
     beyond = (points * away).sum(axis=-1).max(axis=0)[:, None]  # the hull ends here, this way
     inside = points.mean(axis=0)
     outside = inside + away * (beyond - (inside * away).sum(axis=-1)[:, None] + 8 * NEAR)
-    assert not is_mix(outside, points).any()
+    assert not result_of(is_mix(outside, points)).any()
 
 
 def test_distances_to_points_sides_and_triangles():
@@ -89,5 +90,5 @@ def test_sums_of_half_floats_lose_a_little(room):
     frame = render(room)
     low = frame.color * np.float32(1 - 32 * 2.0**-12)
     for sums, cause in ((0, Cause.UNEXPLAINED), (32, Cause.AGREE)):
-        found = result_of(find_causes(room, frame, Shown(low, sums=sums)))
+        found = result_of(find_causes(room, frame, Picture(low, sums=sums)))
         assert (found.cause[frame.instance_index >= 0] == cause).all()

@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.boundary import boundary
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import find_causes
-from reference_tracer.compare.shown import Shown
+from reference_tracer.compare.counts import boundary
+from reference_tracer.compare.picture import Picture
 from reference_tracer.images import curve, curve_undone, decoded
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
+
+from ..cases import find_causes
 
 
 @pytest.fixture
@@ -42,7 +43,7 @@ def found(scene, frame, shown, curves=()):
     ],
 )
 def test_a_transform_is_named(room, frame, change, name):
-    causes = found(room, frame, Shown(changed(frame, change)))
+    causes = found(room, frame, Picture(changed(frame, change)))
     assert causes.transform == name
     surface = frame.instance_index >= 0
     assert set(np.unique(causes.cause[surface])) <= {Cause.COLOR, Cause.AGREE}
@@ -52,7 +53,7 @@ def test_a_transform_is_named(room, frame, change, name):
 
 
 def test_none_is_looked_for_where_none_may_be(room, frame):
-    causes = found(room, frame, Shown(changed(frame, curve)), curves=None)
+    causes = found(room, frame, Picture(changed(frame, curve)), curves=None)
     assert causes.transform == "" and (causes.cause == Cause.UNEXPLAINED).sum() > 500
 
 
@@ -60,7 +61,7 @@ def test_a_file_that_was_cut_off_not_rounded(room, frame):
     stored = np.floor(255 * curve(frame.color[..., :3].astype(np.float64)))
     color = frame.color.copy()
     color[..., :3] = decoded(stored / 255)
-    causes = found(room, frame, Shown(color, levels=255))
+    causes = found(room, frame, Picture(color, levels=255))
     assert causes.transform == "values cut off, not rounded"
     assert not (causes.cause == Cause.UNEXPLAINED).any()
 
@@ -68,7 +69,7 @@ def test_a_file_that_was_cut_off_not_rounded(room, frame):
 def test_linear_values_in_a_png(room, frame):
     color = frame.color.copy()
     color[..., :3] = decoded(np.rint(255 * frame.color[..., :3].astype(np.float64)) / 255)
-    causes = found(room, frame, Shown(color, levels=255))
+    causes = found(room, frame, Picture(color, levels=255))
     assert causes.transform.startswith("sRGB's curve left out")
     assert not (causes.cause == Cause.UNEXPLAINED).any()
 
@@ -79,7 +80,7 @@ def test_a_gamma_of_coded_values(room, frame, power):
     once = np.rint(255 * curve(frame.color[..., :3].astype(np.float64))) / 255
     color = frame.color.copy()
     color[..., :3] = decoded(np.rint(255 * once**power) / 255)
-    causes = found(room, frame, Shown(color, levels=255))
+    causes = found(room, frame, Picture(color, levels=255))
     name = causes.transform
     assert name.startswith("a gamma of ") and name.endswith(" applied to coded (sRGB) values")
     assert float(name.split()[3]) == pytest.approx(1 / power, rel=0.02)
@@ -95,7 +96,7 @@ def test_a_large_area_alone_fits_no_curve(room, frame):
     power = np.where(dark, 2.18, 1.6 + 0.3 * frame.instance_index)
     color = frame.color.copy()
     color[..., :3] **= power[..., None]
-    causes = found(room, frame, Shown(color))
+    causes = found(room, frame, Picture(color))
     assert causes.transform == "" and not (causes.cause == Cause.COLOR).any()
 
 
@@ -104,7 +105,7 @@ def test_one_grey_surface_proves_no_fit(make):
     grey = replace(scene.instances[0], colors=((0.5, 0.5, 0.5, 1),))
     scene = replace(scene, instances=(grey,))
     frame = render(scene)
-    causes = found(scene, frame, Shown(changed(frame, lambda c: c * 0.7)))
+    causes = found(scene, frame, Picture(changed(frame, lambda c: c * 0.7)))
     assert causes.transform == "" and (causes.cause == Cause.UNEXPLAINED).all()
 
 
@@ -113,7 +114,7 @@ def test_a_missing_object_shows_through_a_transform(room, frame):
     box = frame.object_index == 1
     color = render(without).color.astype(np.float64)
     color[..., :3] = curve(color[..., :3])
-    causes = found(room, frame, Shown(color.astype(np.float32)))
+    causes = found(room, frame, Picture(color.astype(np.float32)))
     assert causes.transform == "sRGB's curve applied once more"
     assert (causes.cause[box] == Cause.UNEXPLAINED).mean() > 0.8
     assert (causes.cause[(frame.object_index == 0)] == Cause.COLOR).mean() > 0.9
@@ -122,7 +123,7 @@ def test_a_missing_object_shows_through_a_transform(room, frame):
 def test_noise_has_no_transform(room, frame, rng):
     color = frame.color * rng.uniform(0.2, 2, (*frame.t.shape, 1)).astype(np.float32)
     color[..., 3] = frame.color[..., 3]
-    causes = found(room, frame, Shown(color))
+    causes = found(room, frame, Picture(color))
     assert causes.transform == "" and not (causes.cause == Cause.COLOR).any()
 
 

@@ -10,15 +10,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare import again
 from reference_tracer.compare.bounds import SNAPPING
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import find_causes
+from reference_tracer.compare.checks import probe as probing
 from reference_tracer.scene import Mesh
-from reference_tracer.tracer import probe as probing
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
+
+from ..cases import find_causes
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 
@@ -140,7 +140,7 @@ def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
     picture = render(replace(room, camera=shifted(room.camera, 0.3, 0.004))).color
     picture[:, ::2] = WHITE
     for few, rows in ((1 << 20, 1 << 20), (200, 32), (1 << 20, 3)):
-        monkeypatch.setattr(again, "FEW", few)
+        monkeypatch.setattr(probing, "FEW", few)
         monkeypatch.setattr(rendering, "ROWS", rows)
         tested[:] = [0]
         work = find_causes(room, frame, picture)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
-from ..tracer.frame import Frame
-from ..tracer.nearest import NOTHING
-from ..tracer.progress import Work, result_of
-from .bounds import SNAPPING, pixel_error, view_error
+from ...scene import Scene
+from ...tracer.frame import Frame
+from ...tracer.nearest import NOTHING
+from ...tracer.progress import Work, result_of
+from ..bounds import SNAPPING, pixel_error, view_error
 
 _ROWS = 64  # looked at together, at least, so that a step is short in large pictures
 

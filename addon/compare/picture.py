@@ -1,4 +1,4 @@
-"""What the other side shows: its colours, and, where that is known, whose surfaces they are.
+"""The other side's picture: its pixels, whose surfaces they show, and how it was sampled.
 
 A pixel differs where its colour does, or where it shows another object than the tracer sees there:
 so neither is a wrong object excused by its colour, nor a wrong colour by an edge nearby.
@@ -7,7 +7,8 @@ so neither is a wrong object excused by its colour, nor a wrong colour by an edg
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,24 +16,53 @@ from numpy.typing import NDArray
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.nearest import Hits
-from .cause import difference, differing
+from .bounds import difference, differing
 from .identity import NOTHING, UNKNOWN
 
 Transform = Callable[[NDArray[np.float64]], NDArray[np.float64]]  # of straight linear RGB
+MAJORITY = 0.5  # the share of what a known curve changes that it must make agree
+
+
+class Curve(NamedTuple):
+    """A transform of colours with a name, and the share of pixels that it must account for."""
+
+    name: str
+    of: Transform
+    share: float = MAJORITY
+
+
+@dataclass(frozen=True)
+class Source:
+    """Who made the picture: one of Blender's engines, or anybody (`version` None, `file` named)."""
+
+    name: str = "picture"
+    version: str | None = None
+    file: str = ""
+    settings: dict[str, Any] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        return f"the picture '{self.file}'" if self.file else f"Blender's {self.name} picture"
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
-    """Some pixels of the other side's picture.
+class Picture:
+    """The pixels of the other side's picture, or some of them.
 
     Parameters
     ----------
     color : (..., 4) float32
         Linear RGBA, alpha premultiplied.
+    source : Source
     owner : (...,) int32, optional
-        Whose surface it is: an index of `Identity.names`, NOTHING or UNKNOWN.
+        Whose surface it is: an index of `names`, NOTHING or UNKNOWN.
     owners : (k + 1,) int32, optional
         Whose each instance of the traced scene is, then each plane; NOTHING at the end.
+    names : tuple of str
+        The objects that may be shown.
+    sample_radius : float
+        How far from a pixel's centre it is sampled on purpose, in pixels.
+    filter_radius : float
+        How far the filter reaches that mixes several samples of a pixel; 0 for one sample.
     levels : int
         Above 0 where the picture was stored in so many levels of sRGB's curve: 255 for a PNG.
     dither : float
@@ -50,8 +80,12 @@ class Shown:
     """
 
     color: NDArray[np.float32]
+    source: Source = Source()
     owner: NDArray[np.int32] | None = None
     owners: NDArray[np.int32] | None = None
+    names: tuple[str, ...] = ()
+    sample_radius: float = 0.0
+    filter_radius: float = 0.0
     levels: int = 0
     dither: float = 0.0
     sums: int = 0
@@ -60,27 +94,30 @@ class Shown:
     transform: Transform | None = None
     background: NDArray[np.float32] | None = None
 
-    def at(self, where: NDArray | slice) -> Shown:
+    def to_dict(self) -> dict[str, Any]:
+        """Return who made it and how, as JSON can hold it."""
+        source = self.source
+        return {
+            "version": source.version,
+            "source": source.name,
+            **({"picture": source.file} if source.file else {}),
+            "sample_radius": self.sample_radius,
+            "filter_radius": self.filter_radius,
+            "settings": source.settings,
+        }
+
+    def at(self, where: NDArray | slice) -> Picture:
         """Return some of the pixels: rows by a slice, or those where a mask is True."""
         owner = None if self.owner is None else self.owner[where]
         return replace(self, color=self.color[where], owner=owner)
 
     def differ(self, scene: Scene, hits: Hits) -> NDArray[np.bool_]:
         """Return which of n hits show something else than these n pixels."""
-        ramp = shading.interpolated(scene, hits.instance)
-        return self.differ_from(shading.colors(scene, hits), hits.instance, ramp)
-
-    def differ_from(
-        self,
-        colors: NDArray,
-        instance: NDArray[np.integer],
-        interpolated: NDArray[np.bool_] | bool = False,
-    ) -> NDArray[np.bool_]:
-        """Return which of (..., 4) traced colours of these instances (...) differ."""
-        other = self.other_object(instance)
+        other = self.other_object(hits.instance)
         if self.lit:
-            return other | ~self.known(instance)
-        return other | self.other_color(colors, interpolated)
+            return other | ~self.known(hits.instance)
+        ramp = shading.interpolated(scene, hits.instance)
+        return other | self.other_color(shading.colors(scene, hits), ramp)
 
     def other_color(
         self, colors: NDArray, interpolated: NDArray[np.bool_] | bool = False
@@ -106,23 +143,14 @@ class Shown:
 
     def made_of(self, colors: NDArray) -> NDArray:
         """Return traced colours (..., 4) as this picture has them, (..., 3) if it is opaque."""
-        return self._transformed(colors)[..., : 3 if self.opaque else 4]
-
-    def _transformed(self, colors: NDArray) -> NDArray:
-        if self.transform is None:
-            return colors
-        made = transformed(colors, self.transform)
-        if self.background is None:
-            return made
-        return np.where((colors == self.background).all(axis=-1, keepdims=True), colors, made)
-
-    def through(self, transform: Transform) -> Shown:
-        """Return the same, seen as made by a transform."""
-        return replace(self, transform=transform)
-
-    def in_another_light(self) -> Shown:
-        """Return the same, its colours proving nothing."""
-        return replace(self, lit=True)
+        made = colors
+        if self.transform is not None:
+            alpha = np.asarray(colors[..., 3:], np.float64)
+            made = np.concatenate((self.transform(straight(colors)) * alpha, alpha), axis=-1)
+            if self.background is not None:
+                own = (colors == self.background).all(axis=-1, keepdims=True)
+                made = np.where(own, colors, made)
+        return made[..., : 3 if self.opaque else 4]
 
     def other_object(self, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
         """Return where another object is known to be shown than that of the instances (...)."""
@@ -146,12 +174,6 @@ class Shown:
         if self.owner is None:
             return np.zeros(instance.shape, bool)
         return self.owner == self.owners[instance]
-
-
-def transformed(colors: NDArray, transform: Transform) -> NDArray[np.float64]:
-    """Return premultiplied RGBA (..., 4) with its straight RGB transformed."""
-    alpha = np.asarray(colors[..., 3:], np.float64)
-    return np.concatenate((transform(straight(colors)) * alpha, alpha), axis=-1)
 
 
 def straight(colors: NDArray) -> NDArray[np.float64]:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.coverage import coverage, nearest_to_origin
+from reference_tracer.compare.checks.coverage import coverage, nearest_to_origin
+from reference_tracer.compare.checks.probe import Probe
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.nearest import plan
-from reference_tracer.tracer.probe import Probe
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
@@ -58,7 +58,7 @@ def asked(scene, band=BAND, settings=None):
     made = result_of(plan(scene, settings, reach=band))
     count = region.width * region.height
     probe = result_of(Probe.of(made, region, np.ones(count, bool)))
-    return coverage(probe, np.full(count, band))
+    return result_of(coverage(probe, np.full(count, band)))
 
 
 @pytest.fixture

@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import find_causes
 from reference_tracer.compare.identity import NOTHING, UNKNOWN
-from reference_tracer.compare.shown import Shown, numbered
+from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.images import decoded, to_display
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
+
+from .cases import find_causes
 
 LIGHT = Unmodelled("scene 'Scene'", "studio light", everywhere=True, recolours=True)
 
@@ -28,7 +29,7 @@ def seen(room):
     """Return the room's frame, and its picture with whose surfaces it shows."""
     frame = render(room)
     owners = numbered(room.objects, room.objects)
-    return frame, Shown(frame.color.copy(), owners[frame.instance_index], owners)
+    return frame, Picture(frame.color.copy(), owner=owners[frame.instance_index], owners=owners)
 
 
 def causes(scene, frame, shown, *rest):
@@ -69,11 +70,13 @@ def test_a_wrong_colour_at_an_edge_is_no_edge(make):
     color[:, :-1][rim] = frame.color[:, 1:][rim]  # the neighbour's
     assert rim.sum() == 16
     band = 0.6  # pixels: the neighbour is within reach
-    without = causes(scene, frame, Shown(color), (), band)
+    without = causes(scene, frame, Picture(color), (), band)
     assert (without.cause[:, :-1][rim] == Cause.NOT_DECIDABLE).all()  # beyond half a pixel
     near = 0.45
-    edge = causes(scene, frame, Shown(color), (), near).cause[:, :-1][rim]
-    known = causes(scene, frame, Shown(color, owner, owners), (), near).cause[:, :-1][rim]
+    edge = causes(scene, frame, Picture(color), (), near).cause[:, :-1][rim]
+    known = causes(scene, frame, Picture(color, owner=owner, owners=owners), (), near).cause[
+        :, :-1
+    ][rim]
     assert (edge == Cause.EDGE).sum() > (known == Cause.EDGE).sum() == 0
     assert (known == Cause.UNEXPLAINED).all()
 
@@ -113,7 +116,7 @@ def test_bytes_may_be_half_a_level_off(room, seen):
     for off, cause in ((0.0, Cause.AGREE), (1.0, Cause.UNEXPLAINED)):
         moved = stored.copy()
         moved[..., :3] += off * (stored[..., 3:] > 0) * (1 - 2 * (stored[..., :3] > 200))
-        shown = Shown(decoded(moved / 255).astype(np.float32), levels=255)
+        shown = Picture(decoded(moved / 255).astype(np.float32), levels=255)
         found = causes(room, frame, shown).cause
         assert (found[frame.instance_index >= 0] == cause).all()
 
@@ -122,5 +125,5 @@ def test_an_opaque_picture_has_no_alpha_to_compare(room, seen):
     frame, _ = seen
     color = frame.color.copy()
     color[..., 3] = 1
-    assert (causes(room, frame, Shown(color, opaque=True)).cause == Cause.AGREE).all()
-    assert (causes(room, frame, Shown(color)).cause == Cause.UNEXPLAINED).any()
+    assert (causes(room, frame, Picture(color, opaque=True)).cause == Cause.AGREE).all()
+    assert (causes(room, frame, Picture(color)).cause == Cause.UNEXPLAINED).any()

@@ -6,12 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.alternatives import Alternative, with_object, without
+from reference_tracer.compare.case import Alternative
 from reference_tracer.compare.cause import Cause, Hidden
-from reference_tracer.compare.causes import find_causes
-from reference_tracer.compare.shown import Shown, numbered
+from reference_tracer.compare.checks.hidden import with_object, without
+from reference_tracer.compare.picture import Picture, numbered
+from reference_tracer.manifest import ObjectEntry
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
+
+from ..cases import find_causes
 
 WHY = "hidden in the viewport"
 
@@ -55,16 +58,15 @@ def test_a_flag_that_explains_nothing_is_not_named(named):
 def test_an_object_that_is_known_to_be_shown(named):
     """By whose surface the picture shows: the reason comes from the manifest."""
     lacking = without(named, "Box")
-    names = ("Ball", "Box", "Wall")
+    names, why = ("Ball", "Box", "Wall"), "hidden in renders"
     frame = render(lacking)
     owners = numbered(names, [lacking.objects[i.object] for i in lacking.instances])
     whole = render(named)
     owner = np.append(np.arange(3), -1).astype(np.int32)[whole.instance_index]
-    shown = Shown(whole.color, owner, owners)
-    causes = result_of(
-        find_causes(lacking, frame, shown, absent={1: Hidden("Box", "hidden in renders")})
-    )
-    assert causes.hidden == [Hidden("Box", "hidden in renders")]
+    shown = Picture(whole.color, owner=owner, owners=owners, names=names)
+    entry = ObjectEntry("Box", "MESH", False, why, hidden=True)
+    causes = result_of(find_causes(lacking, frame, shown, objects=[entry]))
+    assert causes.hidden == [Hidden("Box", why)]
     assert (causes.cause[owner == 1] == Cause.HIDDEN).mean() > 0.9
     causes = result_of(find_causes(lacking, frame, shown))
     assert (causes.cause[owner == 1] == Cause.UNEXPLAINED).mean() > 0.9

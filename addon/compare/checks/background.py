@@ -11,16 +11,15 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..images import encoded
-from ..scene import Scene
-from ..tracer.frame import Frame
-from ..tracer.hits import NOTHING
-from . import transforms
-from .boundary import boundary
-from .known import Known
-from .shown import Shown
+from ...images import encoded
+from ...tracer.frame import Frame
+from ...tracer.hits import NOTHING
+from ...tracer.progress import Work
+from ..counts import boundary
+from ..picture import Curve, Picture
+from . import color as colors
+from .open_pixels import blocks
 
 NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
 _NAMES = {(0, 0, 0): "black", (1, 1, 1): "white"}
@@ -51,53 +50,39 @@ class Background:
         """Return it as JSON can hold it."""
         return {"text": self.line(), "picture": list(self.picture), "scene": list(self.scene)}
 
-    def under(self, scene: Scene) -> Scene:
-        """Return a scene before the picture's background."""
-        return replace(scene, background=np.array(self.picture, np.float32))
-
-    def behind(self, known: Known) -> Known:
-        """Return what is known with the picture's background behind every scene."""
-        later = known.next_frame
-        return replace(
-            known,
-            alternatives=tuple(replace(a, scene=self.under(a.scene)) for a in known.alternatives),
-            next_frame=later and self.under(later),
-        )
-
 
 def find_background(
-    frame: Frame, shown: Shown, curves: Sequence[transforms.Named]
-) -> Background | None:
+    frame: Frame, picture: Picture, curves: Sequence[Curve]
+) -> Work[Background | None]:
     """Return the background of a picture that has one of its own, else None.
 
     Parameters
     ----------
     frame : Frame
-    shown : Shown
+    picture : Picture
         (h, w).
-    curves : sequence of transforms.Named
+    curves : sequence of Curve
         What may have been done to the colours: the scene's background through the transform that
         the surfaces went through is the scene's.
     """
-    at_edge = boundary(frame)
-    nothing = (frame.instance_index == NOTHING) & frame.rows_done[:, None] & ~at_edge
+    interior = frame.rows_done[:, None] & ~boundary(frame)
+    nothing = (frame.instance_index == NOTHING) & interior
     if not nothing.any():
         return None
-    there, own = shown.at(nothing), frame.scene.background
-    color = np.median(there.color, axis=0)
-    if not np.isfinite(color).all() or _share(there, color) < NEARLY_ALL:
+    own, color = frame.scene.background, np.median(picture.color[nothing], axis=0)
+    same = 0
+    for rows in blocks(nothing.shape):
+        there = picture.at(rows).at(nothing[rows])
+        same += int((~there.other_color(np.broadcast_to(color, there.color.shape))).sum())
+        yield 0.0
+    if not np.isfinite(color).all() or same < NEARLY_ALL * nothing.sum():
         return None
-    one = replace(shown, color=color[None].astype(np.float32), owner=None)
-    found = transforms.find(frame, shown, frame.rows_done[:, None] & ~at_edge, curves)
-    seen = one.through(found.of) if found else one
-    if not seen.other_color(own[None])[0]:
+    found = yield from colors.find(frame, picture, interior, curves)
+    transform = found.of if found else None
+    one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
+    if not one.other_color(own[None])[0]:
         return None
-    return Background(tuple(map(float, color)), tuple(map(float, own)), shown.opaque)
-
-
-def _share(shown: Shown, color: NDArray) -> float:
-    """Return the share of n pixels that have a colour (4,)."""
-    return float(np.mean(~shown.other_color(np.broadcast_to(color, shown.color.shape))))
+    return Background(tuple(map(float, color)), tuple(map(float, own)), picture.opaque)
 
 
 def _name(color: Sequence[float], opaque: bool) -> str:

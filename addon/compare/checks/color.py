@@ -1,0 +1,203 @@
+"""Colour only: the same object in another shade, by the light or by a transform of the colours.
+
+A transform is a function of straight linear RGB (..., 3): a curve, an exposure, swapped channels.
+It is sought and believed on surfaces, a sample for each of their colours, so that a large one does
+not outvote the others; the background proves nothing. No pixel at an edge is asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...images import curve, curve_undone
+from ...tracer.frame import Frame
+from ...tracer.hits import NOTHING
+from ...tracer.progress import Work
+from ..bounds import difference
+from ..cause import Cause
+from ..counts import boundary
+from ..picture import MAJORITY, Curve, Picture, Transform, straight
+from .open_pixels import OpenPixels, blocks
+
+FITTED_SHARE = 0.9  # as MAJORITY, of a curve whose number was fitted to the pixels
+ENOUGH = 4096  # pixels on which it is tried
+LEAST_CHANGE = 0.01  # an exposure or gamma nearer to 1 would be one of rounding
+_FIT = 0.02  # values from here up to 1 less this are fitted: others say little of a curve
+
+CURVES = (
+    Curve("sRGB's curve applied once more", lambda c: curve(np.clip(c, 0, 1))),
+    Curve("sRGB's curve left out", lambda c: curve_undone(np.clip(c, 0, 1))),
+    Curve(
+        "a power of 1/2.2 in place of sRGB's curve",
+        lambda c: curve_undone(np.clip(c, 0, 1) ** (1 / 2.2)),
+    ),
+    Curve("a power of 1/2.2", lambda c: np.clip(c, 0, None) ** (1 / 2.2)),
+    Curve("red and blue swapped", lambda c: c[..., ::-1]),
+)
+
+
+def check(pixels: OpenPixels) -> Work[None]:
+    """Settle the pixels that show the same object in another shade.
+
+    The others are looked at as if the picture were made by the transform that was found.
+    """
+    if pixels.picture.lit:
+        pixels.out.transform = "light that the tracer does not have"
+        yield from _settle(pixels, _lit)
+    elif pixels.case.curves is not None and pixels.open.any():
+        interior = pixels.open & ~boundary(pixels.frame)
+        found = yield from find(pixels.frame, pixels.picture, interior, pixels.case.curves)
+        if found is not None:
+            pixels.out.transform = found.name
+            pixels.picture = replace(pixels.picture, transform=found.of)
+            yield from _settle(pixels, _transformed)
+
+
+Look = Callable[[Picture, NDArray, NDArray], tuple[NDArray, NDArray, NDArray | float]]
+
+
+def _settle(pixels: OpenPixels, look: Look) -> Work[None]:
+    """Settle what `look` finds to be another shade of the traced surface, some rows a step."""
+    for rows in blocks(pixels.open.shape):
+        part, frame = pixels.rows(rows), pixels.frame
+        alike, *measured = look(part.picture, frame.color[rows], frame.instance_index[rows])
+        part.settle(part.open & alike, Cause.COLOR, *measured)
+        yield 1.0
+
+
+def _lit(
+    picture: Picture, color: NDArray, instance: NDArray
+) -> tuple[NDArray, NDArray, NDArray | float]:
+    left, _ = difference(color, picture.color)
+    return picture.same_object(instance), left.max(axis=-1), 1.0
+
+
+def _transformed(
+    picture: Picture, color: NDArray, instance: NDArray
+) -> tuple[NDArray, NDArray, NDArray | float]:
+    alike = ~picture.other_color(color) & ~picture.other_object(instance)
+    return alike, *picture.difference(color)
+
+
+def find(
+    frame: Frame, picture: Picture, interior: NDArray[np.bool_], more: Sequence[Curve] = ()
+) -> Work[Curve | None]:
+    """Return the transform that makes a picture's differing surfaces agree, or None.
+
+    Parameters
+    ----------
+    frame : Frame
+    picture : Picture
+        (h, w).
+    interior : (h, w) bool
+        Pixels that may be asked: away from edges, and traced.
+    more : sequence of Curve
+        Others to try, such as the scene's own view transform.
+    """
+    where = interior & (frame.instance_index != NOTHING)
+    for rows in blocks(where.shape):
+        where[rows] &= picture.at(rows).other_color(frame.color[rows])
+        yield 0.0
+    asked = np.flatnonzero(where)
+    if not len(asked):
+        return None
+    where[:] = False
+    where.flat[asked[:: -(-len(asked) // ENOUGH)]] = True
+    some, colors = picture.at(where), frame.color[where]
+    keys = np.column_stack((frame.instance_index[where], colors))
+    _, group = np.unique(keys, axis=0, return_inverse=True)
+    group = group.reshape(-1)
+    best, most = None, 0.0
+    for named in _candidates(*_one_each(colors, some.color, group), picture.levels, more):
+        agree = _agreeing(~replace(some, transform=named.of).other_color(colors), group)
+        yield 0.0
+        if agree > max(most, named.share):
+            best, most = named, agree
+    return best
+
+
+def _one_each(
+    colors: NDArray, shown: NDArray, group: NDArray[np.integer]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the traced and the median shown straight RGB, (k, 3), of each group of n pixels."""
+    _, first = np.unique(group, return_index=True)
+    order = np.argsort(group, kind="stable")
+    parts = np.split(shown[order], np.cumsum(np.bincount(group))[:-1])
+    median = np.array([np.median(part, axis=0) for part in parts])
+    return straight(colors[first]), straight(median)
+
+
+def _agreeing(agree: NDArray[np.bool_], group: NDArray[np.integer]) -> float:
+    """Return the share that agrees: of n pixels, or of their groups where that is less."""
+    of_group = np.bincount(group, agree) / np.bincount(group)
+    return min(float(agree.mean()), float((of_group > MAJORITY).mean()))
+
+
+def _candidates(
+    traced: NDArray, shown: NDArray, levels: int, more: Sequence[Curve]
+) -> Iterator[Curve]:
+    """Yield what may turn traced colours (k, 3) into the shown ones, the likeliest first."""
+    yield from more
+    yield from CURVES
+    if levels:
+        for named in (Curve("values", lambda c: c), *CURVES[1:3]):
+            yield Curve(f"{named.name} cut off, not rounded", _cut_off(named.of, levels))
+    for power in (2.2, 1 / 2.2):
+        yield _coded_power(power, levels, MAJORITY)
+    a, b = traced.ravel(), shown.ravel()
+    with np.errstate(invalid="ignore"):
+        told = (a > _FIT) & (b > _FIT) & np.isfinite(b)
+    if _several(a[told]):
+        factor = float(np.median(b[told] / a[told]))
+        if abs(factor - 1) > LEAST_CHANGE:
+            name = f"an exposure of {np.log2(factor):+.3g} stops"
+            yield Curve(name, lambda c: c * factor, FITTED_SHARE)
+    told &= (a < 1 - _FIT) & (b < 1 - _FIT)
+    if _several(a[told]):
+        power = _power(a[told], b[told])
+        if abs(power - 1) > LEAST_CHANGE:
+            name = f"a gamma of {1 / power:.3g}"
+            yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE)
+        coded = _power(curve(a[told]), curve(b[told]))
+        if abs(coded - 1) > LEAST_CHANGE:
+            yield _coded_power(coded, levels, FITTED_SHARE)
+
+
+def _several(values: NDArray) -> bool:
+    """Return whether values are told apart: one alone fits any curve of one number."""
+    return len(values) > 0 and float(np.ptp(values)) > LEAST_CHANGE
+
+
+def _power(a: NDArray, b: NDArray) -> float:
+    """Return p of b = a**p: the median, then least squares of b among the values near to it."""
+    x, y = np.log(a), np.log(b)
+    power = float(np.median(y / x))
+    near = np.abs(a**power - b) < _FIT
+    if not near.any():
+        return power
+    x, y, weight = x[near], y[near], b[near] ** 2  # db = b d(log b)
+    return float((weight * x * y).sum() / (weight * x * x).sum())
+
+
+def _coded_power(power: float, levels: int, share: float) -> Curve:
+    """Return a power of sRGB's coded values, which a picture of `levels` has rounded before."""
+
+    def transform(color: NDArray) -> NDArray:
+        stored = curve(np.clip(color, 0, 1))
+        if levels:
+            stored = np.rint(levels * stored) / levels
+        return curve_undone(stored**power)
+
+    return Curve(f"a gamma of {1 / power:.3g} applied to coded (sRGB) values", transform, share)
+
+
+def _cut_off(of: Callable[[NDArray], NDArray], levels: int) -> Transform:
+    def transform(color: NDArray) -> NDArray:
+        stored = levels * curve(np.clip(of(color), 0, 1))
+        return curve_undone(np.floor(stored + 1e-6) / levels)
+
+    return transform

@@ -1,0 +1,184 @@
+"""Rays that a picture does not have: beside their pixel's centre, or behind its first hit.
+
+The checks ask with them what a pixel would show had Blender's arithmetic moved it a little. They do
+so for a part of the picture at a time, in steps of a bounded number of pixels and pairs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...scene import Region, Scene
+from ...tracer.camera import camera_rays
+from ...tracer.nearest import (
+    NOTHING,
+    Hits,
+    Pairs,
+    Plan,
+    candidates,
+    film_positions,
+    test_pairs,
+    test_planes,
+)
+from ...tracer.progress import Work, result_of, scaled
+from ...tracer.render import tiles
+from ...tracer.settings import Method, Precision, Settings
+from ...tracer.shading import positions
+from ..bounds import depth_resolution, view_error
+from ..cause import Cause
+from ..picture import Picture
+from .open_pixels import OpenPixels
+
+# A method that loses hits would find at some sample or other whatever Blender shows.
+SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
+
+LAYERS = 4  # surfaces behind one another that are looked at
+
+FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
+
+
+@dataclass(frozen=True, eq=False)
+class Probe:
+    """Some pixels of a tile, with every triangle that rays near their centres may meet."""
+
+    plan: Plan
+    px: NDArray[np.float64]  # (n,) film positions of the centres, in pixels of the whole picture
+    py: NDArray[np.float64]
+    chunks: list[Pairs]  # `pixel` numbers the n pixels
+
+    @classmethod
+    def of(cls, plan: Plan, tile: Region, wanted: NDArray[np.bool_]) -> Work[Probe]:
+        """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
+
+        Yields the share of the work done; returns the probe.
+        """
+        number = np.cumsum(wanted) - 1
+        chunks = []
+        for share, some in candidates(plan, tile, wanted):
+            if some is not None and len(some.pixel):
+                chunks.append(replace(some, pixel=number[some.pixel]))
+            yield share
+        px, py = film_positions(tile, 0.0, 0.0)
+        return cls(plan, px[wanted], py[wanted], chunks)
+
+    def points(self, hits: Hits) -> NDArray[np.float64]:
+        """Return where the rays through the n centres end, (n, 3) world space."""
+        return positions(camera_rays(self.plan.scene.camera, self.px, self.py), hits)
+
+    def trace(
+        self,
+        dx: NDArray[np.floating] | float = 0.0,
+        dy: NDArray[np.floating] | float = 0.0,
+        after: Hits | None = None,
+    ) -> Hits:
+        """Do the work of :meth:`tracing` at once."""
+        return result_of(self.tracing(dx, dy, after))
+
+    def tracing(
+        self,
+        dx: NDArray[np.floating] | float = 0.0,
+        dy: NDArray[np.floating] | float = 0.0,
+        after: Hits | None = None,
+    ) -> Work[Hits]:
+        """Trace one ray a pixel, a chunk of pairs a step.
+
+        Parameters
+        ----------
+        dx, dy : float or (n,)
+            Where the ray passes its pixel's centre, in pixels; at most the plan's reach.
+        after : Hits, optional
+            Of the n pixels: only what lies behind them counts.
+        """
+        scene, settings = self.plan.scene, self.plan.settings
+        rays = camera_rays(scene.camera, self.px + dx, self.py + dy, settings.precision.dtype)
+        hits = Hits.none(len(self.px))
+        test_planes(scene, rays, hits, after)
+        for some in self.chunks:
+            test_pairs(scene, settings, rays, some, hits, after)
+            yield 0.0
+        return hits
+
+
+@dataclass(eq=False)
+class Part:
+    """The n open pixels of a part of the picture, and the probe that asks about them."""
+
+    pixels: OpenPixels  # of the part's rows
+    wanted: NDArray[np.bool_]  # (rows, w): where the n pixels are
+    probe: Probe
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene that is asked, with its camera's own clip range."""
+        return self.pixels.case.scene
+
+    @cached_property
+    def picture(self) -> Picture:
+        """What the n pixels show."""
+        return self.pixels.picture.at(self.wanted)
+
+    @cached_property
+    def band(self) -> NDArray[np.float64]:
+        """How far from the n centres Blender's samples may lie, in pixels."""
+        return self.pixels.band[self.wanted]
+
+    @property
+    def settled(self) -> bool:
+        """Whether no pixel is left."""
+        return not self.pixels.open.any()
+
+    def settle(
+        self, where: NDArray[np.bool_], cause: Cause, figure: ArrayLike, allowed: ArrayLike
+    ) -> None:
+        """Give those of the n pixels a cause that have none yet."""
+        values = np.zeros((2, *self.wanted.shape))
+        values[0, self.wanted], values[1, self.wanted] = figure, allowed
+        settled = np.zeros(self.wanted.shape, bool)
+        settled[self.wanted] = where
+        self.pixels.settle(settled, cause, *values)
+
+    def resolution(self, hits: Hits) -> NDArray[np.float64]:
+        """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
+        seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits.t))
+        found = hits.take(seen)
+        view = view_error(self.scene, found, self.probe.points(hits)[seen])
+        out[seen] = depth_resolution(self.scene.camera, found.t, view)
+        return out
+
+
+def by_parts(pixels: OpenPixels, plan: Plan, look: Callable[[Part], Work[None]]) -> Work[None]:
+    """Have `look` settle the open pixels, a part of the picture at a time.
+
+    Parameters
+    ----------
+    pixels : OpenPixels
+        Of the whole picture.
+    plan : Plan
+        Of what is asked; its scene may have another clip range than the case's.
+    look : callable
+    """
+    parts, first = list(parts_of(plan.scene, pixels.open)), plan.scene.camera.region.y0
+    for number, tile in enumerate(parts):
+        own = pixels.rows(slice(tile.y0 - first, tile.y1 - first))
+        wanted = own.open.copy()
+        done, size = number / len(parts), 1 / len(parts)
+        probe = yield from scaled(Probe.of(plan, tile, wanted.ravel()), done, 0.5 * size)
+        for _ in look(Part(own, wanted, probe)):
+            yield done + 0.5 * size
+
+
+def parts_of(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
+    """Yield tiles that have open pixels, cut into lower ones where these are many."""
+    region = scene.camera.region
+    for tile in tiles(scene.camera):
+        many = int(open_[tile.y0 - region.y0 : tile.y1 - region.y0].sum())
+        rows = max(1, tile.height * FEW // max(many, FEW))
+        for y in range(tile.y0, tile.y1, rows):
+            part = Region(tile.x0, y, tile.x1, min(y + rows, tile.y1))
+            if open_[part.y0 - region.y0 : part.y1 - region.y0].any():
+                yield part
