@@ -26,6 +26,7 @@ from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..explain.candidates import LIMIT, gather
 from ..report import comparison as comparison_report
+from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import page, pixel
 from ..report import trade as trade_report
@@ -155,7 +156,12 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     if options.judge == "all":
         rows = result_of(compare_all(bpy.context, options.out, **chosen), progress)
         verdict = engines.worst(rows)
-        print(*engines.lines(rows), f"verdict: {verdict}", f"written to {options.out}", sep="\n")
+        print(
+            *engines_report.lines(rows),
+            f"verdict: {verdict}",
+            f"written to {options.out}",
+            sep="\n",
+        )
         pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
         print("open", *pages, "in a browser")
         return VERDICT_CODES[verdict]

@@ -14,6 +14,7 @@ from ..arguments import words
 from ..compare.case import Case
 from ..compare.engines import EngineRow
 from ..report import comparison as comparison_report
+from ..report import engines as engines_report
 from ..report import page
 from ..scene import SceneError
 from ..tracer.progress import Work, scaled
@@ -74,5 +75,5 @@ def _compared(
             extras = yield from scaled(finding, (number + part) * share, (1 - part) * share)
             comparison_report.write(folder / engine, comparison, extras)
     if folder:
-        comparison_report.write_engines(folder, rows)
+        engines_report.write(folder, rows)
     return tuple(rows)

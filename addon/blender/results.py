@@ -14,11 +14,11 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare import engines
 from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
 from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
+from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import trade_plot
 from ..report.pictures import difference
@@ -53,7 +53,7 @@ def keep_comparison(context: Any, comparison: Comparison) -> Result:
 
 def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
     """Remember the table of several engines."""
-    return _keep(EngineRow, tuple(rows), engines.lines(rows), context.scene.name)
+    return _keep(EngineRow, tuple(rows), engines_report.lines(rows), context.scene.name)
 
 
 def keep_trade(context: Any, trade: Trade) -> Result:

@@ -14,7 +14,6 @@ from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
 
 SCHEMA = "reference_tracer.engines/1"
-_NAMED = 3  # pixels of each engine
 
 
 @dataclass(frozen=True)
@@ -89,45 +88,3 @@ def to_dict(rows: Sequence[EngineRow]) -> dict[str, Any]:
         "engines": [row.to_dict() for row in rows],
         "verdict": worst(rows),
     }
-
-
-def lines(rows: Sequence[EngineRow]) -> list[str]:
-    """Return the table as a person reads it."""
-    out = [
-        f"{'engine':10} {'differ':>8} {'inside':>7} {'edges':>7} {'object':>7} "
-        f"{'unexpl.':>8}  verdict"
-    ]
-    for row in rows:
-        if row.pixels is None:
-            out.append(f"{row.engine:10} no picture: {row.error}")
-            continue
-        p = row.pixels
-        other = "?" if row.wrong_objects is None else f"{row.wrong_objects:,}"
-        out.append(
-            f"{row.engine:10} {p['differ']:>8,} {p['interior']['differ']:>7,} "
-            f"{p['boundary']['differ']:>7,} {other:>7} {p['unexplained']:>8,}  {row.verdict}"
-        )
-    for row in rows:
-        for w in row.wrong[:_NAMED]:
-            x, y = w["pixel"]
-            out.append(f"  {row.engine} at ({x}, {y}): {_sides(w)}: {w['cause']}: {w['why']}")
-        more = row.pixels["differ"] - _NAMED if row.pixels else 0
-        if more > 0:
-            out.append(f"  {row.engine}: and {more:,} more, on its page")
-    return out
-
-
-def _sides(wrong: dict[str, Any]) -> str:
-    """Say what both sides show."""
-    triangle = wrong["triangle"]
-    traced = f"'{wrong['traced']}'" + (f" (triangle {triangle})" if triangle != NOTHING else "")
-    if wrong["traced"] == "nothing":
-        traced = "nothing"
-    shown = wrong.get("shown")
-    if shown in (None, "not known"):
-        return f"the tracer sees {traced}"
-    if shown == wrong["traced"]:
-        return f"both show {traced}, in other colours"
-    return f"the tracer sees {traced}, Blender " + (
-        "nothing" if shown == "nothing" else f"'{shown}'"
-    )

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import images
-from ..compare import engines
 from ..compare.comparison import SCHEMA, Comparison
-from ..compare.engines import EngineRow
 from . import page
 from .folders import replacing, write_json
 from .pictures import difference
 
 PICTURES = "traced", "blender", "difference"
-ARRAYS, JSON, ENGINES = "frame.npz", "comparison.json", "engines.json"
+ARRAYS, JSON = "frame.npz", "comparison.json"
 _NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 
 
@@ -79,9 +76,3 @@ def write_failure(directory: str | Path, error: BaseException) -> None:
     }
     with replacing(Path(directory), _NAMES) as new:
         write_json(new / JSON, content)
-
-
-def write_engines(directory: str | Path, rows: Sequence[EngineRow]) -> None:
-    """Write `engines.json`: every engine's picture against the tracer's."""
-    with replacing(Path(directory), (ENGINES,)) as new:
-        write_json(new / ENGINES, engines.to_dict(rows))

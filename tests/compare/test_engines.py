@@ -11,7 +11,7 @@ from reference_tracer.compare import engines
 from reference_tracer.compare.comparison import compare
 from reference_tracer.compare.engines import EngineRow
 from reference_tracer.compare.picture import Picture, Source, numbered
-from reference_tracer.report.comparison import write_engines
+from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 
@@ -51,12 +51,12 @@ def test_the_wrong_object_is_named_with_its_place(rows):
 
 
 def test_the_table_and_the_json(rows, tmp_path):
-    text = "\n".join(engines.lines(rows))
+    text = "\n".join(lines(rows))
     assert "the tracer sees 'Box'" in text and "eevee      no picture: it cannot" in text
     assert engines.worst(rows) == "differences"
     assert engines.worst(rows[:1]) == "agree"
     assert engines.worst([rows[0], rows[2]]) == "warnings"
-    write_engines(tmp_path, rows)
+    write(tmp_path, rows)
     held = json.loads((tmp_path / "engines.json").read_text(encoding="utf-8"))
     assert held["schema"] == engines.SCHEMA and held["verdict"] == "differences"
     assert [row["engine"] for row in held["engines"]] == ["workbench", "cycles", "eevee"]

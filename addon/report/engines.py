@@ -1,0 +1,67 @@
+"""Several engines against one certified picture -> a table, and `engines.json`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..compare.engines import EngineRow, to_dict
+from ..compare.identity import NOTHING
+from .folders import replacing, write_json
+from .tables import columns
+
+JSON = "engines.json"
+_HEAD = "engine", "differ", "inside", "edges", "object", "unexpl.", " verdict"
+_WIDTHS = 10, 8, 7, 7, 7, 8
+_NAMED = 3  # pixels of each engine
+
+
+def write(directory: str | Path, rows: Sequence[EngineRow]) -> None:
+    """Write `engines.json`: every engine's picture against the tracer's.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    with replacing(Path(directory), (JSON,)) as new:
+        write_json(new / JSON, to_dict(rows))
+
+
+def lines(rows: Sequence[EngineRow]) -> list[str]:
+    """Return the table of the engines, and for each the first pixels that differ."""
+    out = columns([_HEAD, *map(_cells, rows)], left=(0, 6), gap=" ", least=_WIDTHS)
+    for row in rows:
+        for w in row.wrong[:_NAMED]:
+            x, y = w["pixel"]
+            out.append(f"  {row.engine} at ({x}, {y}): {_sides(w)}: {w['cause']}: {w['why']}")
+        more = row.pixels["differ"] - _NAMED if row.pixels else 0
+        if more > 0:
+            out.append(f"  {row.engine}: and {more:,} more, on its page")
+    return out
+
+
+def _cells(row: EngineRow) -> Sequence[str] | str:
+    if row.pixels is None:
+        return f"{row.engine:10} no picture: {row.error}"
+    p = row.pixels
+    counts = p["differ"], p["interior"]["differ"], p["boundary"]["differ"], row.wrong_objects
+    found = ["?" if n is None else f"{n:,}" for n in (*counts, p["unexplained"])]
+    return [row.engine, *found, f" {row.verdict}"]
+
+
+def _sides(wrong: dict[str, Any]) -> str:
+    """Say what both sides show."""
+    triangle = wrong["triangle"]
+    traced = f"'{wrong['traced']}'" + (f" (triangle {triangle})" if triangle != NOTHING else "")
+    if wrong["traced"] == "nothing":
+        traced = "nothing"
+    shown = wrong.get("shown")
+    if shown in (None, "not known"):
+        return f"the tracer sees {traced}"
+    if shown == wrong["traced"]:
+        return f"both show {traced}, in other colours"
+    return f"the tracer sees {traced}, Blender " + (
+        "nothing" if shown == "nothing" else f"'{shown}'"
+    )
