@@ -16,11 +16,12 @@ from .compare.comparison import SizeError
 from .explain.candidates import LIMIT
 from .explain.writers import WRITERS
 from .images import MissingLibraryError
+from .methods import PLAIN, Method
 from .projections import ORTHOGRAPHIC, PERSPECTIVE
 from .scene import Camera, SceneError, ViewWindow, check_size
 from .scene_files import MESH_SUFFIXES
 from .tracer.certified.certainty import AssumptionError
-from .tracer.settings import Method, Precision, Settings
+from .tracer.settings import Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
 INTERRUPTED = 130  # as shells have it: 128 and the number of the signal
@@ -35,7 +36,7 @@ EXIT_CODES = """exit codes:
 CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale"  # see add_camera
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
-_PLAIN = ", ".join(m for m in Method if m.is_plain)
+_PLAIN = ", ".join(PLAIN)
 
 # What a number must be, by its option, where the type alone does not say it.
 _RANGES = {

@@ -17,9 +17,10 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from reference_tracer.methods import Method
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.render import render, trace
-from reference_tracer.tracer.settings import Method, Settings
+from reference_tracer.tracer.settings import Settings
 
 from .scenes import build, mesh_of
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.methods import Method
 from reference_tracer.report import plots
 
 from .rows import Bench, Row
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
 
 # What a row has, what it is called, its colour and its mark.
 _LINES = (
-    ("trace_s", "certified", plots.METHOD_COLORS["certified"], "o"),
-    ("plain_s", "Möller–Trumbore", plots.METHOD_COLORS["moller_trumbore"], "o"),
+    ("trace_s", "certified", Method.CERTIFIED.color, "o"),
+    ("plain_s", "Möller–Trumbore", Method.MOLLER_TRUMBORE.color, "o"),
     ("embreex_trace_s", "embreex, trace", "#d55e00", "s"),
     ("embreex_both_s", "embreex, build + trace", "#e69f00", "s"),
     ("bvhtree_s", "BVHTree", "#8c8c8c", "^"),

@@ -12,12 +12,11 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from reference_tracer.methods import Method
 from reference_tracer.study.scenarios.scenario import QUICK_HEIGHT, QUICK_WIDTH, Scenario
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
-from reference_tracer.tracer.settings import Method
-from reference_tracer.tracer.triangle import METHODS
 
 from .known import Ask, Floats
 from .picture import EXCUSED, Mark, look
@@ -87,7 +86,7 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
 
 def plain(method: Method) -> Ask:
     """Return one of the tracer's own plain methods as a student would have written it."""
-    test = METHODS[method]
+    test = method.function
 
     def intersect(origins: Floats, directions: Floats, triangles: Floats) -> tuple[Floats, Floats]:
         hit, t, s = test(Rays(origins.T, directions.T), *triangles.transpose(1, 2, 0))

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.methods import Method
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions_of
 from reference_tracer.tracer.candidates import Pairs
@@ -22,7 +23,7 @@ from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.nearest import candidates, plan, test_planes
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.render import steps
-from reference_tracer.tracer.settings import Method, Settings
+from reference_tracer.tracer.settings import Settings
 
 from .known import Known, known
 

@@ -16,11 +16,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.methods import Method
 from reference_tracer.opening import open_blend
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Region, Scene, ViewWindow
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Method, Settings
+from reference_tracer.tracer.settings import Settings
 
 SCENES = Path(__file__).resolve().parent.parent / "sample_scenes"
 PIXELS = 120_000  # of a plain picture: its pairs are many in the large scenes

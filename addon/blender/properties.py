@@ -8,46 +8,13 @@ from __future__ import annotations
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
-from ..tracer.settings import Method, Precision, Settings
+from ..methods import Method
+from ..tracer.settings import Precision, Settings
 from . import judges
 
 # (identifier, name, description, number). A .blend stores the number: one that was given away is
 # never given to another, and a new item takes the next.
-METHODS = (
-    (
-        "auto",
-        "Automatic",
-        "The cheapest way to a proven picture: an error bound first, whole numbers only where it "
-        "does not decide. Watertight, and a warning, where this machine allows no proof",
-        5,
-    ),
-    (
-        "certified",
-        "Certified",
-        "Every pixel shows what exact arithmetic says it should, or the render fails",
-        4,
-    ),
-    (
-        "watertight",
-        "Watertight",
-        "Woop, Benthin and Wald: neighbours agree on whose a ray at their edge is, without a proof "
-        "of the rest",
-        3,
-    ),
-    ("moller_trumbore", "Möller–Trumbore", "The test most renderers started from", 2),
-    (
-        "textbook",
-        "Textbook",
-        "The exercise's plane-then-barycentrics test, usable in floating point",
-        0,
-    ),
-    (
-        "textbook_literal",
-        "Textbook, Literal",
-        "The test exactly as printed, s1 + s2 + s3 = 1 included: it loses about half of all hits",
-        1,
-    ),
-)
+METHODS = tuple((m.value, m.label, m.description, m.number) for m in reversed(Method))
 PRECISIONS = (
     ("float64", "float64", "Double precision", 0),
     ("float32", "float32", "Single precision, as graphics hardware has it", 1),

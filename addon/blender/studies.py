@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from ..images import MissingLibraryError
+from ..methods import Method
 from ..study import tradeoff
 from ..study.extremes import Row, breaking_points, measure
 from ..study.scenarios.sweeps import ALL
 from ..study.trade import NAMES, Trade
 from ..tracer.progress import Work
-from ..tracer.settings import Method
 from .compare import export_open_file
 
 EVERY = "ALL"  # in place of a scenario's name

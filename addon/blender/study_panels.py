@@ -7,11 +7,11 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, PointerProperty
 
+from ..methods import MEASURED, PLAIN, Method
 from ..study.extreme_rows import written
 from ..study.extremes import BreakingPoint
 from ..study.scenarios.sweeps import SCENARIOS
 from ..study.trade import Row, Trade
-from ..tracer.settings import Method
 from . import results
 from .operators import (
     SWEEPS,
@@ -25,13 +25,6 @@ from .scenario_scene import CHANGED
 
 _BY_NAME = {s.name: s for s in SCENARIOS}
 _COLUMNS = 3  # of buttons
-_HEADS = {  # as short as a fifth of a narrow panel
-    "textbook_literal": "literal",
-    "textbook": "textb.",
-    "moller_trumbore": "Möller",
-    "watertight": "watert.",
-    "certified": "certified",
-}
 
 
 class _Trade:
@@ -116,11 +109,10 @@ def _breaking_points(layout: Any, points: tuple[BreakingPoint, ...], precision: 
     """
     proven = {p.scenario: p for p in points if p.method == Method.CERTIFIED}
     holds = all(p.never for p in proven.values())
-    plain = [m for m in _HEADS if m != Method.CERTIFIED]
-    _cells(layout, [_HEADS[m] for m in (plain if holds else _HEADS)])
+    _cells(layout, [m.head for m in (PLAIN if holds else MEASURED)])
     for name in proven:
         of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
-        cells = [_point(of[m]) for m in plain] + ([] if holds else [_point(proven[name])])
+        cells = [_point(of[m]) for m in PLAIN] + ([] if holds else [_point(proven[name])])
         scenario = _BY_NAME[name]
         column = layout.column(align=True)
         column.scale_y = 0.75

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..methods import Method
 from ..scene import Scene
 from ..tracer.certified.certainty import Certainty, broken_assumptions
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
-from ..tracer.settings import Method, Precision, Settings
+from ..tracer.settings import Precision, Settings
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..tracer import plane
 from ..tracer.camera import camera_rays
 from ..tracer.candidates import Pairs
@@ -19,8 +20,7 @@ from ..tracer.certified.contest import Contest
 from ..tracer.hits import NOWHERE, Hits, Name, Statistics
 from ..tracer.nearest import within_clip
 from ..tracer.progress import result_of
-from ..tracer.settings import Method, Precision
-from ..tracer.triangle import METHODS
+from ..tracer.settings import Precision
 from ..tracer.world import WorldTriangles
 from .pixel import Pixel
 
@@ -69,7 +69,7 @@ def plain_answer(
         planes = [(c.name, *c.points.astype(precision.dtype)) for c in pixel.planes]
     met = [(np.inf, NOWHERE, np.zeros(3))]
     if len(triangles.instance):
-        hit, t, s = METHODS[method](rays, *corners)
+        hit, t, s = method.function(rays, *corners)
         for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
             name = int(triangles.instance[k]), int(triangles.triangle[k])
             met.append((float(t[k]), name, s[:, k].astype(float)))

@@ -13,13 +13,13 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..scene import Camera, Instance, Mesh, Region, Scene
 from ..tracer.candidates import Pairs
 from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
-from ..tracer.settings import Method, Settings
-from ..tracer.triangle import METHODS
+from ..tracer.settings import Settings
 from ..tracer.world import WorldTriangles, refused
 from .answers import PLAIN, contest_hits, plain_answer
 from .pixel import Candidate, Pixel, check_pixel
@@ -139,7 +139,7 @@ def _corners(mesh: Mesh) -> NDArray[np.float64]:
 def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     """Return the triangles' order for a reader: hits by t, then near misses."""
     rays = pixel.rays()
-    hit, t, s = METHODS[Method.TEXTBOOK](rays, *triangles.corners)
+    hit, t, s = Method.TEXTBOOK.function(rays, *triangles.corners)
     with np.errstate(invalid="ignore"):
         outside = np.nan_to_num(np.maximum(0.0, -s.min(axis=0)), nan=np.inf)
         distance = np.nan_to_num(np.abs(t), nan=np.inf)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import MEASURED, Method
 from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.scenario import Map
 from ..study.scenarios.sweeps import SCENARIOS
-from ..study.trade import NAMES
 from . import plots
 
 if TYPE_CHECKING:
@@ -20,18 +20,13 @@ if TYPE_CHECKING:
     from matplotlib.image import AxesImage
 
 # Of the sweeps: without the literal textbook, which loses half of all rays and hides the others.
-COLORS = {m: color for m, color in plots.METHOD_COLORS.items() if m != "textbook_literal"}
+SWEPT = tuple(m for m in MEASURED if m is not Method.TEXTBOOK_LITERAL)
 ACROSS = 4  # sweeps beside one another
 NEVER = "#d9eedd"  # of a cell or a map where nothing goes wrong
 DOUBLED = "#d5e0f0"  # where no ray is lost, but some cross too many triangles
 _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 # Of lines that cover one another, each shows inside the one before: width, size of its marks.
-_NESTED = {
-    "textbook": (6.0, 11.0),
-    "moller_trumbore": (4.0, 8.5),
-    "watertight": (2.4, 6.5),
-    "certified": (1.4, 4.5),
-}
+_WIDTHS, _SIZES = (6.0, 4.0, 2.4, 1.4), (11.0, 8.5, 6.5, 4.5)
 _KNOWN = {s.name: s for s in SCENARIOS}
 _LEFT = -4.65  # of the scenes' names, where a column of the table is 1 wide
 _CENTRED = {"ha": "center", "va": "center"}
@@ -61,7 +56,7 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
             -0.12, y + 0.5, _scale_of(name), va="center", ha="right", color=plots.GREY, fontsize=11
         )
     for x, (method, precision) in enumerate(columns):
-        lines = NAMES[method].replace(" ", "\n").replace("–", "–\n")
+        lines = Method(method).words.replace(" ", "\n").replace("–", "–\n")
         axes.text(x + 0.5, -1.0, lines, **_CENTRED, fontsize=11.5, fontweight="bold")
         axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=plots.GREY)
     for p in points:
@@ -134,8 +129,8 @@ def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[n
     for axes in grid[len(sweeps) :]:
         axes.set_axis_off()
     handles = [
-        grid[0].plot([], [], "o-", color=color, lw=lw, ms=ms, label=NAMES[method])[0]
-        for (method, color), (lw, ms) in zip(COLORS.items(), _NESTED.values(), strict=True)
+        grid[0].plot([], [], "o-", color=m.color, lw=width, ms=size, label=m.words)[0]
+        for m, (width, size) in _nested().items()
     ]
     for label, style, fill in (("float64", "o-", plots.GREY), ("float32", "o:", "white")):
         handles += grid[0].plot(
@@ -152,17 +147,24 @@ def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[n
     return plots.pixels(figure)
 
 
+def _nested() -> dict[Method, tuple[float, float]]:
+    """Return the width of each method's line, and the size of its marks."""
+    at = np.linspace(0, len(_WIDTHS) - 1, len(SWEPT))
+    ends = (np.interp(at, range(len(_WIDTHS)), v).tolist() for v in (_WIDTHS, _SIZES))
+    return dict(zip(SWEPT, zip(*ends, strict=True), strict=True))
+
+
 def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
     """Draw one scenario; its scales are steps, each as wide as the next."""
     name = rows[0].scenario
     scales = list(dict.fromkeys(r.scale for r in rows))
-    shown = [r for r in rows if r.method in COLORS]
+    shown = [r for r in rows if r.method in SWEPT]
     title = _KNOWN[name].title if name in _KNOWN else name
     plots.plain_axes(axes, title, _scale_of(name), "", plots.SMALL)
     for method, precision in dict.fromkeys((r.method, r.precision) for r in shown):
         some = [r for r in shown if (r.method, r.precision) == (method, precision)]
-        color, whole = COLORS[method], precision == "float64"
-        width, size = _NESTED[method]
+        color, whole = Method(method).color, precision == "float64"
+        width, size = _nested()[method]
         axes.plot(
             [scales.index(r.scale) for r in some],
             [100 * r.share for r in some],
@@ -173,7 +175,7 @@ def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
             mfc=color if whole else "white",
             mew=1.5,
             clip_on=False,
-            zorder=3 + list(_NESTED).index(method),
+            zorder=3 + SWEPT.index(method),
         )
     if not any(r.lost for r in shown):
         most = max(r.doubled / r.rays for r in shown)
@@ -193,7 +195,7 @@ def _ticks(put, scales: Sequence[float]) -> None:
 
 def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
     """Return heat maps over two scales of the share of lost rays, one for each method."""
-    columns = [m for m in NAMES if any(r.method == m for r in rows)]
+    columns = [m for m in MEASURED if any(r.method == m for r in rows)]
     precisions = [p for p in ("float64", "float32") if any(r.precision == p for r in rows)]
     figure = plots.new_figure()
     grid = figure.subplots(len(precisions), len(columns), squeeze=False, sharex=True, sharey=True)
@@ -240,7 +242,7 @@ def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
             cells[others.index(r.across), scales.index(r.scale)] = r.share
     norm = PowerNorm(0.5, vmin=0.5 / max(r.rays for r in rows), vmax=1)  # below a ray: none
     image = axes.imshow(np.ma.masked_invalid(cells), cmap=_colormap(), norm=norm, aspect="auto")
-    title = f"{NAMES[rows[0].method]}, {rows[0].precision}"
+    title = f"{Method(rows[0].method).words}, {rows[0].precision}"
     axes.set_title(title, fontsize=14, color=plots.INK)
     _ticks(axes.set_xticks, scales)
     axes.set_yticks(range(len(others)), [written(o) for o in others])

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import images
-from ..study.extreme_rows import NAMES, BreakingPoint, Row, breaking_points, written
+from ..methods import MEASURED
+from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.scenario import Map, Scenario
 from ..study.scenarios.sweeps import MAPS, SCENARIOS
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
@@ -42,6 +43,7 @@ _UNITS = {
 }
 
 
+_SHORT = {m.value: m.short for m in MEASURED}
 _LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
 _WIDTH = 12  # of a column of the tables
 
@@ -83,7 +85,7 @@ def _shown(rows: Sequence[Row] | Sequence[BreakingPoint]) -> list[tuple[str, str
 
 
 def _head(first: list[str], methods: Sequence[tuple[str, str]]) -> tuple[list[str], list[str]]:
-    names = [NAMES.get(method, method) for method, _ in methods]
+    names = [_SHORT.get(method, method) for method, _ in methods]
     return first + names, first + [precision for _, precision in methods]
 
 

@@ -25,13 +25,6 @@ DPI = 120
 # large as small multiples have room for.
 LARGE, SMALL = (19.0, 16.0, 14.0), (14.0, 11.5, 10.5)
 INK, GREY, FAINT = "#222222", "#707070", "#c8c8c8"
-METHOD_COLORS = {
-    "textbook_literal": "#b0723a",
-    "textbook": "#d55e00",
-    "moller_trumbore": "#0072b2",
-    "watertight": "#009e73",
-    "certified": "#7a3d9a",
-}
 
 
 def new_figure(width: int = WIDTH, height: int = HEIGHT) -> Figure:

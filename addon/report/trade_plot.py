@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..study.trade import NAMES, Row, Trade
+from ..methods import MEASURED, Method
+from ..study.trade import Row, Trade
 from . import plots
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def picture(trade: Trade) -> NDArray[np.uint8]:
     figure = plots.new_figure()
     left, right = figure.subplots(1, 2)
     names = _wrong_pixels(left, trade), _coverage(right, trade)
-    labels = {NAMES[m]: {"color": plots.METHOD_COLORS[m]} for m in plots.METHOD_COLORS}
+    labels = {m.words: {"color": m.color} for m in MEASURED}
     labels |= {"float64": {"color": plots.GREY}, "float32": {"color": plots.GREY, "mfc": "white"}}
     handles = [
         left.plot([], [], "o", markersize=13, mew=2.5, label=label, **style)[0]
@@ -85,7 +86,7 @@ def _wrong_pixels(axes: Axes, trade: Trade) -> list[_Name]:
         axes.plot(
             [r.fastest, r.slowest],
             [height(r)] * 2,
-            color=plots.METHOD_COLORS[r.method],
+            color=Method(r.method).color,
             lw=2,
             alpha=0.4,
         )
@@ -95,7 +96,7 @@ def _wrong_pixels(axes: Axes, trade: Trade) -> list[_Name]:
 
 def _name(r: Row) -> str:
     count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
-    return f"{NAMES[r.method]}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
+    return f"{Method(r.method).words}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
 
 
 def _is_named(row: Row) -> bool:
@@ -134,7 +135,7 @@ def _points(axes: Axes, rows: list[Row], error: _Error, best: Callable[[Row], bo
     line = [r.seconds for r in front], [error(r) for r in front]
     axes.plot(*line, color=plots.INK, lw=2.5, zorder=2)
     for r in rows:
-        color = plots.METHOD_COLORS[r.method]
+        color = Method(r.method).color
         fill = color if r.precision == "float64" else "white"
         size, z, alpha = (16, 4, 1.0) if best(r) else (10, 3, 0.7)
         axes.plot(

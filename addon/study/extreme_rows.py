@@ -8,14 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-NAMES = {
-    "textbook_literal": "literal",
-    "textbook": "textbook",
-    "moller_trumbore": "Möller–T.",
-    "watertight": "watertight",
-    "certified": "certified",
-}
-
 
 @dataclass(frozen=True)
 class Row:

@@ -14,6 +14,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..tracer.camera import Rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
@@ -21,8 +22,7 @@ from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import render
-from ..tracer.settings import Method, Precision, Settings
-from ..tracer.triangle import METHODS
+from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .extreme_rows import BreakingPoint, Row, breaking_points
 from .oracle import scene_sights
 from .scenarios.scenario import Scenario
@@ -32,7 +32,6 @@ from .truth import Truth, crossings, keys, number, pixel_rays, sample, truth_of
 __all__ = ["BreakingPoint", "Row", "breaking_points", "measure"]
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
-PLAIN = tuple(Settings(m, p) for m in METHODS for p in Precision)
 
 
 def measure(
@@ -62,9 +61,9 @@ def measure(
     for done, (scenario, scale) in enumerate(scenes):
         width, height = _size(scenario, rays)
         scene = scenario.build(scale, width, height)
-        begun, step = done / len(scenes), 1 / len(scenes) / (len(PLAIN) + 1)
+        begun, step = done / len(scenes), 1 / len(scenes) / (len(PLAIN_SETTINGS) + 1)
         truth = yield from scaled(truth_of(scene), begun, step)
-        for k, settings in enumerate(PLAIN, start=1):
+        for k, settings in enumerate(PLAIN_SETTINGS, start=1):
             yield begun + k * step
             rows.append(_plain_row(scenario, scale, truth, settings))
         rows.append(_certified_row(scenario, scale, truth, judged))
@@ -82,7 +81,7 @@ def _size(scenario: Scenario, rays: int | None) -> tuple[int, int]:
 def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Settings) -> Row:
     scene, camera = truth.scene, truth.scene.camera
     frame = render(scene, settings)
-    method = METHODS[settings.method]
+    method = settings.method.function
 
     def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
         hit, t, _ = method(rays, *pairs.corners)

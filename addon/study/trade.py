@@ -8,16 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from statistics import median
 
-from ..tracer.settings import Method, Precision
-
-NAMES = {
-    "textbook_literal": "textbook, literal",
-    "textbook": "textbook",
-    "moller_trumbore": "Möller–Trumbore",
-    "watertight": "watertight",
-    "certified": "certified",
-}
-
+from ..methods import Method
+from ..tracer.settings import Precision
 
 NOTHING_SEEN = (
     "Nothing is seen: no ray through a pixel's centre meets a surface, so there is nothing to get "
@@ -175,7 +167,7 @@ def _costs(one: Row, other: Row) -> str:
 def _takes(share: float, rival: Row) -> str:
     count = f"{rival.wrong_pixels:,}" if rival.wrong_pixels else "no"
     wrong = f"{count} wrong pixel{'s' * (rival.wrong_pixels != 1)}"
-    name = f"{NAMES[rival.method]} in {rival.precision} ({wrong})"
+    name = f"{Method(rival.method).words} in {rival.precision} ({wrong})"
     if share < 0:
         return f"is faster than {name}, the next that loses no hits on purpose"
     first = "the fastest that loses no hits on purpose"  # without the literal textbook

@@ -15,12 +15,13 @@ from statistics import median
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
 from ..tracer.nearest import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
-from ..tracer.settings import Method, Precision, Settings
+from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Row, Trade, advice, mark
 
 WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
@@ -121,8 +122,7 @@ def measure(
 
 def choose(scene: Scene, width: int, samples: int) -> list[_Choice]:
     """Return what is measured, the largest picture first."""
-    plain = [Settings(m, p) for m in Method if m.is_plain for p in Precision]
-    ladder = [*plain, Settings(Method.CERTIFIED)]
+    ladder = [*PLAIN_SETTINGS, Settings(Method.CERTIFIED)]
     widths = sorted({-(-width // share) for share in SMALLER}, reverse=True)
     scenes = [at_width(scene, w) for w in widths]
     found = [_Choice(s, small) for small in scenes for s in ladder]

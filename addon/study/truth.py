@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..scene import Camera, Scene
 from ..tracer.any_rays import decide
 from ..tracer.camera import Rays, camera_rays
@@ -20,7 +21,7 @@ from ..tracer.frame import Frame
 from ..tracer.nearest import candidates, film_positions, plan
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
-from ..tracer.settings import Method, Precision, Settings
+from ..tracer.settings import Precision, Settings
 
 CERTIFIED = Settings(Method.CERTIFIED)
 

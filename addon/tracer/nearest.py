@@ -20,7 +20,6 @@ from .culling import Culled, candidates, cull
 from .hits import NOTHING, Hits, Statistics
 from .progress import Work
 from .settings import Settings
-from .triangle import METHODS
 from .vector import Vectors
 
 
@@ -78,7 +77,7 @@ def test_pairs(
 
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
     """
-    hit, t, s = METHODS[settings.method](rays.take(some.pixel), *some.corners)
+    hit, t, s = settings.method.function(rays.take(some.pixel), *some.corners)
     found = np.flatnonzero(hit & within_clip(scene.camera, t))
     _keep_nearest(
         hits,

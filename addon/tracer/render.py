@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..scene import Camera, Region, Scene
 from . import shading
 from .any_rays import trace_rays
@@ -22,7 +23,7 @@ from .frame import Frame
 from .hits import Hits, Statistics, Ties
 from .nearest import plan, trace_tile
 from .progress import Work, result_of, scaled
-from .settings import Method, Precision, Settings
+from .settings import Precision, Settings
 from .world import refused
 
 try:

@@ -7,26 +7,7 @@ from enum import StrEnum
 
 import numpy as np
 
-
-class Method(StrEnum):
-    """How a ray meets a triangle, in the order of how far the answer can be trusted.
-
-    The formulas of the plain methods are in `triangle.py`. `certified` proves every pixel
-    (`certified.py`); `auto` does, too, where the machine's arithmetic allows a proof, and is
-    `watertight` in float64 where it does not.
-    """
-
-    TEXTBOOK_LITERAL = "textbook_literal"
-    TEXTBOOK = "textbook"
-    MOLLER_TRUMBORE = "moller_trumbore"
-    WATERTIGHT = "watertight"
-    CERTIFIED = "certified"
-    AUTO = "auto"
-
-    @property
-    def is_plain(self) -> bool:
-        """Whether it is floating point alone, in either precision, without a proof."""
-        return self not in (Method.CERTIFIED, Method.AUTO)
+from ..methods import PLAIN, Method
 
 
 class Precision(StrEnum):
@@ -78,9 +59,12 @@ class Settings:
         if self.precision != Precision.FLOAT64 and not self.method.is_plain:
             raise ValueError(
                 f"precision is {self.precision.value}; {self.method.value} is proven for float64 "
-                f"only: choose float64, or one of {', '.join(m for m in Method if m.is_plain)}"
+                f"only: choose float64, or one of {', '.join(PLAIN)}"
             )
         if not 1 <= self.samples <= 64:
             raise ValueError(f"samples is {self.samples}; it must be between 1 and 64")
         if self.memory < 16 << 20:
             raise ValueError(f"memory is {self.memory} bytes; it must be at least 16 MiB")
+
+
+PLAIN_SETTINGS = tuple(Settings(m, p) for m in PLAIN for p in Precision)

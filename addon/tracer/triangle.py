@@ -25,13 +25,12 @@ Neither rule treats the edge between two triangles as belonging to exactly one o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .camera import Rays
-from .settings import Method
 from .vector import Vectors, cross, dot
 
 Intersection = tuple[NDArray[np.bool_], NDArray[np.floating], Vectors]
@@ -130,11 +129,3 @@ def _edge_functions(sheared: Sequence[Sequence[NDArray]]) -> Vectors:
     """Return twice the areas of the triangles that the ray makes with each edge, (3, n)."""
     (ax, ay, _), (bx, by, _), (cx, cy, _) = sheared
     return np.stack((cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax))
-
-
-METHODS: dict[Method, Callable[[Rays, Vectors, Vectors, Vectors], Intersection]] = {
-    Method.TEXTBOOK_LITERAL: textbook_literal,
-    Method.TEXTBOOK: textbook,
-    Method.MOLLER_TRUMBORE: moller_trumbore,
-    Method.WATERTIGHT: watertight,
-}

@@ -8,8 +8,8 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.compare import export_open_file
+from reference_tracer.methods import Method
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Method
 from reference_tracer_grading.command import built_in
 from reference_tracer_grading.extremes import plain
 from reference_tracer_grading.picture import look

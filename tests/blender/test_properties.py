@@ -5,7 +5,8 @@ from __future__ import annotations
 import bpy
 import pytest
 from reference_tracer.blender.properties import JUDGES, METHODS, PRECISIONS, SHADINGS
-from reference_tracer.tracer.settings import Method, Precision, Settings
+from reference_tracer.methods import Method
+from reference_tracer.tracer.settings import Precision, Settings
 
 # As released. A line may be added, none changed or removed: files are out there.
 STORED = {

@@ -11,11 +11,12 @@ import pytest
 from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.textbook import Arithmetic, Reason
+from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Method, Precision, Settings
+from reference_tracer.tracer.settings import Precision, Settings
 
 FACING = [(-1, -1, -4), (1, -1, -4), (0, 1, -4)]  # the ray (0, 0, −1) meets it at t = 4
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS, quick
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Method
 from reference_tracer_grading.extremes import extreme_scenes, plain
 from reference_tracer_grading.picture import EXCUSED, Mark, look
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.tracer.settings import Method
+from reference_tracer.methods import Method
 from reference_tracer_grading.answers import Answers
 from reference_tracer_grading.extremes import plain
 from reference_tracer_grading.faults import dependence, find_faults

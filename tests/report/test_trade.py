@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer import images
+from reference_tracer.methods import Method
 from reference_tracer.report import plots, trade_plot
 from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, picture, table, write
 from reference_tracer.study.trade import Row, Trade, mark
-from reference_tracer.tracer.settings import Method, Precision
+from reference_tracer.tracer.settings import Precision
 
 KEYS = {
     *("method", "precision", "samples", "width", "height", "seconds", "wrong_pixels"),

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.study import extremes
 from reference_tracer.study.extreme_rows import Row, breaking_points, written
 from reference_tracer.study.extremes import measure
@@ -14,7 +15,7 @@ from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.settings import Method, Precision
+from reference_tracer.tracer.settings import Precision
 
 BY_NAME = {s.name: s for s in SCENARIOS}
 

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.study.trade import Row, Trade, advice, gain, mark
-from reference_tracer.tracer.settings import Method, Precision
+from reference_tracer.tracer.settings import Precision
 
 
 def row(method="textbook", precision="float64", seconds=1.0, wrong=0, coverage=0.1, **options):

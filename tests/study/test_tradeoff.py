@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.methods import Method
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
 from reference_tracer.study.oracle import scene_sights
@@ -25,7 +26,7 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.nearest import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Method, Precision, Settings
+from reference_tracer.tracer.settings import Precision, Settings
 
 LADDER = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
 LADDER |= {("certified", "float64")}

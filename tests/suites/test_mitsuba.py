@@ -9,12 +9,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.methods import Method
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.any_rays import nearest
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Method, Settings
+from reference_tracer.tracer.settings import Settings
 
 from .meshes import corners_of, stairs
 from .shooting import crossings

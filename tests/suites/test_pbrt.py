@@ -16,10 +16,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.settings import Method
 from reference_tracer.tracer.vector import cross, dot
 
 from .meshes import bumpy_sphere, corners_of, on_sphere, snapped

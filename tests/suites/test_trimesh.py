@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.tracer.any_rays import decide, nearest
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.settings import Method
 
 from .meshes import box, corners_of, cylinder, on_sphere
 from .shooting import crossings, decided

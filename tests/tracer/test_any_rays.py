@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.tracer import any_rays
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.render import trace
-from reference_tracer.tracer.settings import Method, Settings
+from reference_tracer.tracer.settings import Settings
 
 from .pictures import mess
 

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.hits import NOWHERE
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.settings import Method, Precision, Settings
+from reference_tracer.tracer.settings import Precision, Settings
 
 from .pictures import CERTIFIED, mess, names_of
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import culling, plane, render, world
@@ -16,8 +17,7 @@ from reference_tracer.tracer.certified.sweep import depth_bins as slabs
 from reference_tracer.tracer.certified.sweep import rasterise as cover
 from reference_tracer.tracer.certified.sweep import sweep, verdict
 from reference_tracer.tracer.nearest import NOTHING, film_positions
-from reference_tracer.tracer.settings import Method, Settings
-from reference_tracer.tracer.triangle import METHODS
+from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import WorldTriangles
 
@@ -72,7 +72,7 @@ def brute_force(scene, settings):
         mesh = scene.meshes[instance.mesh]
         world = transform_points(instance.world_from_object, mesh.vertices.T).astype(dtype)
         for k, triangle in enumerate(mesh.triangles):
-            hit, t, _ = METHODS[settings.method](rays, *(world[:, [corner]] for corner in triangle))
+            hit, t, _ = settings.method.function(rays, *(world[:, [corner]] for corner in triangle))
             enter(hit, t, (i, k))
     for i, infinite in enumerate(scene.planes):
         t = plane.intersect(

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.methods import Method
 from reference_tracer.scene import Region
 from reference_tracer.tracer import culling
 from reference_tracer.tracer import render as rendering
@@ -15,7 +16,7 @@ from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.nearest import NOTHING, film_positions
 from reference_tracer.tracer.render import render, sample_offsets, steps, tiles
-from reference_tracer.tracer.settings import Method, Precision, Settings
+from reference_tracer.tracer.settings import Precision, Settings
 from trimesh.ray.ray_triangle import RayMeshIntersector
 
 TURN = trimesh.transformations.rotation_matrix(0.7, (0.3, -0.5, 0.8), (0.1, 0, 0.2))

@@ -16,7 +16,6 @@ from ...tracer import plane, shading
 from ...tracer.camera import camera_rays, film_of
 from ...tracer.nearest import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
 from ...tracer.progress import Work
-from ...tracer.triangle import METHODS
 from .probe import Probe
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
@@ -69,7 +68,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
         x, y = nearest[:, near] + share * inward
         pixel = some.pixel[near]
         rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
-        hit, t, s = METHODS[settings.method](rays, *some.corners[..., near])
+        hit, t, s = settings.method.function(rays, *some.corners[..., near])
         hit = np.flatnonzero(hit & within_clip(scene.camera, t))
         found.append(
             (

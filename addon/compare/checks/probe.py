@@ -13,6 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays
 from ...tracer.nearest import (
@@ -27,7 +28,7 @@ from ...tracer.nearest import (
 )
 from ...tracer.progress import Work, result_of, scaled
 from ...tracer.render import tiles
-from ...tracer.settings import Method, Precision, Settings
+from ...tracer.settings import Precision, Settings
 from ...tracer.shading import positions
 from ..bounds import depth_resolution, view_error
 from ..cause import Cause

@@ -11,12 +11,13 @@ from dataclasses import dataclass, field
 
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
+from ...methods import Method
 from ...study import extremes, tradeoff
 from ...study.trade import Trade
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
-from ...tracer.settings import Method, Precision, Settings
+from ...tracer.settings import Precision, Settings
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
 DERIVED = 3  # examples of each cause whose derivation is written out

@@ -13,13 +13,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...methods import Method
 from ...scene import Scene
 from ...tracer import plane
 from ...tracer.camera import Rays, camera_rays, film_positions_of
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
-from ...tracer.settings import Method
-from ...tracer.triangle import METHODS
 from ...tracer.world import world_corners
 from .packing import packed
 
@@ -116,7 +115,7 @@ def _textbook_t(scene: Scene, rays: Rays, surfaces: Surfaces, number: NDArray) -
     on_mesh = np.flatnonzero(instance < count)
     corners = world_corners(scene, instance[on_mesh], triangle[on_mesh])
     some = rays.take(seen_[on_mesh])
-    out[seen_[on_mesh]] = METHODS[Method.TEXTBOOK](some, *corners)[1]
+    out[seen_[on_mesh]] = Method.TEXTBOOK.function(some, *corners)[1]
     for index, infinite in enumerate(scene.planes, start=count):
         which = seen_[instance == index]
         point, normal = infinite.point[:, None], infinite.normal[:, None]
