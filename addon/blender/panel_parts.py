@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from ..study.extreme_rows import NAMES
+from ..methods import Method
 
 NARROW = 0.37  # of a table's width: a short name
 
@@ -42,7 +42,7 @@ def both(part: type, suffix: str = "", **in_properties: Any) -> tuple[type, type
 
 def short_name(method: str, precision: str) -> str:
     """Return a method in a precision, as short as a narrow table needs: 'Textbook 32'."""
-    name = NAMES[method]
+    name = Method(method).short
     return f"{name[0].upper()}{name[1:]} {precision.removeprefix('float')}"
 
 

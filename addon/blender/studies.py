@@ -12,7 +12,7 @@ from ..methods import Method
 from ..study import tradeoff
 from ..study.extremes import Row, breaking_points, measure
 from ..study.scenarios.sweeps import ALL
-from ..study.trade import NAMES, Trade
+from ..study.trade import Trade
 from ..tracer.progress import Work
 from .compare import export_open_file
 
@@ -61,8 +61,8 @@ def extremes_sentence(rows: Sequence[Row]) -> str:
         [((method, precision), count)] = holds.most_common(1)
         total = len({p.scenario for p in points})
         sentence += (
-            f"; of the other methods, {NAMES[method]} in {precision} holds in the most sweeps: "
-            f"{count} of {total}"
+            f"; of the other methods, {Method(method).words} in {precision} holds in the most "
+            f"sweeps: {count} of {total}"
             if count
             else f"; every other method breaks in each of {total} sweeps"
         )
