@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tracemalloc
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -31,12 +32,9 @@ SHAPES = {
 }
 
 
-@pytest.mark.parametrize("method", ["textbook", "moller_trumbore", "watertight", "certified"])
-@pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])
-@pytest.mark.parametrize("shape", SHAPES)
-def test_trimesh_sees_the_same(shape, orthographic, method, make):
-    """Trimesh's ray query (rtree): the nearest triangle of each ray, and t."""
-    mesh = SHAPES[shape]
+@cache
+def rtree_sees(make, shape, orthographic):
+    """A camera, its rays, and all that they meet by trimesh's own query: rays, triangles, t."""
     camera = make.camera(
         48,
         36,
@@ -45,14 +43,22 @@ def test_trimesh_sees_the_same(shape, orthographic, method, make):
         target=(0.03, 0.02, 0.01),
         orthographic=orthographic,
     )
-    frame = render(make.scene(camera, make.mesh(mesh)), Settings(method))
     rays = camera_rays(camera, *film_positions(camera.region, 0.0, 0.0))
-    origins, directions = (
-        np.broadcast_to(v, (3, 48 * 36)).T for v in (rays.origins, rays.directions)
-    )
-    rtree = RayMeshIntersector(mesh)  # mesh.ray is embreex, in float32, where that is installed
-    place, ray, triangle = rtree.intersects_location(origins, directions, multiple_hits=True)
-    t = ((place - origins[ray]) * directions[ray]).sum(axis=1) / (directions[ray] ** 2).sum(axis=1)
+    o, d = (np.broadcast_to(v, (3, 48 * 36)).T for v in (rays.origins, rays.directions))
+    rtree = RayMeshIntersector(SHAPES[shape])  # mesh.ray is embreex, in float32, where it is there
+    place, ray, triangle = rtree.intersects_location(o, d, multiple_hits=True)
+    t = ((place - o[ray]) * d[ray]).sum(axis=1) / (d[ray] ** 2).sum(axis=1)
+    return camera, o, d, ray, triangle, t
+
+
+@pytest.mark.parametrize("method", ["textbook", "moller_trumbore", "watertight", "certified"])
+@pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_trimesh_sees_the_same(shape, orthographic, method, make):
+    """Trimesh's ray query (rtree): the nearest triangle of each ray, and t."""
+    mesh = SHAPES[shape]
+    camera, origins, directions, ray, triangle, t = rtree_sees(make, shape, orthographic)
+    frame = render(make.scene(camera, make.mesh(mesh)), Settings(method))
     nearest = np.full(48 * 36, np.inf)
     np.minimum.at(nearest, ray, t)
     hit = np.isfinite(nearest)
