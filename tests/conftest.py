@@ -11,6 +11,14 @@ from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWin
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
 
 
+MARKED = {  # all tests of a folder
+    "tests/benchmarks/": "slow",
+    "tests/blender/": "blender",
+    "tests/grading/": "slow",
+    "tests/suites/": "slow",
+}
+
+
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
     """Keep the tests of a file in one worker, and all that share the window's Blender."""
@@ -26,11 +34,12 @@ def pytest_xdist_make_scheduler(config, log):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Begin with the window's tests, which take longest; mark what needs Blender by its folder."""
+    """Mark whole folders, and begin with the window's tests, which take longest."""
     items.sort(key=lambda item: not item.nodeid.startswith("tests/gui/"))
     for item in items:
-        if item.nodeid.startswith("tests/blender/"):
-            item.add_marker("blender")
+        for folder, mark in MARKED.items():
+            if item.nodeid.startswith(folder):
+                item.add_marker(mark)
 
 
 class Make:

@@ -13,6 +13,8 @@ import pytest
 from PIL import Image
 from reference_tracer_grading.student_error import KINDS
 
+pytestmark = pytest.mark.slow
+
 PROJECT = Path(__file__).parent.parent
 DOCS = PROJECT / "docs"
 TOOLS = str(PROJECT / "tools")
@@ -43,6 +45,7 @@ def marked():
     return [p for p in texts() if "<!-- " in p.read_text(encoding="utf-8")]
 
 
+@pytest.mark.blender
 @pytest.mark.parametrize("path", marked(), ids=lambda p: p.stem)
 def test_commands_and_figures(path, tools):
     """Run again, every command prints what the text says, and every figure is that."""

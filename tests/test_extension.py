@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = [pytest.mark.blender, pytest.mark.slow]
+
 PROJECT = Path(__file__).parent.parent
 BUILD_SCRIPT = PROJECT / "tools" / "build_extension.py"
 MANIFEST = tomllib.loads((PROJECT / "blender_manifest.toml").read_text(encoding="utf-8"))

@@ -10,6 +10,8 @@ from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.study import extremes
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def one_scenario(monkeypatch):

@@ -11,6 +11,8 @@ from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.scene_files import save_scene
 
+pytestmark = pytest.mark.slow
+
 TRADE = ["--width", "12", "--height", "8", "--samples", "2"]
 
 

@@ -43,6 +43,7 @@ def case(room):
     return case_of(room, picture)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("known", [True, False], ids=["identity", "colours alone"])
 def test_every_fault_is_caught_but_those_that_change_nothing(case, known):
     if not known:
@@ -94,6 +95,7 @@ def test_an_open_sheet_shows_a_dropped_triangle(make):
     assert rows["dropped_triangle"].result == "caught"
 
 
+@pytest.mark.slow
 def test_what_hides_every_fault_is_missed(case):
     """A feature that may change anything, anywhere."""
     everywhere = (Unmodelled("scene 'Scene'", "x-ray", everywhere=True),)
@@ -110,6 +112,7 @@ def test_the_scene_a_frame_later(case):
     assert checked(later, ("wrong_frame",))["wrong_frame"].result == "caught"
 
 
+@pytest.mark.slow
 def test_nothing_is_changed_of_the_case(case):
     color, window = case.picture.color.copy(), case.scene.camera.window
     checked(case)
@@ -118,6 +121,7 @@ def test_nothing_is_changed_of_the_case(case):
     assert case.scene.camera.window == window
 
 
+@pytest.mark.slow
 def test_in_a_comparison_on_request(case):
     with_check = result_of(trace_and_compare(replace(case, self_check=True)))
     assert len(with_check.self_check) == len(FAULTS) and with_check.verdict == "agree"

@@ -81,6 +81,7 @@ def test_a_name_that_steers_a_terminal_is_spelt_out(make, tmp_path, capsys):
     assert (tmp_path / "again.json").read_text() == (tmp_path / "out.json").read_text()
 
 
+@pytest.mark.slow
 def test_without_a_terminal(ball, tmp_path):
     """As `reftrace ... >&-` in a shell, or a service starts it."""
     options = "explain", ball, "--pixel", "12", "8", "--out", str(tmp_path / "a.md"), *SMALL
@@ -89,6 +90,7 @@ def test_without_a_terminal(ball, tmp_path):
     assert not done.stderr and (tmp_path / "a.md").is_file()
 
 
+@pytest.mark.slow
 def test_a_terminal_without_the_letters(ball):
     """Windows' pipes have 256 letters, and formulas more."""
     command = [sys.executable, "-m", "reference_tracer.cli", "explain", ball, "--pixel", "12", "8"]

@@ -38,6 +38,7 @@ def reasons(scene, index=0):
     return said.pop()
 
 
+@pytest.mark.slow
 def test_every_pixel_is_that_of_the_proven_picture(ball_scene):
     frame = render(ball_scene)
     h, w = frame.t.shape
@@ -54,6 +55,7 @@ def test_every_pixel_is_that_of_the_proven_picture(ball_scene):
     assert len(seen) >= 3
 
 
+@pytest.mark.slow
 def test_the_methods_answers_are_their_pictures(ball_scene):
     pixels = [(x, y) for y in range(0, 18, 4) for x in range(1, 24, 5)]
     answers = [derive(ball_scene, x, y).answers for x, y in pixels]

@@ -23,6 +23,7 @@ SCENES = 20
 PROVEN = Certainty.BOUND, Certainty.EXACT
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_hostile_scenes(make, tmp_path: Path, seed):
     rng = np.random.default_rng(seed)

@@ -109,7 +109,7 @@ def study(name, kind, **options):
     def found():
         return result(kind)
 
-    yield from until(found)
+    yield from until(found, 900)
     yield 1
     note_changes(before)
     noted["lines"] = list(result(kind).lines)

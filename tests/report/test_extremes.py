@@ -21,6 +21,8 @@ from reference_tracer.report.extremes import (
 from reference_tracer.study.extreme_rows import Row
 from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS, quick
 
+pytestmark = pytest.mark.slow
+
 KEYS = {"scenario", "scale", "method", "precision", "rays", "missed", "doubled", "wrong", "refused"}
 CHOICES = [("textbook", "float32"), ("textbook", "float64"), ("certified", "float64")]
 

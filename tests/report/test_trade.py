@@ -17,6 +17,8 @@ from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, picture, ta
 from reference_tracer.study.trade import Row, Trade, mark
 from reference_tracer.tracer.settings import Precision
 
+pytestmark = pytest.mark.slow
+
 KEYS = {
     *("method", "precision", "samples", "width", "height", "seconds", "wrong_pixels"),
     *("largest_t_error", "peak_bytes", "coverage_error", "fastest", "slowest"),

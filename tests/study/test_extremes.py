@@ -17,6 +17,8 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision
 
+pytestmark = pytest.mark.slow
+
 BY_NAME = {s.name: s for s in SCENARIOS}
 
 

@@ -129,6 +129,7 @@ def test_the_unit_triangle_in_closed_form():
     assert (given.side == EDGE).sum() == 24
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", [small_integers, any_size])
 def test_pairs_are_those_of_fractions(rng, family):
     o, d, c = family(rng, 3000)
@@ -144,6 +145,7 @@ def test_pairs_are_those_of_fractions(rng, family):
     assert (seen[EDGE] > 200) == (family is small_integers)
 
 
+@pytest.mark.slow
 def test_the_moved_ray_is_that_of_the_rule_and_of_a_tiny_fraction(rng):
     o, d, c = small_integers(rng, 6000)
     given = intersect_pairs(o, d, c)
@@ -214,6 +216,7 @@ def grid(holes=()):
     return Mesh(points, np.delete(triangles, holes, axis=0))
 
 
+@pytest.mark.slow
 def test_through_corners_and_edges(make):
     """Integer rays: each meets a corner. What is behind is seen only where something is missing."""
     camera = make.camera(8, 8, half=4, orthographic=True, eye=(0.5, 0.5, 0))
@@ -275,6 +278,7 @@ def test_clip_range_is_inclusive_and_exact(make):
         assert all((a == {NOWHERE}) != seen for a in answers)
 
 
+@pytest.mark.slow
 def test_the_oracle_and_the_textbook_agree_away_from_edges(make):
     camera = make.camera(20, 15, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
     torus = trimesh.creation.torus(1.0, 0.4, major_sections=16, minor_sections=12)

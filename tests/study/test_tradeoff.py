@@ -28,6 +28,8 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Precision, Settings
 
+pytestmark = pytest.mark.slow
+
 LADDER = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
 LADDER |= {("certified", "float64")}
 

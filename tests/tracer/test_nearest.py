@@ -97,6 +97,7 @@ def test_brute_force(mess, settings):
     assert len(seen) > 6 and len(mess.instances) in seen  # a plane
 
 
+@pytest.mark.slow
 def test_certified_and_auto_against_exact_brute_force(mess):
     """Every ray with every triangle in whole numbers, with a rule written apart."""
     truth = scene_sights(mess)
@@ -109,6 +110,7 @@ def test_certified_and_auto_against_exact_brute_force(mess):
     assert sum(len(s.touched) > 1 for s in truth) > 20 and len({i for i, _ in names}) > 6
 
 
+@pytest.mark.slow
 @for_all(PLAIN + PROVEN[:1])
 @pytest.mark.parametrize(
     "division",
@@ -137,6 +139,7 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         assert divided.statistics.pairs_tested == whole.statistics.pairs_tested
 
 
+@pytest.mark.slow
 def test_the_memory_does_not_matter(mess):
     whole = traced(mess, Settings(samples=2)).passes()
     for memory in (16 << 20, 1 << 34):

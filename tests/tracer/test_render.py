@@ -51,6 +51,7 @@ def rtree_sees(make, shape, orthographic):
     return camera, o, d, ray, triangle, t
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["textbook", "moller_trumbore", "watertight", "certified"])
 @pytest.mark.parametrize("orthographic", [False, True], ids=["perspective", "orthographic"])
 @pytest.mark.parametrize("shape", SHAPES)
@@ -140,6 +141,7 @@ def test_float32_and_methods_reach_the_picture(make):
     assert len({f.t.tobytes() for f in frames}) == len(frames)
 
 
+@pytest.mark.slow
 def test_many_samples_take_no_more_memory(make):
     """Of thousands of samples a pixel, not all are held at once."""
     scene = make.scene(make.camera(64, 32), make.quad(-9, 0, -9, 9, -2))

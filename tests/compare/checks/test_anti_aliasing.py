@@ -72,12 +72,14 @@ def test_without_a_filter_it_is_not(room):
     assert not (found.cause == Cause.ANTI_ALIASING).any()
 
 
+@pytest.mark.slow
 def test_a_filter_excuses_no_fault_inside(room):
     frame, found = filtered(room, render(room).color * np.float32((1, 0.8, 1, 1)), 2.0)
     surface = frame.instance_index >= 0
     assert (found.cause[surface] == Cause.UNEXPLAINED).mean() > 0.8
 
 
+@pytest.mark.slow
 def test_a_shift_is_found_through_a_filter(room, shifted):
     from dataclasses import replace
 

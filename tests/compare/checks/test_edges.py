@@ -126,6 +126,7 @@ def test_what_the_literal_method_loses_is_no_edge(make, precision, explained, co
     assert count(found, Cause.UNEXPLAINED) > 0.9 * lost
 
 
+@pytest.mark.slow
 def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
     """Smaller parts give smaller steps, and the same causes."""
     tested, results, longest = [0], [], []
@@ -181,6 +182,7 @@ def test_edges_through_the_centres_are_edges(make, rng, explained, count, first,
     assert edges > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("needles, radius", [(20_000, 0.0), (200, 0.3)])
 def test_a_fan_of_needles_hides_no_fault(make, explained, needles, radius):
     """Long triangles, but thin ones: every centre is near an edge, as in a fine mesh."""

@@ -14,7 +14,7 @@ from reference_tracer.tracer.render import render
 
 from ..pictures import CERTIFIED, check, mess, names_of
 
-pytestmark = pytest.mark.filterwarnings("error")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 KINDS = pytest.mark.parametrize("whole", [False, True], ids=["any", "whole"])
 CAMERAS = pytest.mark.parametrize("orthographic", [False, True], ids=["persp", "ortho"])
 

@@ -152,6 +152,7 @@ def test_subnormal_scenes(rng):
     assert np.isfinite(hits.t).sum() > 10
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["nothing", "origin", "direction"])
 @pytest.mark.parametrize("clip", [(1, 2), (0.5, 1), (0, 1), (1, np.inf)])
 def test_the_clip_range(rng, clip, what):
@@ -163,6 +164,7 @@ def test_the_clip_range(rng, clip, what):
     assert np.isin(np.concatenate(met), clip).sum() > 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["nothing", "direction"])
 @pytest.mark.parametrize("clip", [(-2, 0.5), (-1, 0), (-2, -1), (-np.inf, np.inf)])
 def test_what_is_behind_may_be_seen(rng, clip, what):
@@ -183,6 +185,7 @@ def test_a_single_ray_that_starts_behind_itself(rng):
         check(Rays(np.zeros((3, 1)), rng.normal(size=(3, 1))), c, -1.0, 1.0)
 
 
+@pytest.mark.slow
 def test_ties_lack_nobody_and_name_nobody_else(rng):
     """All that rays see that are moved by any means, and no more than the closed triangles have."""
     several = 0

@@ -120,6 +120,7 @@ def for_all(perspective, orthographic):
     return pytest.mark.parametrize("claims, orthographic", some, ids=str)
 
 
+@pytest.mark.slow
 @for_all(PLACES + WEIGHTS, PLACES)
 @pytest.mark.parametrize("which", range(4))
 def test_edges_and_the_sign_of_t(rng, claims, which, orthographic):

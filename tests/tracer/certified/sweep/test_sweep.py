@@ -24,7 +24,7 @@ from reference_tracer.tracer.settings import Settings
 from ...hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...rational import t_of_pixels
 
-pytestmark = pytest.mark.filterwarnings("error")
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 SEEDS, PARTS = 2000, 4
 SAMPLE = 200  # seeds that the oracle decides
 DIVIDED = 80
