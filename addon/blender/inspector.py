@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 import bpy
-from bpy.props import BoolProperty, PointerProperty
 
 from ..arguments import words
 from ..scene import SceneError
@@ -89,40 +88,4 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             context.workspace.status_text_set(None)
 
 
-class ReferenceTracerInspector(bpy.types.PropertyGroup):
-    """What a click does; not stored."""
-
-    draw_ray: BoolProperty(  # type: ignore[valid-type]
-        name="Draw the Ray",
-        options={"SKIP_SAVE"},
-        description="With every click, draw the ray as objects in the 3D view",
-    )
-
-
-CLASSES = (
-    ReferenceTracerInspector,
-    REFERENCE_TRACER_OT_inspect,
-)
-_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
-
-
-@bpy.app.handlers.persistent
-def _file_closes(*_: Any) -> None:
-    """Forget that it is on: Blender ends it with the file."""
-    REFERENCE_TRACER_OT_inspect.running = False
-
-
-def register() -> None:
-    """Register the operators."""
-    bpy.app.handlers.load_pre.append(_file_closes)
-    _register()
-    bpy.types.WindowManager.reference_tracer_inspector = PointerProperty(
-        type=ReferenceTracerInspector
-    )
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    del bpy.types.WindowManager.reference_tracer_inspector
-    bpy.app.handlers.load_pre.remove(_file_closes)
-    _unregister()
+register, unregister = bpy.utils.register_classes_factory((REFERENCE_TRACER_OT_inspect,))

@@ -13,15 +13,15 @@ from ..report import extremes as extremes_report
 from ..report import trade as trade_report
 from ..scene import SceneError
 from ..study import tradeoff
-from ..study.scenarios.sweeps import MAPS, SCENARIOS
+from ..study.scenarios.sweeps import MAPS
 from ..tracer.progress import Work
 from . import results, scenario_scene, studies
 from .compare import compare_to_folder, compared, gather
 from .engines import compare_all
 from .judges import JUDGES
 from .long_work import LongWork
+from .properties import SWEEPS
 
-SWEEPS = [(s.name, s.title, s.explanation) for s in SCENARIOS]
 STUDIES = [
     (studies.EVERY, "All", "Every scenario, and the maps of two scales at once"),
     *SWEEPS,
@@ -193,24 +193,4 @@ CLASSES = (
     REFERENCE_TRACER_OT_extremes,
     REFERENCE_TRACER_OT_extreme_scene,
 )
-_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
-
-
-@bpy.app.handlers.persistent
-def _file_closes(*_: Any) -> None:
-    """Forget what was found in the file that goes, and what was under way there."""
-    results.forget()
-    LongWork.running = ""
-
-
-def register() -> None:
-    """Register the operators."""
-    bpy.app.handlers.load_pre.append(_file_closes)
-    _register()
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    results.forget()
-    bpy.app.handlers.load_pre.remove(_file_closes)
-    _unregister()
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,4 +1,4 @@
-"""What the user sets, stored in the .blend: on the scene and on its objects.
+"""What the user sets: stored in the .blend on the scene and its objects, or of the moment.
 
 Results are not stored here: see `results.py`.
 """
@@ -9,6 +9,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
 from ..methods import Method
+from ..study.scenarios.sweeps import SCENARIOS
 from ..tracer.settings import Precision, Settings
 from . import judges
 
@@ -32,6 +33,7 @@ SHADINGS = (
     ),
     ("AS_IS", "As It Is", "Blender draws with the shading that the scene has", 1),
 )
+SWEEPS = tuple((s.name, s.title, s.explanation) for s in SCENARIOS)
 
 
 class ReferenceTracerScene(bpy.types.PropertyGroup):
@@ -99,19 +101,41 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
     )
 
 
-CLASSES = (ReferenceTracerScene, ReferenceTracerObject)
-_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
+class ReferenceTracerWindow(bpy.types.PropertyGroup):
+    """What the panels show at the moment; not stored."""
+
+    precision: EnumProperty(name="Precision", items=PRECISIONS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
+    scenario: EnumProperty(name="Scenario", items=SWEEPS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
+
+
+class ReferenceTracerInspector(bpy.types.PropertyGroup):
+    """What a click of the inspector does; not stored."""
+
+    draw_ray: BoolProperty(  # type: ignore[valid-type]
+        name="Draw the Ray",
+        options={"SKIP_SAVE"},
+        description="With every click, draw the ray as objects in the 3D view",
+    )
+
+
+# Where each is: the type of Blender's, and the name there.
+POINTERS = (
+    (bpy.types.Scene, "reference_tracer", ReferenceTracerScene),
+    (bpy.types.Object, "reference_tracer", ReferenceTracerObject),
+    (bpy.types.WindowManager, "reference_tracer", ReferenceTracerWindow),
+    (bpy.types.WindowManager, "reference_tracer_inspector", ReferenceTracerInspector),
+)
 
 
 def register() -> None:
     """Register the property groups."""
-    _register()
-    bpy.types.Scene.reference_tracer = PointerProperty(type=ReferenceTracerScene)
-    bpy.types.Object.reference_tracer = PointerProperty(type=ReferenceTracerObject)
+    for owner, name, group in POINTERS:
+        bpy.utils.register_class(group)
+        setattr(owner, name, PointerProperty(type=group))
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
-    del bpy.types.Object.reference_tracer
-    del bpy.types.Scene.reference_tracer
-    _unregister()
+    for owner, name, group in reversed(POINTERS):
+        delattr(owner, name)
+        bpy.utils.unregister_class(group)

@@ -2,22 +2,49 @@
 
 from __future__ import annotations
 
-import importlib
+from typing import Any
 
-# Names, so that a module is imported when it is registered and not before.
-MODULES = (
-    *("properties", "engine", "operators", "explain", "inspector"),
-    *("page", "panels", "inspector_panels", "study_panels", "commands"),
+import bpy
+
+from . import (
+    commands,
+    engine,
+    explain,
+    inspector,
+    inspector_panels,
+    operators,
+    page,
+    panels,
+    properties,
+    results,
+    study_panels,
 )
+from .long_work import LongWork
+
+MODULES = (
+    *(properties, engine, operators, explain, inspector, page),
+    *(panels, inspector_panels, study_panels, commands),
+)
+
+
+@bpy.app.handlers.persistent
+def _file_closes(*_: Any) -> None:
+    """Forget what was found in the file that goes, and what Blender ends with it."""
+    results.forget()
+    LongWork.running = ""
+    inspector.REFERENCE_TRACER_OT_inspect.running = False
 
 
 def register() -> None:
     """Register every module of the add-on."""
-    for name in MODULES:
-        importlib.import_module(f".{name}", __package__).register()
+    for module in MODULES:
+        module.register()
+    bpy.app.handlers.load_pre.append(_file_closes)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
-    for name in reversed(MODULES):
-        importlib.import_module(f".{name}", __package__).unregister()
+    bpy.app.handlers.load_pre.remove(_file_closes)
+    results.forget()
+    for module in reversed(MODULES):
+        module.unregister()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, PointerProperty
 
 from ..methods import MEASURED, PLAIN, Method
 from ..study.extreme_rows import written
@@ -14,13 +13,11 @@ from ..study.scenarios.sweeps import SCENARIOS
 from ..study.trade import Row, Trade
 from . import results
 from .operators import (
-    SWEEPS,
     REFERENCE_TRACER_OT_extreme_scene,
     REFERENCE_TRACER_OT_extremes,
     REFERENCE_TRACER_OT_trade,
 )
 from .panel_parts import NARROW, both, short_name, table, wrapped
-from .properties import PRECISIONS
 from .scenario_scene import CHANGED
 
 _BY_NAME = {s.name: s for s in SCENARIOS}
@@ -133,28 +130,5 @@ def _point(point: BreakingPoint) -> str:
     return lost if point.doubled is None else f"{lost} +"
 
 
-class ReferenceTracerWindow(bpy.types.PropertyGroup):
-    """What the panels show at the moment; not stored."""
-
-    precision: EnumProperty(name="Precision", items=PRECISIONS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
-    scenario: EnumProperty(name="Scenario", items=SWEEPS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
-
-
-CLASSES = (
-    ReferenceTracerWindow,
-    *both(_Trade, "_trade"),
-    *both(_Extremes, "_extremes"),
-)
-_register, _unregister = bpy.utils.register_classes_factory(CLASSES)
-
-
-def register() -> None:
-    """Register the panels, below those of `panels.py`."""
-    _register()
-    bpy.types.WindowManager.reference_tracer = PointerProperty(type=ReferenceTracerWindow)
-
-
-def unregister() -> None:
-    """Undo :func:`register`."""
-    del bpy.types.WindowManager.reference_tracer
-    _unregister()
+CLASSES = (*both(_Trade, "_trade"), *both(_Extremes, "_extremes"))
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
