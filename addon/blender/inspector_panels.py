@@ -9,7 +9,8 @@ import bpy
 from ..explain.answers import SENTENCES
 from ..explain.derivation import Derivation, Test
 from ..explain.digits import exact_text, marked, off_text, ulps
-from ..explain.textbook import REASONS, Arithmetic
+from ..explain.formulas import REASONS
+from ..explain.textbook import Arithmetic
 from . import results
 from .explain import (
     TEXT,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..methods import Method
 from ..tracer import plane
-from ..tracer.camera import camera_rays
+from ..tracer.camera import corner_rays
 from ..tracer.candidates import Pairs
 from ..tracer.certified.certainty import Certainty, broken_assumptions
 from ..tracer.certified.contest import Contest
@@ -85,9 +85,7 @@ def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
     """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
     planes = [(c.points[0], c.points[1]) for c in pixel.planes]
     camera = pixel.camera
-    # As in `tracer.verdict`: the bounds are those for all of the picture's rays.
-    px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5])
-    around = camera_rays(camera, px, np.array([0.5, camera.height - 0.5] * 2))
+    around = corner_rays(camera)  # the bounds are those for all of the picture's rays
     clip = camera.clip_start, camera.clip_end
     contest = Contest(pixel.rays(), planes, pixel.first_plane, *clip, around)
     every = np.arange(len(triangles.instance))

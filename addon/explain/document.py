@@ -12,8 +12,8 @@ from .answers import SENTENCES as CERTAINTIES
 from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
 from .derivation import Derivation, Test
 from .digits import text
-from .formulas import ERRATA
-from .textbook import FLOATS, REASONS, Arithmetic, Verdict
+from .formulas import ERRATA, REASONS
+from .textbook import FLOATS, Arithmetic, Verdict
 
 READING = (
     "How to read the tables: every number is computed three times, from the same input and by the "

@@ -1,12 +1,13 @@
-"""The textbook's formulas, and what each number is called: their one source.
+"""The textbook's formulas, what each number is called, and why a surface is rejected.
 
-A formula is plain text. `textbook.py` evaluates it, Markdown shows it as it is, `html.py` sets it
-as MathML, and the documents' tables are made of it. Vectors are the letters of `VECTORS`;
-everything else is a number.
+Every formula of the project but the tracer's own code is taken from here. A formula is plain text:
+`textbook.py` evaluates it, Markdown shows it as it is, `html.py` sets it as MathML, and the
+documents' tables are made of it. Vectors are the letters of `VECTORS`; all else is a number.
 """
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import NamedTuple
 
 from ..projections import Projection
@@ -84,6 +85,42 @@ ERRATA = (
     "In floating point, rounding makes the printed test fail for about every second hit. The "
     "repaired test allows the sum 10⁻⁶ in float32 and 10⁻⁹ in float64.",
 )
+
+
+class Reason(StrEnum):
+    """Why a surface is rejected; the values are what JSON calls them."""
+
+    DEGENERATE = "degenerate"
+    PARALLEL = "parallel"
+    NOT_A_NUMBER = "not_a_number"
+    S1_NEGATIVE = "s1_negative"
+    S2_NEGATIVE = "s2_negative"
+    S3_NEGATIVE = "s3_negative"
+    S1_ABOVE_1 = "s1_above_1"
+    S2_ABOVE_1 = "s2_above_1"
+    S3_ABOVE_1 = "s3_above_1"
+    SUM = "sum"
+    BEHIND = "behind"
+    BEFORE_CLIP_START = "before_clip_start"
+    BEYOND_CLIP_END = "beyond_clip_end"
+
+
+REASONS = {
+    Reason.DEGENERATE: "n = 0: the corners lie on one line, there is no plane",
+    Reason.PARALLEL: "d · n = 0: the ray is parallel to the plane",
+    Reason.NOT_A_NUMBER: "t is not a finite number: an operation overflowed",
+    Reason.S1_NEGATIVE: "s₁ < 0: x lies beyond the edge p₂p₃",
+    Reason.S2_NEGATIVE: "s₂ < 0: x lies beyond the edge p₃p₁",
+    Reason.S3_NEGATIVE: "s₃ < 0: x lies beyond the edge p₁p₂",
+    Reason.S1_ABOVE_1: "s₁ > 1: x lies beyond the corner p₁",
+    Reason.S2_ABOVE_1: "s₂ > 1: x lies beyond the corner p₂",
+    Reason.S3_ABOVE_1: "s₃ > 1: x lies beyond the corner p₃",
+    Reason.SUM: "s₁ + s₂ + s₃ is farther from 1 than rounding takes it: the sᵢ have lost their "
+    "digits",
+    Reason.BEHIND: "t < 0: the plane is behind the eye",
+    Reason.BEFORE_CLIP_START: "t < clip start: nearer than the camera shows",
+    Reason.BEYOND_CLIP_END: "t > clip end: farther than the camera shows",
+}
 
 
 def ray_formulas(projection: Projection) -> dict[str, Formula]:

@@ -23,7 +23,7 @@ from ..tracer.camera import pixel_size
 from ..tracer.nearest import within_clip
 from ..tracer.triangle import SUM_TOLERANCE
 from ..tracer.vector import cross, dot
-from .formulas import CAMERA, Formula, ray_formulas
+from .formulas import CAMERA, Formula, Reason, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray  # (3,), float32 or float64, which round after every operation, or of fractions
@@ -148,42 +148,6 @@ def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points
     """Return how a ray meets a triangle of three corners, or a plane of a point and a normal."""
     labels = [formula.label for formula in formulas.values()]
     return steps(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
-
-
-class Reason(StrEnum):
-    """Why a surface is rejected; the values are what JSON calls them."""
-
-    DEGENERATE = "degenerate"
-    PARALLEL = "parallel"
-    NOT_A_NUMBER = "not_a_number"
-    S1_NEGATIVE = "s1_negative"
-    S2_NEGATIVE = "s2_negative"
-    S3_NEGATIVE = "s3_negative"
-    S1_ABOVE_1 = "s1_above_1"
-    S2_ABOVE_1 = "s2_above_1"
-    S3_ABOVE_1 = "s3_above_1"
-    SUM = "sum"
-    BEHIND = "behind"
-    BEFORE_CLIP_START = "before_clip_start"
-    BEYOND_CLIP_END = "beyond_clip_end"
-
-
-REASONS = {
-    Reason.DEGENERATE: "n = 0: the corners lie on one line, there is no plane",
-    Reason.PARALLEL: "d · n = 0: the ray is parallel to the plane",
-    Reason.NOT_A_NUMBER: "t is not a finite number: an operation overflowed",
-    Reason.S1_NEGATIVE: "s₁ < 0: x lies beyond the edge p₂p₃",
-    Reason.S2_NEGATIVE: "s₂ < 0: x lies beyond the edge p₃p₁",
-    Reason.S3_NEGATIVE: "s₃ < 0: x lies beyond the edge p₁p₂",
-    Reason.S1_ABOVE_1: "s₁ > 1: x lies beyond the corner p₁",
-    Reason.S2_ABOVE_1: "s₂ > 1: x lies beyond the corner p₂",
-    Reason.S3_ABOVE_1: "s₃ > 1: x lies beyond the corner p₃",
-    Reason.SUM: "s₁ + s₂ + s₃ is farther from 1 than rounding takes it: the sᵢ have lost their "
-    "digits",
-    Reason.BEHIND: "t < 0: the plane is behind the eye",
-    Reason.BEFORE_CLIP_START: "t < clip start: nearer than the camera shows",
-    Reason.BEYOND_CLIP_END: "t > clip end: farther than the camera shows",
-}
 
 
 class Verdict(NamedTuple):

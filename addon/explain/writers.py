@@ -18,8 +18,9 @@ from .answers import Answer
 from .derivation import Derivation, Quantity, Test
 from .digits import exact_text, text, ulps
 from .document import markdown
+from .formulas import REASONS
 from .html import page
-from .textbook import FLOATS, REASONS, Arithmetic, Number
+from .textbook import FLOATS, Arithmetic, Number
 
 SCHEMA = "reference_tracer.derivation/1"
 

@@ -118,7 +118,23 @@ def turning_planes(o: Vector, d: Vector, surfaces: Sequence[Surface]) -> set[tup
     return {m for m in found if any(m)}
 
 
-def common(vectors: Sequence[Vector]) -> list[list[int]]:
+def in_integers(
+    o: Vector, d: Vector, surfaces: Sequence[Surface]
+) -> tuple[list[int], list[int], list[Surface]]:
+    """Return a ray and surfaces of floats or fractions in integers, one scale for all lengths.
+
+    The direction and a plane's normal have scales of their own, which cancel.
+    """
+    o, *points = _common([o, *(p for s in surfaces for p in s.points)])
+    rest = iter(points)
+    whole = [
+        Surface(s.name, [next(rest) for _ in s.points], s.own_normal and _common([s.own_normal])[0])
+        for s in surfaces
+    ]
+    return o, _common([d])[0], whole
+
+
+def _common(vectors: Sequence[Vector]) -> list[list[int]]:
     """Return vectors of floats or fractions as integers, all times one power of two."""
     exact = [[Fraction(x) for x in v] for v in vectors]
     scale = max((x.denominator for v in exact for x in v), default=1)

@@ -26,10 +26,10 @@ from ..tracer.vector import transform_points
 from .moved_rays import (
     THE_RULE,
     Surface,
-    common,
     cross,
     crosses,
     dot,
+    in_integers,
     meet,
     move,
     moved,
@@ -265,23 +265,3 @@ def _sight(o: NDArray[np.float64], d: NDArray[np.float64], meetings: list[Meetin
         seen = nearest(*in_integers(o, d, surfaces), THE_RULE) if front else NOWHERE
     t = next((m.t for m in front if m.surface.name == seen), None)
     return Sight(o, d, seen, t, sum(m.hit for m in meetings), surfaces, sure is not None)
-
-
-def in_integers(
-    o: NDArray[np.float64], d: NDArray[np.float64], surfaces: Sequence[Surface]
-) -> tuple[list[int], list[int], list[Surface]]:
-    """Return a ray and surfaces in integers, with one scale for all lengths.
-
-    The direction and a plane's normal have scales of their own, which cancel.
-    """
-    o, *points = common([o, *(p for s in surfaces for p in s.points)])
-    rest = iter(points)
-    whole = [
-        Surface(
-            s.name,
-            [next(rest) for _ in s.points],
-            None if s.own_normal is None else common([s.own_normal])[0],
-        )
-        for s in surfaces
-    ]
-    return o, common([d])[0], whole

@@ -40,7 +40,7 @@ SHORT = 0.25  # seconds
 
 # Samples a pixel and direction of the converged picture. With 16, a straight edge along the pixels
 # is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are MANY
-# rays, but at least twice as many as what it judges.
+# rays, but at least twice as many as what is held against it.
 CONVERGED = 16
 MANY = 4_000_000
 BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
@@ -196,12 +196,12 @@ def _converged_samples(pixels: int, samples: int) -> int:
 def _look_at_all(choices: list[_Choice], truth: NDArray[np.float64]) -> Work[None]:
     """Render each once, untimed, for its memory and its errors; only certified frames are kept."""
     total, done, certified = sum(c.cost for c in choices), 0.0, {}
-    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):  # the judges first
+    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):  # certified first
         frame = yield from scaled(_look(choice), done / total, choice.cost / total)
         done += choice.cost
-        judge = certified.setdefault(choice.scene.camera.width, frame)
-        choice.wrong_pixels = int(frame.wrong_against(judge).sum())
-        choice.t_error = largest_t_error(frame, judge)
+        proven = certified.setdefault(choice.scene.camera.width, frame)
+        choice.wrong_pixels = int(frame.wrong_against(proven).sum())
+        choice.t_error = largest_t_error(frame, proven)
         choice.coverage_error = coverage_error(frame.color, truth)
 
 

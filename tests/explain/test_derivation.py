@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.textbook import Arithmetic, Reason
+from reference_tracer.explain.formulas import Reason
+from reference_tracer.explain.textbook import Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
