@@ -21,7 +21,7 @@ from ..images import MissingLibraryError
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import trade_plot
-from ..report.pictures import difference
+from ..report.comparison import difference
 from ..study.extremes import BreakingPoint, Row, breaking_points
 from ..study.trade import Trade
 from . import images

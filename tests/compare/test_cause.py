@@ -9,8 +9,8 @@ import pytest
 from reference_tracer.compare import causes
 from reference_tracer.compare.cause import Cause, Record
 from reference_tracer.compare.comparison import compare
+from reference_tracer.report.comparison import difference
 from reference_tracer.report.page.content import _hex, content
-from reference_tracer.report.pictures import difference
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 

@@ -13,8 +13,7 @@ from reference_tracer.compare.comparison import SCHEMA, compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.report.comparison import write, write_failure
-from reference_tracer.report.pictures import difference
+from reference_tracer.report.comparison import difference, write, write_failure
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
