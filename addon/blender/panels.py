@@ -27,8 +27,6 @@ _NOT_OURS = {
 }
 # Those of Workbench that say which colours are shown.
 _WORKBENCHS = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film"}
-
-
 _PARTS = "interior", "boundary"
 
 
