@@ -39,6 +39,7 @@ def is_mix(color: NDArray, mixed: NDArray, sums: int = 0) -> Work[NDArray[np.boo
         logs = [np.log2(1 + np.maximum(v, 0)) for v in (color[some][rest], points[:, rest])]
         # A colour's own error is up to 1.44 times as large in the logarithm, itself a half float.
         found[first + rest] = yield from in_hull(*logs, 2 * allowed[some][rest])
+        yield 0.0
     return found
 
 
