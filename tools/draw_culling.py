@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from culling import cells, depth_bins, scenes
-from culling.watched import Counts, count
+from culling.watched import count
 from reference_tracer.images import save_png
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import load_scene
@@ -36,11 +36,13 @@ COLUMNS = (
 )
 
 
-def row(name: str, c: Counts) -> str:
-    bound = float(np.median(np.concatenate(c.bounds)))
-    before = c.triangles, c.boxed, c.reached, c.computed, c.pairs
-    after = c.pixels - c.left, c.left, c.by_numbers
-    values = name, *(f"{n:,}" for n in before), f"{bound:.0e}", *(f"{n:,}" for n in after)
+def row(name: str, scene: Scene) -> str:
+    statistics, bounds = count(scene)
+    culling, region = statistics.culling, scene.camera.region
+    before = statistics.triangles, *(culling[k] for k in ("boxed", "reached", "computed"))
+    after = region.width * region.height - culling["left"], culling["left"], culling["by_integers"]
+    numbers = [f"{n:,}" for n in (*before, statistics.pairs_tested)]
+    values = name, *numbers, f"{np.median(bounds):.0e}", *(f"{n:,}" for n in after)
     return f"| {' | '.join(values)} |"
 
 
@@ -66,7 +68,7 @@ def main() -> None:
     print("|", " | ".join(COLUMNS), "|")
     print("|" + "---|" * len(COLUMNS))
     for name, scene in counted(options.scenes, options.width, options.detail):
-        print(row(name, count(scene)), flush=True)
+        print(row(name, scene), flush=True)
 
 
 if __name__ == "__main__":

@@ -32,6 +32,9 @@ class Statistics:
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
     stages: Counter[str] = field(default_factory=Counter)  # seconds of the parts of certified work
+    # Of the sweep: triangles with a pixel in their box (boxed), and not dropped as a whole (reached);
+    # pixels in which they were evaluated (computed), and that it did not decide (left).
+    culling: Counter[str] = field(default_factory=Counter)
 
     @contextmanager
     def stage(self, name: str) -> Iterator[None]:
@@ -44,12 +47,6 @@ class Statistics:
     def pairs_exact(self) -> int:
         """Pairs of a ray and a surface that whole numbers decided."""
         return sum(self.reasons.values())
-
-    def add(self, other: Statistics) -> None:
-        """Add what a part of the picture took."""
-        self.pairs_tested += other.pairs_tested
-        self.reasons.update(other.reasons)
-        self.stages.update(other.stages)
 
     def required(self) -> list[str]:
         """Return what the scene required, in words, a fact a line; for a certified picture."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.report import plots
 from reference_tracer.tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
-from reference_tracer.tracer.certified.sweep.rasterise import Boxes, _cells
+from reference_tracer.tracer.certified.sweep.rasterise import Boxes, cells
 
 from .scenes import ahead, mesh, scene, sheet, sphere
 from .watched import Watched, watch
@@ -37,7 +37,7 @@ def draw_boxes(axes: Axes) -> None:
     camera = ahead(24, 20)
     wavy = sheet(6, 5, (0.53, 0.44), lambda x, y: -1.1 - 0.13 * np.sin(6 * x + 4 * y))
     swept = watch(scene(camera, wavy))
-    [(low, high)] = swept.boxes
+    [(low, high)] = swept.found_boxes
     pixel_axes(axes, "1  Boxes of small triangles", 24, 20, 1)
     film = corners_on_film(swept)
     outline(axes, film, plots.INK, 0.9)
@@ -57,8 +57,8 @@ def draw_cells(axes: Axes) -> None:
     tested = swept.tested[-1]  # the large one's, as it lies behind
     boxes, found, depths = tested.boxes, tested.found, tested.depths
     nothing = DepthBuffer(camera.region)  # it hides nothing: with it, edges alone drop cells
-    by_edges, coarse = (joined(_cells(found, boxes, d, COARSE)) for d in (nothing, depths))
-    fine_by_edges, fine = (joined(_cells(found, coarse, d, FINE)) for d in (nothing, depths))
+    by_edges, coarse = (joined(cells(found, boxes, d, COARSE)) for d in (nothing, depths))
+    fine_by_edges, fine = (joined(cells(found, coarse, d, FINE)) for d in (nothing, depths))
     pixel_axes(axes, "2  Cells of a large triangle", width, height, COARSE)
     image = np.ones((height, width, 3))
     for some, color, line in (  # each is a part of the one before
@@ -95,7 +95,7 @@ def draw_pixels(axes: Axes) -> None:
     camera = ahead(width, height, height / 2, projection=ORTHOGRAPHIC)
     swept = watch(scene(camera, mesh(place, [(0, 1, 2), (0, 2, 3)])))
     image = np.ones((height, width, 3))
-    [(low, high)] = swept.boxes
+    [(low, high)] = swept.found_boxes
     for (x0, y0), (x1, y1) in zip(low.T, high.T, strict=True):
         image[y0 : y1 + 1, x0 : x1 + 1] = to_rgb(MISSED)
     for kept in (k for tested in swept.tested for k in tested.kept):

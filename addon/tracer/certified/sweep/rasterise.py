@@ -118,11 +118,12 @@ def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer)
 
 def split(found: Footprints, boxes: Boxes, depths: DepthBuffer) -> Iterator[Boxes]:
     """Yield the parts of boxes in those cells of FINE pixels which may be covered and seen."""
-    for coarse in _cells(found, boxes, depths, COARSE):
-        yield from _cells(found, coarse, depths, FINE)
+    for coarse in cells(found, boxes, depths, COARSE):
+        yield from cells(found, coarse, depths, FINE)
 
 
-def _cells(found: Footprints, boxes: Boxes, depths: DepthBuffer, size: int) -> Iterator[Boxes]:
+def cells(found: Footprints, boxes: Boxes, depths: DepthBuffer, size: int) -> Iterator[Boxes]:
+    """Yield the parts of boxes in those cells of this size which may be covered and seen."""
     first, last = boxes.low // size, boxes.high // size
     columns, rows = (last - first + 1).astype(np.intp)
     ends = np.cumsum(columns * rows)

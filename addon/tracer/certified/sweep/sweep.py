@@ -66,7 +66,12 @@ def sweep(
         Of the n rays, row by row from the lowest.
     """
     swept = Sweep(scene, Film(scene.camera, dx, dy), region, statistics or Statistics())
-    return quiet(swept.steps(max(1, memory // _BYTES_PER_TRIANGLE)))
+    return quiet(swept.steps(triangles_in(memory)))
+
+
+def triangles_in(memory: int) -> int:
+    """Return how many triangles a part of the scene may have that takes this memory, in bytes."""
+    return max(1, memory // _BYTES_PER_TRIANGLE)
 
 
 class Sweep:
@@ -141,7 +146,7 @@ class Sweep:
         expanded = expand(self._scene, self._film, piece)
         start = self._numbers.enter(expanded.names)
         yield "project"
-        low, high, nearest = self._boxes(expanded)
+        low, high, nearest = self.boxes(expanded)
         yield "boxes"
         corner = np.array([[region.x0], [region.y0]], low.dtype)
         extent = np.array([[region.width - 1], [region.height - 1]], low.dtype)
@@ -160,7 +165,7 @@ class Sweep:
             for first in range(0, len(slab), _TRIANGLES):
                 some = slab[first : first + _TRIANGLES]
                 boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
-                open_ = self._not_hidden(boxes, gather(nearest, some))
+                open_ = self.not_hidden(boxes, gather(nearest, some))
                 if not len(open_):
                     continue
                 # Sorted by shape, so that what is evaluated together lies together.
@@ -180,24 +185,24 @@ class Sweep:
                 )
                 boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
                 yield "footprints"
-                for pairs in self._pairs(found, boxes, shape):
-                    self._fragments.append(self._of_pairs(found, pairs, start + some))
+                for pairs in self.pairs(found, boxes, shape):
+                    self._fragments.append(self.of_pairs(found, pairs, start + some))
                     yield "pixels"
 
-    def _boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
+    def boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
+        """Return the boxes of a chunk's triangles, as `boxes_of`."""
         return boxes_of(self._scene, self._film, expanded)
 
-    def _not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
+    def not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
+        self._statistics.culling["boxed"] += len(nearest)
         farthest = np.full(len(nearest), -np.inf)
         small = np.flatnonzero((boxes.high - boxes.low).max(axis=0) < FINE)
         (x0, y0), (x1, y1) = gather(boxes.low, small), gather(boxes.high, small)
         farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
         return np.flatnonzero(~(nearest < farthest))
 
-    def _pairs(
-        self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]
-    ) -> Iterator[Covered]:
+    def pairs(self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]) -> Iterator[Covered]:
         """Yield the pairs of sorted boxes, so many at a time as are a short step."""
         parts, count = [], 0
         for block in self._blocks(found, boxes, shape):
@@ -214,15 +219,24 @@ class Sweep:
     ) -> Iterator[Covered]:
         """Yield the blocks of sorted boxes, the large ones last, each with its own footprint."""
         large = int(np.searchsorted(shape, LARGE))
+        reached = np.arange(boxes.low.shape[1]) < large
+        self._count_pixels(boxes.take(slice(0, large)))
         yield from covered(found, boxes, shape[:large], self._depths)
         rest = np.arange(large, len(found.row))  # and those that occur twice
         row = found.row.take(rest)
         rest = Boxes(rest, boxes.low.take(row, axis=1), boxes.high.take(row, axis=1))
         for some in split(found, rest, self._depths) if len(row) else ():
             order = np.argsort(own := some.shape, kind="stable")
+            reached[gather(found.row, some.owner)] = True
+            self._count_pixels(some)
             yield from covered(found, some.take(order), own.take(order), self._depths)
+        self._statistics.culling["reached"] += int(reached.sum())
 
-    def _of_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Fragments:
+    def _count_pixels(self, boxes: Boxes) -> None:
+        width, height = (boxes.high - boxes.low + 1).astype(np.int64)
+        self._statistics.culling["computed"] += int((width * height).sum())
+
+    def of_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Fragments:
         error = gather(found.nearness_error, pairs.owner)
         least, most = pairs.nearness - error, pairs.nearness + error
         np.minimum(most, gather(found.nearest, pairs.owner), out=most)

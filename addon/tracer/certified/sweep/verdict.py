@@ -90,6 +90,7 @@ class Verdict:
         """
         every = np.flatnonzero(open_)
         starts = every[::_RAYS]
+        self._statistics.culling["left"] += len(every)
         groups: list[list[tuple[Index, Index]]] = [[] for _ in starts]
         for pixel, surface in parts if len(starts) else ():
             rest = np.flatnonzero(gather(open_, pixel))
