@@ -32,7 +32,7 @@ class Statistics:
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
     stages: Counter[str] = field(default_factory=Counter)  # seconds of the parts of certified work
-    # Of the sweep: triangles with a pixel in their box (boxed), and not dropped as a whole (reached);
+    # Of the sweep: triangles with a pixel in their box (boxed), not dropped as a whole (reached);
     # pixels in which they were evaluated (computed), and that it did not decide (left).
     culling: Counter[str] = field(default_factory=Counter)
 
@@ -45,7 +45,7 @@ class Statistics:
 
     @property
     def pairs_exact(self) -> int:
-        """Pairs of a ray and a surface that whole numbers decided."""
+        """Pairs of a ray and a surface that integers decided."""
         return sum(self.reasons.values())
 
     def required(self) -> list[str]:

@@ -67,7 +67,7 @@ class ExactFilm:
     def functions(self, x: NDArray, y: NDArray, corners: NDArray) -> tuple[Exact, Exact, Exact]:
         """Return e_bc, e_ca, e_ab (3, n), T (n,) and t of pixels and triangles, pair by pair.
 
-        As `footprints.py` defines the e and T; t = inf where there is none.
+        As `edge_functions.py` defines the e and T; t = inf where there is none.
         """
         o, d = self.rays(x, y)
         edges, depth, towards = functions(o, d, corners)

@@ -12,10 +12,7 @@ from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import culling, plane, render, world
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.certified.sweep import chunks as pieces
-from reference_tracer.tracer.certified.sweep import depth_bins as slabs
-from reference_tracer.tracer.certified.sweep import rasterise as cover
-from reference_tracer.tracer.certified.sweep import sweep, verdict
+from reference_tracer.tracer.certified.sweep import chunks, depth_bins, rasterise, sweep, verdict
 from reference_tracer.tracer.nearest import NOTHING, film_positions
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
@@ -126,11 +123,11 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         pairs, triangles, rows = division
         monkeypatch.setattr(render, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
         monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
-        monkeypatch.setattr(pieces, "_CHUNK", triangles)
-        for module, name in ((verdict, "_PAIRS"), (cover, "_VALUES"), (cover, "_CELLS")):
+        monkeypatch.setattr(chunks, "_CHUNK", triangles)
+        for module, name in ((verdict, "_PAIRS"), (rasterise, "_VALUES"), (rasterise, "_CELLS")):
             monkeypatch.setattr(module, name, pairs)
         monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
-        monkeypatch.setattr(slabs, "BINS", 2 + triangles % 255)
+        monkeypatch.setattr(depth_bins, "BINS", 2 + triangles % 255)
     divided = traced(mess, settings)
     for name, values in divided.passes().items():
         assert values.tobytes() == whole.passes()[name].tobytes(), name

@@ -17,10 +17,10 @@ from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.sweep import sweep
 from reference_tracer.tracer.certified.sweep.chunks import Expanded
 from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer
-from reference_tracer.tracer.certified.sweep.edge_functions import Footprints
+from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
 from reference_tracer.tracer.certified.sweep.film import Film
 from reference_tracer.tracer.certified.sweep.fragments import Fragments
-from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Covered
+from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Rasterised
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import quiet, result_of
 from reference_tracer.tracer.settings import Settings
@@ -41,9 +41,9 @@ class Look:
 
 @dataclass(frozen=True, eq=False)
 class Tested:
-    """Footprints that were evaluated together, what hid them, and the pairs that were kept."""
+    """EdgeFunctions that were evaluated together, what hid them, and the pairs that were kept."""
 
-    found: Footprints
+    found: EdgeFunctions
     boxes: Boxes
     depths: DepthBuffer
     kept: list[Fragments] = field(default_factory=list)
@@ -92,7 +92,7 @@ class Watched(sweep.Sweep):
             self.looks.append(Look(boxes, nearest, found, self.seen))
         return found
 
-    def pairs(self, found: Footprints, boxes: Boxes, shape: NDArray) -> Iterator[Covered]:
+    def pairs(self, found: EdgeFunctions, boxes: Boxes, shape: NDArray) -> Iterator[Rasterised]:
         _, of_y, of_x = found.coefficients[:, :3]
         self.bounds.append(found.edge_error / np.hypot(of_x, of_y).min(axis=0))
         if self._closely:  # the depth buffer as it is now: it goes on changing
@@ -101,7 +101,7 @@ class Watched(sweep.Sweep):
             self.tested.append(Tested(found, each, deepcopy(self._depths)))
         return super().pairs(found, boxes, shape)
 
-    def of_pairs(self, found: Footprints, pairs: Covered, surface: NDArray) -> Fragments:
+    def of_pairs(self, found: EdgeFunctions, pairs: Rasterised, surface: NDArray) -> Fragments:
         kept = super().of_pairs(found, pairs, surface)
         if self._closely:
             self.tested[-1].kept.append(kept)

@@ -1,8 +1,8 @@
-"""The scene in pieces that are worked on together, from the front to the back.
+"""The scene in chunks that are worked on together, from the front to the back.
 
-In comes a scene; out go pieces: whole instances whose triangles fit into the memory that there is,
+In comes a scene; out go chunks: whole instances whose triangles fit into the memory that there is,
 or a part of one that does not. What lies wholly outside the view is left out by its bounding box,
-so that an instance costs no more than that; no more than one piece is expanded at a time.
+so that an instance costs no more than that; no more than one chunk is expanded at a time.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class Chunk:
     """Triangles first <= k < last of one instance, or all of several (`last` is None)."""
 
     instances: NDArray[np.int32]
@@ -35,7 +35,7 @@ class Piece:
 
 @dataclass(frozen=True, eq=False)
 class Names:
-    """How the scene calls a piece's triangles.
+    """How the scene calls a chunk's triangles.
 
     Those `starts[i]` <= k < `starts[i + 1]` are `instances[i]`'s, from its triangle `first` on.
     """
@@ -46,25 +46,25 @@ class Names:
 
     @property
     def count(self) -> int:
-        """How many triangles the piece has."""
+        """How many triangles the chunk has."""
         return int(self.starts[-1])
 
     def of(self, triangle: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle, as the scene counts them, of triangles of the piece."""
+        """Return instance and triangle, as the scene counts them, of triangles of the chunk."""
         which = np.searchsorted(self.starts, triangle, side="right") - 1
         own = triangle - self.starts[which] + self.first
         return self.instances[which], own.astype(np.int32)
 
 
 class Numbering:
-    """One number for each surface of all pieces, in the order in which the pieces come."""
+    """One number for each surface of all chunks, in the order in which the chunks come."""
 
     def __init__(self) -> None:
         self._names: list[Names] = []
         self._starts = np.zeros(1, np.int64)  # the number of the first surface of each
 
     def enter(self, names: Names) -> int:
-        """Give numbers to a piece's surfaces; returns the first."""
+        """Give numbers to a chunk's surfaces; returns the first."""
         start = int(self._starts[-1])
         self._names.append(names)
         self._starts = np.append(self._starts, start + names.count)
@@ -73,18 +73,18 @@ class Numbering:
     def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return instance and triangle of surfaces."""
         out = np.empty((2, len(surface)), np.int32)
-        for names, own, first in self.by_piece(surface):
+        for names, own, first in self.by_chunk(surface):
             out[:, own] = names.of(surface[own] - first)
         return out[0], out[1]
 
-    def by_piece(self, surface: Index) -> Iterator[tuple[Names, Index | slice, int]]:
-        """Yield each piece's names, which of the surfaces are its own, and the first's number."""
+    def by_chunk(self, surface: Index) -> Iterator[tuple[Names, Index | slice, int]]:
+        """Yield each chunk's names, which of the surfaces are its own, and the first's number."""
         if len(self._names) == 1:
             yield self._names[0], slice(None), 0
             return
-        piece = np.searchsorted(self._starts, surface, side="right") - 1
-        order = np.argsort(piece.astype(np.uint16), kind="stable")
-        cuts = np.searchsorted(piece[order], np.arange(len(self._names) + 1))
+        chunk = np.searchsorted(self._starts, surface, side="right") - 1
+        order = np.argsort(chunk.astype(np.uint16), kind="stable")
+        cuts = np.searchsorted(chunk[order], np.arange(len(self._names) + 1))
         for number, (start, end) in enumerate(pairwise(cuts.tolist())):
             if start < end:
                 yield self._names[number], order[start:end], int(self._starts[number])
@@ -92,15 +92,15 @@ class Numbering:
 
 @dataclass(frozen=True, eq=False)
 class Expanded:
-    """A piece with its vertices on the film; `corners` (3, m) are those of its triangles."""
+    """A chunk with its vertices on the film; `corners` (3, m) are those of its triangles."""
 
     vertices: Vertices
     corners: NDArray[np.int32]
     names: Names
 
 
-def pieces(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> list[Piece]:
-    """Return the pieces of what may be in view in a region, of at most `limit` triangles each."""
+def chunks(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> list[Chunk]:
+    """Return the chunks of what may be in view in a region, of at most `limit` triangles each."""
     if not scene.instances:
         return []
     depth = around.depth
@@ -112,7 +112,7 @@ def pieces(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> l
     for instance in order[large].tolist():
         count = int(counts[instance])
         for first in range(0, count, limit):
-            out.append(Piece(np.array([instance], np.int32), first, min(first + limit, count)))
+            out.append(Chunk(np.array([instance], np.int32), first, min(first + limit, count)))
     rest = order[~large]
     ends = np.cumsum(counts[rest])
     start = 0
@@ -120,22 +120,22 @@ def pieces(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> l
         done = ends[start - 1] if start else 0
         end = max(start + 1, int(np.searchsorted(ends, done + limit, side="right")))
         group = rest[start:end]
-        out.append(Piece(group[np.argsort(scene.instance_meshes[group], kind="stable")]))
+        out.append(Chunk(group[np.argsort(scene.instance_meshes[group], kind="stable")]))
         start = end
-    nearest = [depth[piece.instances].min() for piece in out]
+    nearest = [depth[chunk.instances].min() for chunk in out]
     return [out[k] for k in np.argsort(nearest, kind="stable")]
 
 
-def expand(scene: Scene, film: Film, piece: Piece) -> Expanded:
-    """Return a piece's triangles, with their vertices on the film."""
-    if piece.last is not None:
-        mesh = scene.meshes[scene.instances[piece.instances[0]].mesh]
-        own, corners = _used(mesh.vertices, mesh.triangles[piece.first : piece.last])
-        parts = [(piece.instances, own, corners)]
+def expand(scene: Scene, film: Film, chunk: Chunk) -> Expanded:
+    """Return a chunk's triangles, with their vertices on the film."""
+    if chunk.last is not None:
+        mesh = scene.meshes[scene.instances[chunk.instances[0]].mesh]
+        own, corners = _used(mesh.vertices, mesh.triangles[chunk.first : chunk.last])
+        parts = [(chunk.instances, own, corners)]
     else:
-        of = scene.instance_meshes[piece.instances]
+        of = scene.instance_meshes[chunk.instances]
         parts = []
-        for members in np.split(piece.instances, np.flatnonzero(np.diff(of)) + 1):
+        for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
             mesh = scene.meshes[scene.instances[members[0]].mesh]
             parts.append((members, mesh.vertices, mesh.triangles))
     total = sum(len(members) * len(v) for members, v, _ in parts)
@@ -156,7 +156,7 @@ def expand(scene: Scene, film: Film, piece: Piece) -> Expanded:
             counts += [len(triangles)] * len(members)
             at, triangle = at + len(members) * len(own), triangle + copies.shape[1]
     starts = np.concatenate(([0], np.cumsum(counts)))
-    return Expanded(vertices, corners, Names(piece.instances, starts, piece.first))
+    return Expanded(vertices, corners, Names(chunk.instances, starts, chunk.first))
 
 
 def _used(vertices: NDArray, triangles: Index) -> tuple[NDArray, Index]:

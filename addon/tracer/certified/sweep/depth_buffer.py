@@ -1,6 +1,6 @@
 """How near the nearest sure hit of every pixel is, so that what lies behind it need not be tested.
 
-In come pixels with the nearness (`footprints.py`) that a hit of theirs is known to have at least;
+In come pixels with the nearness (`edge_functions.py`) that a hit of theirs surely has at least;
 out goes what a surface must reach to be seen: at a pixel, or anywhere in a cell of pixels.
 """
 

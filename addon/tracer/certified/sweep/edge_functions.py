@@ -48,7 +48,7 @@ Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
-class Footprints:
+class EdgeFunctions:
     """m triangles as functions of the pixel.
 
     `coefficients` (3, 4, m): of 1, y and x, from the pixel `origin` (2, m) on, for the three edges,
@@ -67,17 +67,17 @@ class Footprints:
     nearest: Floats
     sure: NDArray[np.bool_]
 
-    def take(self, index: Index) -> Footprints:
+    def take(self, index: Index) -> EdgeFunctions:
         """Return those at `index`."""
-        return Footprints(*(gather(v, index) for v in vars(self).values()))
+        return EdgeFunctions(*(gather(v, index) for v in vars(self).values()))
 
-    def __getitem__(self, part: slice) -> Footprints:
-        return Footprints(*(v[..., part] for v in vars(self).values()))
+    def __getitem__(self, part: slice) -> EdgeFunctions:
+        return EdgeFunctions(*(v[..., part] for v in vars(self).values()))
 
 
-def footprints(
+def set_up(
     film: Film, vertices: Vertices, corners: Index, nearest: Floats, origin: Index, reach: Floats
-) -> Footprints:
+) -> EdgeFunctions:
     """Return the functions of triangles.
 
     Parameters
@@ -92,7 +92,7 @@ def footprints(
         How far from there they are asked for, in pixels, along either axis.
     """
     count = corners.shape[1]
-    out = Footprints(
+    out = EdgeFunctions(
         np.arange(count),
         origin,
         np.empty((3, 4, count)),
@@ -107,7 +107,9 @@ def footprints(
     return out if out.sure.all() else _both_signs(out)
 
 
-def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach: Floats) -> None:
+def _fill(
+    out: EdgeFunctions, film: Film, vertices: Vertices, corners: Index, reach: Floats
+) -> None:
     """Compute the functions of some triangles, and their bounds."""
     x0, y0 = out.origin + 0.5
     p, q, w = [], [], []
@@ -166,8 +168,8 @@ def _fill(out: Footprints, film: Film, vertices: Vertices, corners: Index, reach
         coefficients[:, :, lost], out.edge_error[lost], out.sure[lost] = 0, np.inf, False
 
 
-def _both_signs(found: Footprints) -> Footprints:
-    """Return what is not sure twice, once for each sign of T, with any nearness."""
+def _both_signs(found: EdgeFunctions) -> EdgeFunctions:
+    """Duplicate the triangles whose orientation is uncertain, once for each sign of T."""
     unsure = np.flatnonzero(~found.sure)
     out = found.take(np.r_[np.arange(len(found.row)), unsure])
     out.coefficients[:, :3, len(found.row) :] *= -1

@@ -37,7 +37,7 @@ class Vertices:
     `box` (v, 4) holds, negated where it is an upper end, the pixels whose centres a triangle with
     this vertex may cover: lowest x, lowest y, -highest x, -highest y. The minimum over its corners
     is a triangle's own. It holds only where `ahead`: where the vertex surely is before the eye.
-    `nearest` is the most that the nearness (`footprints.py`) of what is seen there can be.
+    `nearest` is the most that the nearness (`edge_functions.py`) of what is seen there can be.
     """
 
     p: Floats

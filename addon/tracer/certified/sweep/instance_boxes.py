@@ -25,7 +25,7 @@ class InstanceBoxes:
 
     `in_view` (n,) is False for what no ray of the region meets. `depth` (n,) is the least of its
     corners, in metres. Pixels outside `low` to `high`, (2, n) x and y, both included, are not
-    covered, and nothing is nearer than `nearest` (n,), a nearness (`footprints.py`).
+    covered, and nothing is nearer than `nearest` (n,), a nearness (`edge_functions.py`).
     """
 
     in_view: NDArray[np.bool_]

@@ -1,11 +1,11 @@
-"""Which pixels triangles cover: their footprints, evaluated where they may be inside.
+"""Which pixels triangles cover: their edge functions, evaluated where they may be inside.
 
-In come footprints with the boxes of pixels that they may cover; out go (pixel, footprint) pairs of
-which the ray may hit the triangle. A box is evaluated as a block, pixel by pixel. One that is
-larger than a cell of the depth buffer is split into cells first, and cells that an edge rules out,
-or that lie behind what is in the depth buffer already, are dropped as a whole. Floating-point
-addition and multiplication are monotone: what holds at a cell's corner holds, to the last bit, at
-all of its pixels.
+In come edge functions with the boxes of pixels that they may cover; out go pairs of a pixel and a
+triangle that the ray may hit. A box is evaluated as a block, pixel by pixel. One that is larger
+than a cell of the depth buffer is split into cells first, and cells that an edge rules out, or that
+lie behind what is in the depth buffer already, are dropped as a whole. Floating-point addition and
+multiplication are monotone: what holds at a cell's corner holds, to the last bit, at all of its
+pixels.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from ...vector import gather, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
-from .edge_functions import Footprints
+from .edge_functions import EdgeFunctions
 
 _VALUES = 1 << 14  # pixels
 _CELLS = 1 << 14  # cells tested together
@@ -35,7 +35,7 @@ Index = NDArray[np.integer]
 class Boxes:
     """b boxes of pixels: `low` and `high`, (2, b) x and y each, both included, in the region.
 
-    `owner` (b,) is the footprint that each belongs to; None if each has its own, in their order.
+    `owner` (b,) says whose edge functions each has; None if each has its own, in their order.
     """
 
     owner: Index | None
@@ -57,7 +57,7 @@ class Boxes:
 
 
 @dataclass(frozen=True, eq=False)
-class Covered:
+class Rasterised:
     """p pairs whose ray may hit: (p,) each.
 
     `least` is the smallest of the three edge functions, `nearness` the fourth.
@@ -69,9 +69,9 @@ class Covered:
     nearness: NDArray[np.float64]
 
 
-def covered(
-    found: Footprints, boxes: Boxes, shape: NDArray[np.uint8], depths: DepthBuffer
-) -> Iterator[Covered]:
+def rasterised(
+    found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8], depths: DepthBuffer
+) -> Iterator[Rasterised]:
     """Yield the pairs of boxes that are no larger than a cell, sorted by their shape."""
     starts = np.flatnonzero(np.diff(shape, prepend=np.uint8(0)))
     for start, end in pairwise([*starts.tolist(), len(shape)]):
@@ -82,7 +82,7 @@ def covered(
             yield _block(found, boxes.take(part), h, w, depths)
 
 
-def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer) -> Covered:
+def _block(found: EdgeFunctions, boxes: Boxes, h: int, w: int, depths: DepthBuffer) -> Rasterised:
     """Evaluate boxes that are at most h pixels high and w wide."""
     owner, region = boxes.owner, depths.region
     own = found[owner] if isinstance(owner, slice) else found.take(owner)
@@ -108,7 +108,7 @@ def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer)
     steps = np.arange(h, dtype=np.int32)[:, None] * stride + np.arange(w, dtype=np.int32)
     pixel = steps[..., None] + (y.astype(np.int32) * stride + x)
     row = inside % low.shape[1]
-    return Covered(
+    return Rasterised(
         gather(pixel.ravel(), inside),
         row + owner.start if isinstance(owner, slice) else gather(owner, row),
         gather(least.ravel(), inside),
@@ -116,13 +116,13 @@ def _block(found: Footprints, boxes: Boxes, h: int, w: int, depths: DepthBuffer)
     )
 
 
-def split(found: Footprints, boxes: Boxes, depths: DepthBuffer) -> Iterator[Boxes]:
+def split(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Boxes]:
     """Yield the parts of boxes in those cells of FINE pixels which may be covered and seen."""
     for coarse in cells(found, boxes, depths, COARSE):
         yield from cells(found, coarse, depths, FINE)
 
 
-def cells(found: Footprints, boxes: Boxes, depths: DepthBuffer, size: int) -> Iterator[Boxes]:
+def cells(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer, size: int) -> Iterator[Boxes]:
     """Yield the parts of boxes in those cells of this size which may be covered and seen."""
     first, last = boxes.low // size, boxes.high // size
     columns, rows = (last - first + 1).astype(np.intp)
@@ -142,7 +142,7 @@ def cells(found: Footprints, boxes: Boxes, depths: DepthBuffer, size: int) -> It
 
 
 def _may_be_seen(
-    found: Footprints, boxes: Boxes, farthest: NDArray[np.float64], depths: DepthBuffer
+    found: EdgeFunctions, boxes: Boxes, farthest: NDArray[np.float64], depths: DepthBuffer
 ) -> Index:
     """Return which boxes no edge rules out, and what is in the depth buffer does not hide."""
     of_1, of_y, of_x = gather(found.coefficients, boxes.owner)

@@ -19,21 +19,21 @@ from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, timed
 from ...vector import gather
 from ..bounds import plane_fractions
-from .chunks import Expanded, Names, Numbering, Piece, expand, pieces
-from .depth_bins import slabs
+from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
+from .depth_bins import by_depth
 from .depth_buffer import FINE, DepthBuffer
-from .edge_functions import Footprints, footprints
+from .edge_functions import EdgeFunctions, set_up
 from .film import Film
 from .fragments import ROUNDING, ClipRange, Fragments
 from .instance_boxes import InstanceBoxes
-from .rasterise import LARGE, Boxes, Covered, covered, split
+from .rasterise import LARGE, Boxes, Rasterised, rasterised, split
 from .triangle_boxes import boxes_of
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
 _PIXELS = 1 << 15  # of a plane, at a time
 _PAIRS = 1 << 16  # that the depth buffer is asked about together
-_BYTES_PER_TRIANGLE = 128  # of a piece, with its vertices
+_BYTES_PER_TRIANGLE = 128  # of a chunk, with its vertices
 
 Index = NDArray[np.integer]
 
@@ -54,7 +54,7 @@ def sweep(
     region : Region
         Of n pixels, within the camera's.
     memory : int
-        Bytes that a piece of the scene may take, about.
+        Bytes that a chunk of the scene may take, about.
     dx, dy : float
         Where each ray passes its pixel's centre, in pixels; at most half a pixel.
     statistics : Statistics, optional
@@ -94,25 +94,25 @@ class Sweep:
         self._numbers = Numbering()
 
     def steps(self, limit: int) -> Work[Hits]:
-        """Sweep the scene in pieces of at most `limit` triangles, and decide every pixel."""
+        """Sweep the scene in chunks of at most `limit` triangles, and decide every pixel."""
         stages = self._statistics.stages
         for _ in timed(self.enter_planes(), stages):
             yield 0.0
         around = InstanceBoxes.of(self._scene, self._film) if self._scene.instances else None
-        parts = pieces(self._scene, around, self._depths.region, limit)
-        for number, piece in enumerate(parts):
+        parts = chunks(self._scene, around, self._depths.region, limit)
+        for number, chunk in enumerate(parts):
             if self._fragments:
-                piece = self._not_behind(piece, around)
-            for _ in timed(self.enter(piece), stages):
+                chunk = self._not_behind(chunk, around)
+            for _ in timed(self.enter(chunk), stages):
                 yield 0.6 * number / len(parts)
         verdict = Verdict(self._scene, self._film, self._depths, self._numbers, self._statistics)
         return (yield from timed(verdict.steps(self._fragments), stages, 0.6))
 
-    def _not_behind(self, piece: Piece, around: InstanceBoxes) -> Piece:
-        """Return a piece without the instances that what is nearer hides."""
+    def _not_behind(self, chunk: Chunk, around: InstanceBoxes) -> Chunk:
+        """Return a chunk without the instances that what is nearer hides."""
         self._depths.refresh(0, self._depths.region.height)
-        hidden = around.hidden(piece.instances, self._depths)
-        return replace(piece, instances=piece.instances[~hidden])
+        hidden = around.hidden(chunk.instances, self._depths)
+        return replace(chunk, instances=chunk.instances[~hidden])
 
     def enter_planes(self) -> Steps[None]:
         """Sweep the infinite planes, in small steps."""
@@ -138,12 +138,12 @@ class Sweep:
         place, of = self._depths.places(pixel), np.full(len(pixel), surface)
         return self._test(place, of, least, most, np.isfinite(high))
 
-    def enter(self, piece: Piece) -> Steps[None]:
-        """Sweep the triangles of a piece, in small steps; yields which stage of work each was."""
-        if not len(piece.instances):
+    def enter(self, chunk: Chunk) -> Steps[None]:
+        """Sweep the triangles of a chunk, in small steps; yields which stage of work each was."""
+        if not len(chunk.instances):
             return
         region = self._depths.region
-        expanded = expand(self._scene, self._film, piece)
+        expanded = expand(self._scene, self._film, chunk)
         start = self._numbers.enter(expanded.names)
         yield "project"
         low, high, nearest = self.boxes(expanded)
@@ -157,13 +157,13 @@ class Sweep:
         if not len(seen):
             return
         yield "boxes"
-        parts, y0, y1 = slabs(seen, nearest, part_low, part_high)
+        parts, y0, y1 = by_depth(seen, nearest, part_low, part_high)
         yield "slabs"
-        for number, slab in enumerate(parts):
+        for number, depth_bin in enumerate(parts):
             if number or self._fragments:
                 self._depths.refresh(y0, y1)
-            for first in range(0, len(slab), _TRIANGLES):
-                some = slab[first : first + _TRIANGLES]
+            for first in range(0, len(depth_bin), _TRIANGLES):
+                some = depth_bin[first : first + _TRIANGLES]
                 boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
                 open_ = self.not_hidden(boxes, gather(nearest, some))
                 if not len(open_):
@@ -175,7 +175,7 @@ class Sweep:
                 some = some.take(open_)
                 origin = gather(low, some)
                 width, height = gather(high, some) - origin
-                found = footprints(
+                found = set_up(
                     self._film,
                     expanded.vertices,
                     gather(expanded.corners, some),
@@ -202,7 +202,9 @@ class Sweep:
         farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
         return np.flatnonzero(~(nearest < farthest))
 
-    def pairs(self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]) -> Iterator[Covered]:
+    def pairs(
+        self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
+    ) -> Iterator[Rasterised]:
         """Yield the pairs of sorted boxes, so many at a time as are a short step."""
         parts, count = [], 0
         for block in self._blocks(found, boxes, shape):
@@ -215,13 +217,13 @@ class Sweep:
             yield _joined(parts)
 
     def _blocks(
-        self, found: Footprints, boxes: Boxes, shape: NDArray[np.uint8]
-    ) -> Iterator[Covered]:
-        """Yield the blocks of sorted boxes, the large ones last, each with its own footprint."""
+        self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
+    ) -> Iterator[Rasterised]:
+        """Yield the blocks of sorted boxes, the large ones last, each with its edge functions."""
         large = int(np.searchsorted(shape, LARGE))
         reached = np.arange(boxes.low.shape[1]) < large
         self._count_pixels(boxes.take(slice(0, large)))
-        yield from covered(found, boxes, shape[:large], self._depths)
+        yield from rasterised(found, boxes, shape[:large], self._depths)
         rest = np.arange(large, len(found.row))  # and those that occur twice
         row = found.row.take(rest)
         rest = Boxes(rest, boxes.low.take(row, axis=1), boxes.high.take(row, axis=1))
@@ -229,14 +231,15 @@ class Sweep:
             order = np.argsort(own := some.shape, kind="stable")
             reached[gather(found.row, some.owner)] = True
             self._count_pixels(some)
-            yield from covered(found, some.take(order), own.take(order), self._depths)
+            yield from rasterised(found, some.take(order), own.take(order), self._depths)
         self._statistics.culling["reached"] += int(reached.sum())
 
     def _count_pixels(self, boxes: Boxes) -> None:
         width, height = (boxes.high - boxes.low + 1).astype(np.int64)
         self._statistics.culling["computed"] += int((width * height).sum())
 
-    def of_pairs(self, found: Footprints, pairs: Covered, surface: Index) -> Fragments:
+    def of_pairs(self, found: EdgeFunctions, pairs: Rasterised, surface: Index) -> Fragments:
+        """Return the fragments of pairs; their sure hits enter the depth buffer."""
         error = gather(found.nearness_error, pairs.owner)
         least, most = pairs.nearness - error, pairs.nearness + error
         np.minimum(most, gather(found.nearest, pairs.owner), out=most)
@@ -264,7 +267,7 @@ class Sweep:
         return Fragments(*(gather(v, keep) for v in (pixel, surface, most, sure)))
 
 
-def _joined(parts: Sequence[Covered]) -> Covered:
-    return Covered(
+def _joined(parts: Sequence[Rasterised]) -> Rasterised:
+    return Rasterised(
         *(np.concatenate(f) for f in zip(*(vars(p).values() for p in parts), strict=True))
     )

@@ -1,4 +1,4 @@
-"""The boxes of pixels that a piece's triangles may cover, from those of their vertices."""
+"""The boxes of pixels that a chunk's triangles may cover, from those of their vertices."""
 
 from __future__ import annotations
 

@@ -113,17 +113,17 @@ class Verdict:
 
     def _enter_sure(self, hits: Hits, pixel: Index, surface: Index) -> Steps[None]:
         """Enter pixels, in their order, that surely see the surface which is all that they have."""
-        for piece, own, first in self._numbers.by_piece(surface):
+        for chunk, own, first in self._numbers.by_chunk(surface):
             at, row = pixel[own], surface[own] - first
             if len(at):
-                yield from self._enter_some(hits, at, row, piece)
+                yield from self._enter_some(hits, at, row, chunk)
 
-    def _enter_some(self, hits: Hits, at: Index, row: Index, piece: Names) -> Steps[None]:
-        """Enter pixels that surely see these surfaces of a piece."""
+    def _enter_some(self, hits: Hits, at: Index, row: Index, chunk: Names) -> Steps[None]:
+        """Enter pixels that surely see these surfaces of a chunk."""
         surfaces = Surfaces(self._planes, len(self._scene.instances), WorldTriangles.none())
-        if piece.first != NOTHING:
-            used, row = _used(row, piece.count)
-            names = piece.of(used)
+        if chunk.first != NOTHING:
+            used, row = _used(row, chunk.count)
+            names = chunk.of(used)
             triangles = WorldTriangles(world_corners(self._scene, *names), *names)
             surfaces = Surfaces((), 0, triangles)
         prepared = Prepared(self._around, surfaces)

@@ -10,7 +10,7 @@ from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.certified.sweep import chunks as module
-from reference_tracer.tracer.certified.sweep.chunks import Piece, expand, pieces
+from reference_tracer.tracer.certified.sweep.chunks import Chunk, chunks, expand
 from reference_tracer.tracer.certified.sweep.film import Film
 from reference_tracer.tracer.certified.sweep.instance_boxes import InstanceBoxes
 from reference_tracer.tracer.world import Batch, refused, world_triangles
@@ -24,16 +24,16 @@ FLOATS = ("p", "q", "w", "depth", "size", "nearest", "ahead", "finite")
 LIMITS = (1, 2, 5, 13, 10**9)
 
 
-def all_pieces(scene: Scene, film: Film, limit: int) -> list[Piece]:
+def all_pieces(scene: Scene, film: Film, limit: int) -> list[Chunk]:
     around = InstanceBoxes.of(scene, film) if scene.instances else None
-    return pieces(scene, around, film.camera.region, limit)
+    return chunks(scene, around, film.camera.region, limit)
 
 
 def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
-    """Return the names of all pieces' triangles, in their order."""
+    """Return the names of all chunks' triangles, in their order."""
     names = []
-    for piece in all_pieces(scene, film, limit):
-        expanded = expand(scene, film, piece)
+    for chunk in all_pieces(scene, film, limit):
+        expanded = expand(scene, film, chunk)
         count = expanded.corners.shape[1]
         assert count == expanded.names.count <= limit
         names += zip(*(v.tolist() for v in expanded.names.of(np.arange(count))), strict=True)
@@ -68,8 +68,8 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
         scene = hostile_scene(make, rng)
         film = Film(scene.camera, *offsets(rng))
         for limit in LIMITS:
-            for piece in all_pieces(scene, film, limit):
-                expanded = expand(scene, film, piece)
+            for chunk in all_pieces(scene, film, limit):
+                expanded = expand(scene, film, chunk)
                 instance, triangle = expanded.names.of(np.arange(expanded.names.count))
                 for i in np.unique(instance).tolist():
                     own = np.flatnonzero(instance == i)
@@ -158,9 +158,9 @@ def test_a_part_of_a_mesh_takes_its_own_vertices(make, rng, spread):
     scene = make.scene(make.camera(), Mesh(vertices, triangles))
     film = Film(scene.camera)
     at = project(film, vertices.T)
-    for piece in all_pieces(scene, film, 40):
-        expanded = expand(scene, film, piece)
-        own = triangles[piece.first : piece.last].T
+    for chunk in all_pieces(scene, film, 40):
+        expanded = expand(scene, film, chunk)
+        own = triangles[chunk.first : chunk.last].T
         assert np.array_equal(expanded.vertices.p[expanded.corners], at.p[own])
         assert np.array_equal(expanded.vertices.w[expanded.corners], at.w[own])
         used = len(expanded.vertices.p)

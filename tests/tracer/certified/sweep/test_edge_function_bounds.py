@@ -1,4 +1,4 @@
-"""Each term of the bounds of footprints, by itself: corners that are off by as much as they may be.
+"""Each term of the bounds of edge functions by itself: corners off by as much as they may be.
 
 A film that claims what the test says, instead of a camera's: what the errors of the corners move,
 and what rounding does, do not hide behind each other.
@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from reference_tracer.tracer.certified.sweep.edge_functions import footprints
+from reference_tracer.tracer.certified.sweep.edge_functions import set_up
 from reference_tracer.tracer.certified.sweep.film import Vertices
 
 from ...rational import rational
@@ -48,7 +48,7 @@ def corners_of(rng, count, orthographic):
 
 
 def found_of(claims, at, depth, reach, nearest=np.inf):
-    """Return the footprints of corners (corner, p q w, m), which count from where p and q do."""
+    """Return the edge functions of corners (corner, p q w, m), counted from where p, q do."""
     count = at.shape[2]
     p, q, w = (at[:, k].ravel() for k in range(3))
     vertices = Vertices.empty(3 * count, np.int32)
@@ -57,7 +57,7 @@ def found_of(claims, at, depth, reach, nearest=np.inf):
     origin = np.full((2, count), -0.5)  # so that nothing is taken away from p and q
     corners = np.arange(3 * count).reshape(3, count)
     with np.errstate(all="ignore"):
-        return footprints(claims, vertices, corners, np.broadcast_to(nearest, count), origin, reach)
+        return set_up(claims, vertices, corners, np.broadcast_to(nearest, count), origin, reach)
 
 
 def truth(at, x, y):

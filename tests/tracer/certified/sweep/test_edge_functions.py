@@ -10,7 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from reference_tracer.tracer.certified.sweep.edge_functions import Footprints, footprints
+from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions, set_up
 from reference_tracer.tracer.certified.sweep.film import Film, Vertices
 
 from ...exact_film import ExactFilm
@@ -21,8 +21,8 @@ CASES = 300  # cameras
 EACH = 10  # triangles
 
 
-def prepare(film: Film, corners) -> tuple[Footprints, np.ndarray, np.ndarray, np.ndarray]:
-    """Return the footprints of triangles (3, 3, m) as a sweep has them, with their boxes' ends.
+def prepare(film: Film, corners) -> tuple[EdgeFunctions, np.ndarray, np.ndarray, np.ndarray]:
+    """Return the edge functions of triangles (3, 3, m) as a sweep has them, with their boxes' ends.
 
     Lowest x and y, and highest, (2, m); the whole picture where no box is known.
     """
@@ -40,11 +40,11 @@ def of_vertices(film: Film, at: Vertices):
     corners = np.arange(3 * count).reshape(3, count)
     reach = np.maximum(*(high - low)) + 1.0
     with np.errstate(all="ignore"):
-        return footprints(film, at, corners, nearest, low, reach), low, high, corners
+        return set_up(film, at, corners, nearest, low, reach), low, high, corners
 
 
-def evaluated(found: Footprints, row, x, y):
-    """Return the four functions (4, n) of footprints at pixels, in the order of `cover.py`."""
+def evaluated(found: EdgeFunctions, row, x, y):
+    """Return the four edge functions (4, n) at pixels, in the order of `rasterise.py`."""
     of_1, of_y, of_x = found.coefficients[:, :, row]
     x0, y0 = found.origin[:, row]
     with np.errstate(all="ignore"):

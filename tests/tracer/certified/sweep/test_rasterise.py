@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.scene import Region
-from reference_tracer.tracer.certified.sweep import rasterise as cover
+from reference_tracer.tracer.certified.sweep import rasterise
 from reference_tracer.tracer.certified.sweep.depth_buffer import FINE, DepthBuffer
-from reference_tracer.tracer.certified.sweep.edge_functions import Footprints
-from reference_tracer.tracer.certified.sweep.rasterise import LARGE, Boxes, covered, split
+from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
+from reference_tracer.tracer.certified.sweep.rasterise import LARGE, Boxes, rasterised, split
 
 CASES = 40
 COUNT = 25  # triangles of each
 SIZES = (1, 3, 8, 9, 40, 200)  # pixels of boxes, at most
 
 
-def random_footprints(rng, region, low, reach) -> Footprints:
+def random_edge_functions(rng, region, low, reach) -> EdgeFunctions:
     """Return functions that are inside in some part of their boxes, of any size."""
     count = low.shape[1]
     coefficients = rng.normal(size=(3, 4, count)) * 2.0 ** rng.integers(-30, 30, (1, 4, count))
@@ -27,7 +27,7 @@ def random_footprints(rng, region, low, reach) -> Footprints:
     error = size * rng.choice([0, 1e-16, 1e-3, np.inf], count, p=[0.2, 0.5, 0.2, 0.1])
     coefficients[:, :, np.isinf(error)] = 0
     nearness_error = np.abs(coefficients[0, 3]) * rng.choice([1e-15, 0.1, 1e200], count)
-    return Footprints(
+    return EdgeFunctions(
         np.arange(count),
         np.add(low, [[region.x0], [region.y0]]) - rng.integers(0, 3, (2, count)),
         coefficients,
@@ -39,7 +39,7 @@ def random_footprints(rng, region, low, reach) -> Footprints:
 
 
 def cases():
-    """Yield footprints with their boxes in a region, and a depth buffer with something in it."""
+    """Yield edge functions, boxes of theirs in a region, and a depth buffer that is not empty."""
     for seed in range(CASES):
         rng = np.random.default_rng(seed)
         x0, y0 = (int(v) for v in rng.integers(0, 50, 2))
@@ -49,7 +49,7 @@ def cases():
         extent = rng.integers(0, rng.choice(SIZES, COUNT), (2, COUNT))
         high = np.minimum(low + extent, [[width - 1], [height - 1]])
         dtype = rng.choice([np.int16, np.int32])
-        found = random_footprints(rng, region, low, extent.max(axis=0) + 1)
+        found = random_edge_functions(rng, region, low, extent.max(axis=0) + 1)
         boxes = Boxes(np.arange(COUNT), low.astype(dtype), high.astype(dtype))
         depths = DepthBuffer(region)
         if seed % 2:
@@ -102,7 +102,7 @@ def all_pairs(found, boxes, depths) -> list:
     def by_shape(some: Boxes) -> list:
         assert (some.shape != LARGE).all()
         order = np.argsort(some.shape, kind="stable")
-        return list(covered(found, some.take(order), some.shape[order], depths))
+        return list(rasterised(found, some.take(order), some.shape[order], depths))
 
     small = boxes.shape != LARGE
     parts = by_shape(boxes.take(np.flatnonzero(small)))
@@ -124,7 +124,7 @@ def all_pairs(found, boxes, depths) -> list:
 )
 def test_every_pixel_of_every_box_bit_for_bit(name, value, monkeypatch):
     """But for what the depth buffer hides: no cell is dropped with a pixel that would be kept."""
-    monkeypatch.setattr(cover, name, value)
+    monkeypatch.setattr(rasterise, name, value)
     empty, hidden, seen = 0, 0, 0
     for seed, found, boxes, depths in cases():
         expected = plain(found, boxes, depths)
@@ -150,7 +150,7 @@ def test_cells_that_no_edge_lets_in_or_that_are_hidden_are_dropped():
     depths = DepthBuffer(region)
     coefficients = np.zeros((3, 4, 1))
     coefficients[:, 0, 0] = (-20, 0, 1)  # inside where x >= 20
-    found = Footprints(
+    found = EdgeFunctions(
         np.zeros(1, int), np.zeros((2, 1), int), coefficients, np.zeros(1), np.zeros(1),
         np.zeros(1), np.ones(1, bool),
     )  # fmt: skip

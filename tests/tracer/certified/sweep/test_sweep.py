@@ -12,11 +12,16 @@ from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import render
 from reference_tracer.tracer.certified import contest, settle, surfaces
 from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.sweep import chunks as pieces
-from reference_tracer.tracer.certified.sweep import depth_bins as slabs
-from reference_tracer.tracer.certified.sweep import depth_buffer, sweep, triangle_boxes, verdict
-from reference_tracer.tracer.certified.sweep import rasterise as cover
-from reference_tracer.tracer.certified.sweep.edge_functions import footprints
+from reference_tracer.tracer.certified.sweep import (
+    chunks,
+    depth_bins,
+    depth_buffer,
+    rasterise,
+    sweep,
+    triangle_boxes,
+    verdict,
+)
+from reference_tracer.tracer.certified.sweep.edge_functions import set_up
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
@@ -96,35 +101,36 @@ def test_as_the_oracle_has_it(make):
 
 def sizes(fine, coarse):
     return [(depth_buffer, "FINE", fine), (depth_buffer, "COARSE", coarse),
-            (cover, "FINE", fine), (cover, "COARSE", coarse)]  # fmt: skip
+            (rasterise, "FINE", fine), (rasterise, "COARSE", coarse)]  # fmt: skip
 
 
 DIVISIONS = {
     "triangles by ones": [(sweep, "_TRIANGLES", 1)],
     "boxes by twos": [(triangle_boxes, "_TOGETHER", 2)],
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
-    "one slab": [(slabs, "BINS", 2)],
-    "few slabs": [(slabs, "BINS", 5)],
-    "pairs by ones": [(verdict, "_PAIRS", 1), (cover, "_VALUES", 1)],
-    "pairs by sevens": [(verdict, "_PAIRS", 7), (cover, "_VALUES", 70)],
-    "cells by ones": [(cover, "_CELLS", 1)],
-    "no padding": [(cover, "_PADDED", np.arange(1, 9, dtype=np.uint8))],
-    "much padding": [(cover, "_PADDED", np.full(8, 8, np.uint8))],
+    "one depth bin": [(depth_bins, "BINS", 2)],
+    "few depth bins": [(depth_bins, "BINS", 5)],
+    "pairs by ones": [(verdict, "_PAIRS", 1), (rasterise, "_VALUES", 1)],
+    "pairs by sevens": [(verdict, "_PAIRS", 7), (rasterise, "_VALUES", 70)],
+    "cells by ones": [(rasterise, "_CELLS", 1)],
+    "no padding": [(rasterise, "_PADDED", np.arange(1, 9, dtype=np.uint8))],
+    "much padding": [(rasterise, "_PADDED", np.full(8, 8, np.uint8))],
     "cells of 4 and 16": sizes(4, 16),
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
-    "vertices by twos": [(pieces, "_CHUNK", 2)],
+    "vertices by twos": [(chunks, "_CHUNK", 2)],
     "hits by ones": [(m, "TOGETHER", 1) for m in (surfaces, settle, verdict)],
     "integers by ones": [(contest, "BY_INTEGERS", 1)],
     "orders by ones": [(contest, "BY_ORDER", 1)],
     "pixels by ones": [(verdict, "_PIXELS", 1)],
     "rays by ones": [(verdict, "_RAYS", 1)],
     "fragments by threes": [(verdict, "_FRAGMENTS", 3), (sweep, "_PAIRS", 3)],
-    "pieces of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
-    "pieces of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
+    "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
+    "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
     "all small": [
-        (sweep, "_TRIANGLES", 2), (slabs, "BINS", 3), (verdict, "_PAIRS", 5), (cover, "_CELLS", 2),
-        (cover, "_VALUES", 9), (pieces, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
+        (sweep, "_TRIANGLES", 2), (depth_bins, "BINS", 3), (verdict, "_PAIRS", 5),
+        (rasterise, "_CELLS", 2),
+        (rasterise, "_VALUES", 9), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),
     ],
 }  # fmt: skip
@@ -184,11 +190,11 @@ def test_a_border_is_a_crop(undivided):
 
 
 @pytest.mark.parametrize("orthographic", [False, True])
-def test_a_border_changes_no_footprint(make, rng, orthographic, monkeypatch):
+def test_a_border_changes_no_edge_function(make, rng, orthographic, monkeypatch):
     """Not even of a triangle that passes the eye: it counts from the same pixel, as far."""
     asked = []
     monkeypatch.setattr(
-        sweep, "footprints", lambda *a: asked.append((*a[-2].ravel(), *a[-1])) or footprints(*a)
+        sweep, "set_up", lambda *a: asked.append((*a[-2].ravel(), *a[-1])) or set_up(*a)
     )
     camera = make.camera(orthographic=orthographic)
     for _ in range(20):
