@@ -91,6 +91,7 @@ def faults():
     }.items()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fault", [f for _, f in faults()], ids=[name for name, _ in faults()])
 def test_a_fault_is_unexplained(room, fault, explained, count):
     picture = np.ascontiguousarray(fault(room))

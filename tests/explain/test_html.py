@@ -139,6 +139,7 @@ def test_the_numbers_are_those_of_the_markdown(derivation):
         assert cell == value if isinstance(value, str) else type(value)(float(cell)) == value
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["<script>alert(1)</script>", "a|b*c_d`e", "&amp;", 'x" onclick="y']
 )

@@ -21,6 +21,7 @@ def saved(ball_scene, tmp_path):
     return path, json.loads(path.read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limit", [1, 3, 99])
 @pytest.mark.parametrize("pixel", [(12, 9), (0, 17), (16, 3)])
 def test_the_same_derivation_again(ball_scene, tmp_path, pixel, limit):

@@ -24,6 +24,7 @@ def each_for_itself(camera) -> Rays:
     return Rays(o[:, ::-1].copy(), d[:, ::-1].copy())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("settings", CHOICES, ids=lambda s: f"{s.method.value} {s.precision.value}")
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("pairs", [1 << 15, 7])

@@ -64,6 +64,7 @@ def hits_outside(camera, corners, bounds, dx, dy):
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", range(5))
 def test_no_hit_is_culled(part, make):
     lost, counts = [], np.zeros(3)

@@ -34,6 +34,7 @@ def rays_within(mesh, rng, dtype):
     return origins, targets - origins, vertices[mesh.faces].transpose(1, 2, 0)
 
 
+@pytest.mark.slow
 @TYPES
 @pytest.mark.parametrize("place", [0.0, 1e3, 1e5])
 def test_no_ray_leaves_a_closed_mesh_unseen(rng, dtype, place):
@@ -70,6 +71,7 @@ def test_agrees_with_moller_trumbore_away_from_edges(rng, dtype):
     assert np.allclose(s[:, both], other_s[:, both], rtol=0, atol=100 * near)
 
 
+@pytest.mark.slow
 @TYPES
 @pytest.mark.parametrize("axis", [0, 1, 2])
 @pytest.mark.parametrize("way", [1, -1])

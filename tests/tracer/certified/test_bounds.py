@@ -120,6 +120,7 @@ def check_interval(fractions: Fractions, depth, towards):
     return np.isfinite(high).mean()
 
 
+@pytest.mark.slow
 @EVERY_FAMILY
 def test_pair_by_pair(family, scaled):
     o, d, c = scaled(family)
@@ -129,6 +130,7 @@ def test_pair_by_pair(family, scaled):
     check(prepared, np.arange(COUNT), rays, functions(o, d, c))
 
 
+@pytest.mark.slow
 @EVERY_FAMILY
 def test_many_rays_from_one_point(family, scaled, rng):
     o, d, c = scaled(family)
@@ -140,6 +142,7 @@ def test_many_rays_from_one_point(family, scaled, rng):
     check(prepared, rows, Rays(o[:, :1], d), exact)
 
 
+@pytest.mark.slow
 @EVERY_FAMILY
 def test_many_rays_of_one_direction(family, scaled, rng):
     o, d, c = scaled(family)
@@ -150,6 +153,7 @@ def test_many_rays_of_one_direction(family, scaled, rng):
     check(prepared, rows, Rays(o, d[:, :1]), exact)
 
 
+@pytest.mark.slow
 @EVERY_FAMILY
 def test_planes(family, scaled, rng):
     o, d, c = scaled(family)

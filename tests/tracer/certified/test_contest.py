@@ -94,6 +94,7 @@ def check(rays, corners, start=0.0, end=np.inf) -> Hits:
     return hits
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["nothing", "origin", "direction", "both"])
 @EVERY_FAMILY
 def test_nearest(rng, family, what):

@@ -39,6 +39,7 @@ def assert_right(t, sure, expected):
     assert np.array_equal(t[sure], expected[sure])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [0, -300, 300])
 @pytest.mark.parametrize("place", [0.0, 1e3, 1e8])
 @pytest.mark.parametrize("shared", ["nothing", "origin", "direction"])

@@ -159,6 +159,7 @@ def test_edges_and_the_sign_of_t(rng, claims, which, orthographic):
     assert which == 3 or worst > (0.9 if claims and not orthographic else 0.1), worst
 
 
+@pytest.mark.slow
 @for_all((*PLACES[:2], WEIGHTS[0], {"ray": 2.0**-9}), (*PLACES[:2], {"depth": (0.0, 2.0**-12)}))
 def test_nearness_of_what_is_hit(rng, claims, orthographic):
     """Inside the triangle, and no nearer than `nearest` says; the ray's own depth may be off."""
