@@ -9,18 +9,17 @@ from __future__ import annotations
 
 import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
 from ..compare.certificate import CameraCertificate
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
 from ..tracer.certified.certainty import AssumptionError
-from ..tracer.frame import Frame
+from ..tracer.frame import PASSES, Frame, Pass
 from ..tracer.render import steps
 from .animation import values_kept
 from .camera import certify_camera
@@ -29,21 +28,7 @@ from .temporary import is_temporary
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message
-NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
-
-# Name, channels, their names, kind, and what of the frame it holds (one-based indices: 0 is none).
-Pass = tuple[str, int, str, str, Callable[[Frame], NDArray]]
-PASSES: tuple[Pass, ...] = (
-    ("Combined", 4, "RGBA", "COLOR", lambda f: f.color),
-    ("Depth", 1, "Z", "VALUE", lambda f: np.minimum(f.depth, NO_HIT_DEPTH)),
-    ("T", 1, "X", "VALUE", lambda f: np.minimum(f.t, NO_HIT_DEPTH)),
-    ("Position", 3, "XYZ", "VECTOR", lambda f: f.position),
-    ("Normal", 3, "XYZ", "VECTOR", lambda f: f.normal),
-    ("Barycentrics", 3, "XYZ", "VECTOR", lambda f: f.barycentrics),
-    ("Object Index", 1, "X", "VALUE", lambda f: f.object_index + 1),
-    ("Triangle Index", 1, "X", "VALUE", lambda f: f.triangle_index + 1),
-    ("Certainty", 1, "X", "VALUE", lambda f: f.certainty),  # see tracer.certainty.Certainty
-)
+_IN_BLENDER = tuple(p for p in PASSES if p.label)
 
 Certified = tuple[Scene, Manifest, CameraCertificate]
 _captured: list[Certified] | None = None
@@ -59,8 +44,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def update_render_passes(self, scene: Any, renderlayer: Any) -> None:
         """Declare the passes to the compositor."""
-        for name, channels, letters, kind, _ in PASSES:
-            self.register_pass(scene, renderlayer, name, channels, letters, kind)
+        for p in _IN_BLENDER:
+            self.register_pass(scene, renderlayer, p.label, len(p.letters), p.letters, p.kind)
 
     def render(self, depsgraph: Any) -> None:
         """Render one view layer of one frame."""
@@ -94,8 +79,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
                 shown = now
                 left = f", {(now - began) * (1 - share) / share:.0f} s left" if share else ""
                 self.update_stats("", f"Tracing {int(100 * share)} %{left}")
-                self._show(frame, layer, PASSES[:1])
-        self._show(frame, layer, PASSES)
+                self._show(frame, layer, _IN_BLENDER[:1])
+        self._show(frame, layer, _IN_BLENDER)
         if frame.cancelled:
             done, rows = int(frame.rows_done.sum()), len(frame.rows_done)
             _say(f"Cancelled: {done} of {rows} rows are traced, the others are empty")
@@ -111,11 +96,11 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         height, width = frame.t.shape
         result = self.begin_result(0, 0, width, height, layer=layer)
         have = result.layers[0].passes
-        for name, channels, letters, _, of in passes:
-            if name not in have:
-                self.add_pass(name, channels, letters, layer=layer)
-            values = np.ascontiguousarray(of(frame), dtype=np.float32)
-            have[name].rect.foreach_set(values.ravel())
+        for p in passes:
+            if p.label not in have:
+                self.add_pass(p.label, len(p.letters), p.letters, layer=layer)
+            values = np.ascontiguousarray(p.shown(getattr(frame, p.name)), dtype=np.float32)
+            have[p.label].rect.foreach_set(values.ravel())
         self.end_result(result)
 
 

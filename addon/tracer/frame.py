@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,46 @@ from .memory import check_memory
 
 BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 8 + 2 * 4 + 1  # of a frame's arrays
 _PIXELS = 1 << 15  # of which something is computed together
+
+
+NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
+
+
+class Pass(NamedTuple):
+    """One output: what EXR files and arrays call it, and how Blender shows it.
+
+    `name` is the attribute of `Frame` that has it, `label` Blender's name (none: not in Blender),
+    `letters` those of its channels, `shown` what Blender is given of its values.
+    """
+
+    name: str
+    label: str = ""
+    letters: str = "X"
+    kind: str = "VALUE"
+    shown: Callable[[NDArray], NDArray] = np.asarray
+
+
+def _finite(t: NDArray) -> NDArray:
+    return np.minimum(t, NO_HIT_DEPTH)
+
+
+def _from_1(index: NDArray) -> NDArray:
+    return index + 1  # 0 is none
+
+
+PASSES = (
+    Pass("color", "Combined", "RGBA", "COLOR"),
+    Pass("depth", "Depth", "Z", shown=_finite),
+    Pass("t", "T", shown=_finite),
+    Pass("position", "Position", "XYZ", "VECTOR"),
+    Pass("normal", "Normal", "XYZ", "VECTOR"),
+    Pass("barycentrics", "Barycentrics", "XYZ", "VECTOR"),
+    Pass("object_index", "Object Index", shown=_from_1),
+    Pass("instance_index"),
+    Pass("triangle_index", "Triangle Index", shown=_from_1),
+    Pass("certainty", "Certainty"),  # see `certified.certainty.Certainty`
+    Pass("rows_done"),
+)
 
 
 @dataclass(eq=False)
@@ -140,20 +181,7 @@ class Frame:
 
     def passes(self) -> dict[str, NDArray]:
         """Return every output by name, also those that are computed."""
-        names = (
-            "color",
-            "depth",
-            "t",
-            "position",
-            "normal",
-            "barycentrics",
-            "object_index",
-            "instance_index",
-            "triangle_index",
-            "certainty",
-            "rows_done",
-        )
-        return {name: getattr(self, name) for name in names}
+        return {p.name: getattr(self, p.name) for p in PASSES}
 
 
 def _vectors(height: int, width: int) -> NDArray[np.float64]:

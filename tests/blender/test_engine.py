@@ -7,8 +7,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.engine import ENGINE, NO_HIT_DEPTH, PASSES, ReferenceTracerEngine
+from reference_tracer.blender.engine import ENGINE, ReferenceTracerEngine
 from reference_tracer.tracer import render as rendering
+from reference_tracer.tracer.frame import NO_HIT_DEPTH, PASSES
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -41,7 +42,7 @@ def expected(frame) -> dict[str, np.ndarray]:
 
 
 def assert_same(passes, frame) -> None:
-    assert set(passes) == set(expected(frame)) == {name for name, *_ in PASSES}
+    assert set(passes) == set(expected(frame)) == {p.label for p in PASSES if p.label}
     for name, values in expected(frame).items():
         values = values.astype(np.float32)
         np.testing.assert_array_equal(
@@ -163,7 +164,7 @@ def test_the_passes_are_declared_to_the_compositor(solids, build):
     _, node = build.compositor()
     # Blender's own name for Combined is Image, and Alpha is part of it.
     shown = {output.name for output in node.outputs if output.enabled}
-    assert shown - {"Image", "Alpha"} == {name for name, *_ in PASSES} - {"Combined"}
+    assert shown - {"Image", "Alpha"} == {p.label for p in PASSES if p.label} - {"Combined"}
 
 
 @pytest.mark.parametrize("name", ["Triangle Index", "Object Index", "Depth", "Normal"])
@@ -201,7 +202,7 @@ class CancelledEngine:
 
     def begin_result(self, x, y, width, height, layer):
         self.size = width, height
-        passes = {name: SimpleNamespace(rect=self._rect(name)) for name, *_ in PASSES}
+        passes = {name: SimpleNamespace(rect=self._rect(name)) for name in (p.label for p in PASSES if p.label)}
         return SimpleNamespace(layers=[SimpleNamespace(passes=passes)])
 
     def _rect(self, name):
