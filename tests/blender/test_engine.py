@@ -13,6 +13,8 @@ from reference_tracer.tracer.frame import NO_HIT_DEPTH, PASSES
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
+LABELS = {p.label for p in PASSES if p.label}
+
 SHARE_ROUNDING = 1e-12  # of the progress, put together from shares of shares
 AFTER_5 = bpy.app.version >= (5, 0, 0)
 
@@ -42,7 +44,7 @@ def expected(frame) -> dict[str, np.ndarray]:
 
 
 def assert_same(passes, frame) -> None:
-    assert set(passes) == set(expected(frame)) == {p.label for p in PASSES if p.label}
+    assert set(passes) == set(expected(frame)) == LABELS
     for name, values in expected(frame).items():
         values = values.astype(np.float32)
         np.testing.assert_array_equal(
@@ -164,7 +166,7 @@ def test_the_passes_are_declared_to_the_compositor(solids, build):
     _, node = build.compositor()
     # Blender's own name for Combined is Image, and Alpha is part of it.
     shown = {output.name for output in node.outputs if output.enabled}
-    assert shown - {"Image", "Alpha"} == {p.label for p in PASSES if p.label} - {"Combined"}
+    assert shown - {"Image", "Alpha"} == LABELS - {"Combined"}
 
 
 @pytest.mark.parametrize("name", ["Triangle Index", "Object Index", "Depth", "Normal"])
@@ -202,7 +204,7 @@ class CancelledEngine:
 
     def begin_result(self, x, y, width, height, layer):
         self.size = width, height
-        passes = {name: SimpleNamespace(rect=self._rect(name)) for name in (p.label for p in PASSES if p.label)}
+        passes = {name: SimpleNamespace(rect=self._rect(name)) for name in LABELS}
         return SimpleNamespace(layers=[SimpleNamespace(passes=passes)])
 
     def _rect(self, name):

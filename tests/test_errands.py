@@ -1,0 +1,146 @@
+"""An errand takes as few files as CONTRIBUTING.md says: a record is added to a copy, and is seen.
+
+Only the files that the errand names are changed in the copy; a Python of its own then looks at it.
+"""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ADDON = Path(__file__).parent.parent / "addon"
+
+METHOD = {
+    "tracer/triangle.py": (
+        "def watertight(",
+        "def never(rays, p1, p2, p3):\n"
+        '    """Miss."""\n'
+        "    hit, t, s = textbook(rays, p1, p2, p3)\n"
+        "    return hit & False, t, s\n\n\n",
+    ),
+    "methods.py": (
+        "    CERTIFIED = (",
+        '    NEVER = ("never", ("Never", "never at all", "never", "nev."), (77, "#123456"), '
+        '"Misses", triangle.never)\n',
+    ),
+}
+SEES_METHOD = """
+from reference_tracer.arguments import add_settings
+from reference_tracer.methods import MEASURED, Method
+from reference_tracer.report import extreme_plots
+from reference_tracer.study import tradeoff
+from reference_tracer.tracer.settings import Settings
+import argparse
+parser = argparse.ArgumentParser()
+add_settings(parser)
+assert "never" in parser.format_help()
+frame = render(scene, Settings("never", "float32"))
+assert (frame.instance_index == -1).all()
+assert (render(scene, Settings("textbook")).instance_index == 0).any()
+assert {c.settings.method for c in tradeoff.choose(scene, 8, 1)} == set(MEASURED)
+assert Method.NEVER in MEASURED and Method.NEVER in extreme_plots._nested()
+try:
+    Settings("none")
+except ValueError as error:
+    assert "never" in str(error)
+from reference_tracer.explain.derivation import derive
+assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
+"""
+SEES_METHOD_IN_BLENDER = """
+from reference_tracer.blender.properties import METHODS
+assert ("never", "Never", "Misses", 77) in METHODS
+"""
+PASS = {
+    "tracer/frame.py": ('    Pass("rows_done"),\n', '    Pass("t", "T Again"),\n'),
+}
+SEES_PASS_IN_BLENDER = """
+from reference_tracer.blender import engine
+assert "T Again" in {p.label for p in engine._IN_BLENDER}
+"""
+CAMERA = {
+    "projections/mirrored.py": (
+        None,
+        "from dataclasses import dataclass\n"
+        "from .perspective import Perspective\n\n\n"
+        "@dataclass(frozen=True)\n"
+        "class Mirrored(Perspective):\n"
+        "    name = in_files = 'mirrored'\n"
+        "    blender = 'PANO'\n"
+        "    formulas = Perspective.formulas | {'d': ('forward', 'as a test has it')}\n",
+    ),
+    "projections/__init__.py": (
+        "\n\ndef projection_of(",
+        '\nfrom .mirrored import Mirrored\n\nPROJECTIONS["mirrored"] = Mirrored()\n',
+    ),
+}
+SEES_CAMERA = """
+from dataclasses import replace
+from reference_tracer.compare.certificate import known_points
+from reference_tracer.explain.derivation import derive
+from reference_tracer.projections import PROJECTIONS
+from reference_tracer.scene_files import load_scene, save_scene
+from reference_tracer.tracer.settings import Settings
+new = replace(scene, camera=replace(scene.camera, projection=PROJECTIONS["mirrored"]))
+assert (render(new, Settings("certified")).t == render(scene, Settings("certified")).t).all()
+save_scene("scene.npz", new)
+assert load_scene("scene.npz").camera.projection == PROJECTIONS["mirrored"]
+derivation = derive(new, 4, 4)
+assert "as a test has it" in str(derivation.ray + derivation.camera)
+from reference_tracer.explain.writers import to_dict
+assert to_dict(derivation)["camera"]["orthographic"] == "mirrored"
+known_points(new.camera)
+"""
+SCENE = """
+import numpy as np
+from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
+from reference_tracer.tracer.render import render
+camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 8, 8)
+mesh = Mesh(np.array([[-9.0, -9, -5], [9, -9, -5], [0, 9, -5]]), [[0, 1, 2]])
+scene = Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), objects=("A",))
+"""
+
+
+def seen(tmp_path: Path, changes: dict, script: str) -> None:
+    """Run a script beside a copy of the add-on to which the changes were made."""
+    copy = tmp_path / "reference_tracer"
+    shutil.copytree(ADDON, copy, ignore=shutil.ignore_patterns("__pycache__"))
+    for name, (before, text) in changes.items():
+        file = copy / name
+        if before is None:
+            file.write_text(text, encoding="utf-8")
+            continue
+        whole = file.read_text(encoding="utf-8")
+        assert whole.count(before) == 1, name
+        file.write_text(whole.replace(before, text + before), encoding="utf-8")
+    check = f"import reference_tracer\nassert {str(copy)!r} in reference_tracer.__file__\n"
+    done = subprocess.run(
+        [sys.executable, "-c", check + SCENE + script],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_method_is_its_function_and_its_record(tmp_path):
+    assert len(METHOD) == 2
+    seen(tmp_path, METHOD, SEES_METHOD)
+
+
+def test_a_camera_type_is_a_file_and_a_record(tmp_path):
+    assert len(CAMERA) == 2
+    seen(tmp_path, CAMERA, SEES_CAMERA)
+
+
+@pytest.mark.parametrize(
+    ("changes", "script"),
+    [(METHOD, SEES_METHOD_IN_BLENDER), (PASS, SEES_PASS_IN_BLENDER)],
+    ids=["method", "pass"],
+)
+def test_blender_shows_a_new_record(tmp_path, changes, script):
+    pytest.importorskip("bpy")
+    seen(tmp_path, changes, script)
