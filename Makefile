@@ -19,7 +19,7 @@ demo: .venv/.stamp ## trace a sample scene, have Blender render it, compare: out
 	.venv/bin/reftrace compare sample_scenes/suzanne.blend --trade --out out/demo
 
 check: lint ## check the style, run the fast tests that need neither Blender nor a browser: a minute
-	$(PYTEST) $(SHARED) --ignore tests/blender -q \
+	$(PYTEST) $(SHARED) -n 2 --ignore tests/blender -q \
 		-m "not blender and not browser and not gui and not slow and not torture"
 
 # What the tests in a browser and in a window need, only root can install: where that is not
