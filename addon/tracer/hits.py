@@ -75,7 +75,12 @@ class Ties(Mapping[int, frozenset[Name]]):
     @classmethod
     def none(cls) -> Ties:
         """Return no ties."""
-        return cls(np.zeros(0, np.int64), *np.zeros((2, 0), np.int32))
+        return cls.room(0)
+
+    @classmethod
+    def room(cls, count: int) -> Ties:
+        """Return room for so many rows."""
+        return cls(np.empty(count, np.int64), *np.empty((2, count), np.int32))
 
     @classmethod
     def joined(cls, parts: Sequence[Ties]) -> Ties:
@@ -89,8 +94,15 @@ class Ties(Mapping[int, frozenset[Name]]):
             ray, name = ray[order], [v[order] for v in name]
         return cls(ray, *name)
 
+    def enter(self, first: int, part: Ties) -> None:
+        """Write a part into the rows from `first` on."""
+        for own, rows in zip(vars(self).values(), vars(part).values(), strict=True):
+            own[first : first + len(rows)] = rows
+
     def numbered(self, numbers: NDArray[np.integer] | int) -> Ties:
         """Return the ties with ray i called numbers[i], which ascend, or i + numbers."""
+        if isinstance(numbers, int) and not numbers:
+            return self
         ray = self.ray + numbers if isinstance(numbers, int) else numbers[self.ray]
         return Ties(ray.astype(np.int64, copy=False), self.instance, self.triangle)
 

@@ -10,7 +10,7 @@ pixels.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -67,6 +67,12 @@ class Rasterised:
     owner: Index
     least: NDArray[np.float64]
     nearness: NDArray[np.float64]
+
+    @staticmethod
+    def joined(parts: Sequence[Rasterised]) -> Rasterised:
+        """Return them all as one."""
+        fields = zip(*(vars(part).values() for part in parts), strict=True)
+        return Rasterised(*map(np.concatenate, fields))
 
 
 def rasterised(

@@ -7,7 +7,7 @@ triangles that may be its nearest. `verdict.py` says which of them is.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -211,10 +211,10 @@ class Sweep:
             parts.append(block)
             count += len(block.pixel)
             if count >= _PAIRS:
-                yield _joined(parts)
+                yield Rasterised.joined(parts)
                 parts, count = [], 0
         if parts:
-            yield _joined(parts)
+            yield Rasterised.joined(parts)
 
     def _blocks(
         self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
@@ -265,9 +265,3 @@ class Sweep:
             keep &= ~self._clip.outside(least, most)
         keep = np.flatnonzero(keep)
         return Fragments(*(gather(v, keep) for v in (pixel, surface, most, sure)))
-
-
-def _joined(parts: Sequence[Rasterised]) -> Rasterised:
-    return Rasterised(
-        *(np.concatenate(f) for f in zip(*(vars(p).values() for p in parts), strict=True))
-    )

@@ -108,8 +108,12 @@ class Verdict:
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             ray = np.searchsorted(which, pixel)
             ties.append((yield from self._contest(hits, which, ray, surface)))
-        yield "contest"
-        hits.ties = Ties.joined(ties)
+        hits.ties = Ties.room(sum(len(part.ray) for part in ties))
+        first = 0
+        for part in ties:
+            hits.ties.enter(first, part)
+            first += len(part.ray)
+            yield "contest"
 
     def _enter_sure(self, hits: Hits, pixel: Index, surface: Index) -> Steps[None]:
         """Enter pixels, in their order, that surely see the surface which is all that they have."""
