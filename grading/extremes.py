@@ -13,8 +13,7 @@ from typing import Any
 
 import numpy as np
 from reference_tracer.methods import Method
-from reference_tracer.study.scenarios.scenario import QUICK_HEIGHT, QUICK_WIDTH, Scenario
-from reference_tracer.study.scenarios.sweeps import SCENARIOS
+from reference_tracer.study.scenarios.sweeps import SCENARIOS, Scenario
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
 
@@ -24,6 +23,7 @@ from .subject import Subject, prepare
 
 _FINE = {m.name.lower() for m in (Mark.RIGHT, *EXCUSED)}
 YARDSTICKS = Method.TEXTBOOK, Method.MOLLER_TRUMBORE
+WIDTH, HEIGHT = 12, 9  # pixels of a picture
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +77,7 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
     out = []
     for done, (scenario, scale) in enumerate(every):
         yield done / len(every)
-        scene = scenario.build(scale, QUICK_WIDTH, QUICK_HEIGHT)
+        scene = scenario.build(scale, WIDTH, HEIGHT)
         subject = result_of(prepare(scenario.name, scene, pixels=None))
         lost = {m.value: result_of(look(subject, plain(m))).lost for m in YARDSTICKS}
         out.append(ExtremeScene(scenario, scale, subject, lost))

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
 from ..study.extreme_rows import written
-from ..study.scenarios.scenario import Scenario
-from ..study.scenarios.sweeps import SCENARIOS
+from ..study.scenarios.sweeps import SCENARIOS, Scenario
 from ..tracer.vector import transform_points
 from .camera import window_of
 from .engine import ENGINE

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from ..methods import MEASURED, Method
 from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
-from ..study.scenarios.scenario import Map
-from ..study.scenarios.sweeps import SCENARIOS
+from ..study.scenarios.sweeps import SCENARIOS, Map
 from . import plots
 
 if TYPE_CHECKING:

@@ -25,8 +25,7 @@ from ..tracer.render import render
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .extreme_rows import BreakingPoint, Row, breaking_points
 from .oracle import scene_sights
-from .scenarios.scenario import Scenario
-from .scenarios.sweeps import ALL
+from .scenarios.sweeps import ALL, Scenario
 from .truth import Truth, crossings, keys, number, pixel_rays, sample, truth_of
 
 __all__ = ["BreakingPoint", "Row", "breaking_points", "measure"]

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS, quick
+from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.extremes import extreme_scenes, plain
 from reference_tracer_grading.picture import EXCUSED, Mark, look
+
+from ..scenarios import quick
 
 SOUND = Method.TEXTBOOK, Method.MOLLER_TRUMBORE, Method.WATERTIGHT
 

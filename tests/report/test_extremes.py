@@ -19,7 +19,9 @@ from reference_tracer.report.extremes import (
     write,
 )
 from reference_tracer.study.extreme_rows import Row
-from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS, quick
+from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS
+
+from ..scenarios import quick
 
 pytestmark = pytest.mark.slow
 

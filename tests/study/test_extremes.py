@@ -10,12 +10,14 @@ from reference_tracer.methods import Method
 from reference_tracer.study import extremes
 from reference_tracer.study.extreme_rows import Row, breaking_points, written
 from reference_tracer.study.extremes import measure
-from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS, quick
+from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision
+
+from ..scenarios import quick
 
 pytestmark = pytest.mark.slow
 

@@ -8,12 +8,14 @@ import warnings
 import numpy as np
 import pytest
 from reference_tracer.scene import Scene
-from reference_tracer.study.scenarios import parts, shapes, views
-from reference_tracer.study.scenarios.sweeps import ALL, MAPS, SCENARIOS, quick
+from reference_tracer.study.scenarios import parts, scenes
+from reference_tracer.study.scenarios.sweeps import ALL, MAPS, SCENARIOS
 from reference_tracer.study.truth import pixel_rays
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.settings import Precision
 from reference_tracer.tracer.vector import transform_points
+
+from ..scenarios import quick
 
 
 def world(scene, instance=0):
@@ -103,14 +105,14 @@ def test_the_sheet_is_closed_and_has_a_corner_on_every_ray(step):
 
 
 def test_corners_of_a_fan_meet_in_one():
-    scene = shapes.closed_fan(32, 32, 24)
+    scene = scenes.closed_fan(32, 32, 24)
     front = scene.meshes[0].triangles[: len(scene.meshes[0].triangles) // 2]
     assert (front[:, 0] == 0).all() and 32 <= len(front) <= 36
     px, py, _ = film_of(scene.camera, world(scene)[:, :1])
     assert (px[0], py[0]) == pytest.approx((16.5, 12.5))
 
 
-@pytest.mark.parametrize("build", [shapes.integer_cube, shapes.integer_cube_ortho])
+@pytest.mark.parametrize("build", [scenes.integer_cube, scenes.integer_cube_ortho])
 def test_cubes_and_their_rays_are_whole_numbers(build):
     for cells in (1, 8):
         scene = build(cells, 32, 24)
@@ -120,7 +122,7 @@ def test_cubes_and_their_rays_are_whole_numbers(build):
 
 
 def test_copies_are_in_one_plane_exactly():
-    scene = shapes.degenerate_faces(2, 32, 24)
+    scene = scenes.degenerate_faces(2, 32, 24)
     points = 4 * scene.meshes[0].vertices
     assert (points % 1 == 0).all()
     normal = np.cross(parts.TURNED_39[:, 0], parts.TURNED_39[:, 1])
@@ -132,27 +134,27 @@ def test_copies_are_in_one_plane_exactly():
 
 def test_needles_are_as_thin_as_told():
     for aspect in (10, 1e6):
-        points = world(shapes.needles(aspect, 8, 6))[:, :4]
+        points = world(scenes.needles(aspect, 8, 6))[:, :4]
         sides = np.linalg.norm(points[:, 1:3] - points[:, :1], axis=0)
         assert sides[0] / sides[1] == pytest.approx(aspect, rel=1e-6)
 
 
 def test_the_plane_is_below_the_camera():
     for height in (1.0, 1e-9):
-        scene = shapes.grazing(height, 8, 6)
+        scene = scenes.grazing(height, 8, 6)
         above = (scene.camera.up[:, None] * world(scene)).sum(axis=0)
         assert np.allclose(above, -height, atol=1e-14)
 
 
 def test_the_second_plane_is_nearer():
-    scene = shapes.close_planes(2.0**30, 8, 6)
+    scene = scenes.close_planes(2.0**30, 8, 6)
     far, near = (film_of(scene.camera, world(scene, k))[2] for k in (0, 1))
     assert np.allclose(far - near, 5 * 2.0**-22, rtol=1e-6)
 
 
 def test_what_is_not_finite_is_so_in_the_world():
     for share, some in ((0.0, 0), (0.1, None), (1.0, None)):
-        scene = shapes.non_finite(share, 32, 24)
+        scene = scenes.non_finite(share, 32, 24)
         with np.errstate(over="ignore"):
             finite = np.isfinite(world(scene)).all(axis=0)
         count = len(finite) - finite.sum()
@@ -161,12 +163,12 @@ def test_what_is_not_finite_is_so_in_the_world():
 
 
 def test_the_wide_view_is_that_wide():
-    row = directions(views.wide_view(1.0, 32, 24))[0]
-    window = views.wide_view(1.0, 32, 24).camera.window
+    row = directions(scenes.wide_view(1.0, 32, 24))[0]
+    window = scenes.wide_view(1.0, 32, 24).camera.window
     assert np.degrees(2 * np.arctan(window.right)) == pytest.approx(179)
     assert np.linalg.norm(row[-1] - row[0]) == pytest.approx(2 * window.right * 31 / 32)
 
 
 def test_pressing_and_shearing_mirror():
-    for build in (views.squashed, views.sheared):
+    for build in (scenes.squashed, scenes.sheared):
         assert np.linalg.det(build(0.5, 8, 6).instances[0].world_from_object[:3, :3]) < 0

@@ -153,15 +153,9 @@ def grid(
 def scene(view: Camera, *meshes: Mesh, matrices: tuple[NDArray, ...] = ()) -> Scene:
     """Return a scene with an object for each mesh, at the origin unless it has a matrix."""
     matrices = (*matrices, *[np.eye(4)] * (len(meshes) - len(matrices)))
-    return Scene(
-        view,
-        meshes,
-        tuple(
-            Instance(k, k, matrix, [COLORS[k % len(COLORS)]]) for k, matrix in enumerate(matrices)
-        ),
-        background=(0.0, 0.0, 0.0, 1.0),
-        objects=tuple(mesh.name for mesh in meshes),
-    )
+    instances = [Instance(k, k, m, [COLORS[k % len(COLORS)]]) for k, m in enumerate(matrices)]
+    names = tuple(mesh.name for mesh in meshes)
+    return Scene(view, meshes, instances, background=(0.0, 0.0, 0.0, 1.0), objects=names)
 
 
 def moved(by: NDArray | tuple[float, float, float]) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Scenes that are hard by their surfaces: where a ray meets them, and how thin they are.
+"""The scenarios' scenes: hard by their surfaces, or by their numbers, camera or matrix.
 
 Each function takes the scale that is swept, and the size of the picture.
 """
@@ -20,12 +20,16 @@ from .parts import (
     generator,
     grid,
     lattice,
+    moved,
     scene,
     sheet,
+    sphere,
 )
 
-RIGHT, UP, FORWARD = TURNED[:, 0], TURNED[:, 1], -TURNED[:, 2]
-EYE = np.array((0.3, -0.2, 0.25))
+RIGHT, UP, BACKWARD = TURNED.T
+FORWARD = -BACKWARD
+EYE = np.array((0.3, -0.2, 0.25))  # inside the sphere, not at its centre
+AWAY = np.array((1.0, 0.0083, -1.506))  # the direction of the centre in Embree's own test
 STRIP = 40  # quads of a strip of needles
 ULP = 2.0**-52  # relative distance of the doubles next to 1
 
@@ -86,17 +90,8 @@ def close_planes(ulps: float, width: int, height: int) -> Scene:
     """Return two planes across the view, 5 m away; the second is nearer by some ulp of that."""
     view = camera(width, height, eye=EYE)
     rng = generator()
-    planes = (
-        grid(
-            6,
-            5,
-            EYE + depth * FORWARD - 3 * RIGHT - 3 * UP,
-            6 * RIGHT,
-            6 * UP,
-            rng.integers(0, 2, 30),
-        )
-        for depth in (5 * (1 + ulps * ULP), 5.0)
-    )
+    corners = (EYE + t * FORWARD - 3 * RIGHT - 3 * UP for t in (5 * (1 + ulps * ULP), 5.0))
+    planes = (grid(6, 5, c, 6 * RIGHT, 6 * UP, rng.integers(0, 2, 30)) for c in corners)
     return scene(view, *planes)
 
 
@@ -143,8 +138,7 @@ def degenerate_faces(copies: float, width: int, height: int) -> Scene:
     meshes = [Mesh(points, lattice(columns, rows, split), name="Wall")]
     if copies:
         rim = boundary(columns, rows)[:columns]
-        line = rim[:-2, None] + np.arange(rows)[None] * (columns + 1)
-        line = line.ravel()
+        line = (rim[:-2, None] + np.arange(rows)[None] * (columns + 1)).ravel()
         empty = np.stack((line, line + 1, line + 2), axis=1)  # three corners in a row
         point = np.stack((line, line + 1, line), axis=1)
         again = np.tile(lattice(columns, rows, 1 - split), (copies, 1))
@@ -167,3 +161,83 @@ def non_finite(share: float, width: int, height: int) -> Scene:
     # Not symmetrical: no pixel's ray is on one of its edges.
     wall = grid(2, 2, 9 * FORWARD - 6.3 * RIGHT - 5.8 * UP, 12.5 * RIGHT, 12.3 * UP)
     return scene(view, Mesh(points, front.triangles, name="Front"), wall, matrices=(matrix,))
+
+
+def far_from_origin(distance: float, width: int, height: int, size: float = 1.0) -> Scene:
+    """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
+    centre = distance * AWAY
+    view = camera(width, height, 1.0, eye=centre + size * EYE, near=1e-3 * size, far=1e3 * size)
+    return scene(view, sphere(2.0 * size, 8), matrices=(moved(centre),))
+
+
+def far_corners(distance: float, width: int, height: int) -> Scene:
+    """Return a closed surface met at its corners and edges, far from the world's origin."""
+    view = camera(width, height, eye=distance * AWAY)
+    return scene(view, sheet(view))
+
+
+def uniform_scale(size: float, width: int, height: int) -> Scene:
+    """Return a sphere with the camera inside, all of it scaled."""
+    view = camera(width, height, 1.0, eye=size * EYE, near=1e-3 * size, far=1e3 * size)
+    return scene(view, sphere(), matrices=(np.diag((size, size, size, 1.0)),))
+
+
+def far_camera(distance: float, width: int, height: int) -> Scene:
+    """Return a sphere of 1 m at the origin, and a camera of long focal length far from it."""
+    half = 0.6 / distance
+    eye, near, far = distance * BACKWARD, 1e-3 * distance, 1e3 * distance
+    view = camera(width, height, half, half, eye=eye, near=near, far=far)
+    return scene(view, sphere(0.5, 8))
+
+
+def narrow_view(angle: float, width: int, height: int) -> Scene:
+    """Return a rough surface through a camera with this horizontal angle of view, in radians."""
+    view = camera(width, height, np.tan(0.5 * angle), eye=EYE)
+    return scene(view, sheet(view, 4, beside=BESIDE))
+
+
+def wide_view(rest: float, width: int, height: int) -> Scene:
+    """Return a rough surface through a camera whose angle of view is 180 less `rest`, degrees."""
+    view = camera(width, height, 1 / np.tan(np.radians(0.5 * rest)), eye=EYE)
+    return scene(view, sheet(view, 4, beside=BESIDE))
+
+
+def ortho_scale(size: float, width: int, height: int) -> Scene:
+    """Return a rough surface through an orthographic camera of this width, in metres."""
+    view = camera(width, height, 0.5 * size, eye=EYE, projection=ORTHOGRAPHIC)
+    return scene(view, sheet(view, 4, beside=BESIDE, around=False))
+
+
+def squashed(thickness: float, width: int, height: int) -> Scene:
+    """Return a sphere from outside, mirrored and pressed flat by its object's matrix."""
+    matrix = np.eye(4)
+    matrix[:3, :3] = TURNED * (1.0, 1.0, -thickness)
+    c, s = np.cos(0.3), np.sin(0.3)  # the camera is a little rolled about the view's direction
+    axes = np.stack((c * RIGHT + s * UP, c * UP - s * RIGHT, BACKWARD), axis=1)
+    view = camera(width, height, 0.4, eye=6 * BACKWARD, axes=axes)
+    return scene(view, sphere(), matrices=(matrix,))
+
+
+def sheared(factor: float, width: int, height: int) -> Scene:
+    """Return a sphere with the camera inside, mirrored and sheared by its object's matrix."""
+    shear = np.array([[1.0, factor, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]])
+    matrix = np.eye(4)
+    matrix[:3, :3] = [
+        [sum(TURNED[i, j] * shear[j, k] for j in range(3)) for k in range(3)] for i in range(3)
+    ]
+    eye, near, far = 1e-3 * EYE / factor, 1e-6 / factor, 1e3 * factor
+    view = camera(width, height, 1.0, axes=np.eye(3), near=near, far=far, eye=eye)
+    return scene(view, sphere(), matrices=(matrix,))
+
+
+def stored_float32(offset: float, width: int, height: int) -> Scene:
+    """Return a sphere whose corners are stored in float32, far from its object's own origin.
+
+    The object stands at the opposite of that offset, so that the sphere appears where it should:
+    with the digits that float32 has left of it. What is certified is this mesh, as it is stored.
+    """
+    centre = offset * AWAY
+    view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
+    points = (ball.vertices + centre).astype(np.float32)
+    mesh = Mesh(points, ball.triangles, name="Sphere")
+    return scene(view, mesh, matrices=(moved(-centre),))
