@@ -7,20 +7,20 @@ from importlib.metadata import entry_points
 
 from . import __version__, interrupts
 from .arguments import EXIT_CODES, INTERRUPTED, Parser, failed
-from .commands import compare, explain, export, extremes, trace, trade
+from .commands import compare, explain, files, studies
 from .commands.parts import Commands
 from .scene import SceneError
 
-# In the order of the help. The modules of those that are None are packages of their own.
+# In the order of the help: what adds each. Those that are None are packages of their own.
 COMMANDS = {
-    "compare": compare,
-    "trace": trace,
-    "explain": explain,
+    "compare": compare.add,
+    "trace": files.add_trace,
+    "explain": explain.add,
     "judge": None,
-    "trade": trade,
-    "extremes": extremes,
+    "trade": studies.add_trade,
+    "extremes": studies.add_extremes,
     "bench": None,
-    "export": export,
+    "export": files.add_export,
 }
 
 
@@ -51,9 +51,9 @@ def _parser() -> Parser:
     parser.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     installed = {found.name: found for found in entry_points(group="reference_tracer.commands")}
-    for name, module in COMMANDS.items():
-        if module:
-            module.add(commands)
+    for name, add in COMMANDS.items():
+        if add:
+            add(commands)
         elif name in installed:
             installed[name].load().add(commands)
         else:

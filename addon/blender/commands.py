@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -35,8 +34,7 @@ from ..study import tradeoff
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
 from . import studies
-from .compare import compare_to_folder, export_open_file, made
-from .engines import compare_all
+from .compare import compare_all, compare_to_folder, export_open_file, made
 from .judges import choices
 
 _handle: Any = None
@@ -93,13 +91,9 @@ def _parser() -> Parser:
 
 
 def _compare(options: Any) -> int:
-    try:
+    with comparison_report.failure_written(bpy.path.abspath(options.out)):
         _check_open()
         return compare_open_file(options)
-    except Exception as error:
-        with suppress(OSError):  # where it is the folder that cannot be written
-            comparison_report.write_failure(bpy.path.abspath(options.out), error)
-        raise
 
 
 def _explain(options: Any) -> int:

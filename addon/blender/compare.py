@@ -6,33 +6,39 @@ holds no reference to Blender's data, so that tracing may go on while the user w
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import bpy
 
+from ..arguments import words
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
+from ..compare.engines import EngineRow
 from ..compare.picture import Picture, Source, numbered
 from ..manifest import Manifest
 from ..report import comparison as comparison_report
+from ..report import engines as engines_report
 from ..report import folders, page
-from ..scene import Scene
+from ..scene import Scene, SceneError
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
-from .animation import values_kept
 from .camera import export_camera
-from .engine import Certified, export_certified, export_for_render
-from .identity import draw_identity
-from .judges import Judge, find
+from .engine import export_for_judge, export_for_render
+from .judges import JUDGES, Judge, find
 from .planes import stand_ins
-from .temporary import temporary_scene
+from .temporary import temporary_scene, values_kept
 from .unmodelled import of_shading
-from .viewport import anti_aliasing, picture, prepare, use_view_shading
+from .viewport import (
+    anti_aliasing,
+    draw_identity,
+    picture,
+    prepare,
+    solid_shading,
+    use_view_shading,
+)
 
 
 def compared(case: Case) -> Work[Comparison]:
@@ -53,7 +59,6 @@ def gather(
 
     Parameters
     ----------
-    context : bpy.types.Context
     settings, judge, as_is, identity, self_check : optional
         In place of what the scene stores.
 
@@ -72,7 +77,7 @@ def gather(
         settings = replace(settings, samples=1)
     engine = find(judge or stored.judge, bpy.app.background)
     of_view = engine.needs_window and not like_for_like
-    view_shading = _solid_shading(context) if of_view else None
+    view_shading = solid_shading(context) if of_view else None
     checked = stored.self_check if self_check is None else self_check
     found, later = None, None
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
@@ -87,9 +92,8 @@ def gather(
         if like_for_like and used["color_type"] == "RANDOM":
             engine.check_random(exported, manifest.owners)
         if not like_for_like:
-            own = [
-                replace(u, object=f"scene '{scene.name}'") for u in of_shading(tmp, engine, smooth)
-            ]
+            of = f"scene '{scene.name}'"
+            own = (replace(u, object=of) for u in of_shading(tmp, engine, smooth))
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
         if checked:
             later = _a_frame_later(tmp, layer, engine)
@@ -110,22 +114,8 @@ def gather(
         sums=int(smooth) if smooth.isdigit() else 0,
     )
     return Case(
-        exported,
-        manifest,
-        settings,
-        shown,
-        certificate,
-        self_check=checked,
-        next_frame=later,
+        exported, manifest, settings, shown, certificate, self_check=checked, next_frame=later
     )
-
-
-def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
-    """Return what a judge is to be compared with, and the certificate of its camera."""
-    if not judge.needs_window:
-        return export_for_render(tmp)
-    with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
-        return export_certified(bpy.context.evaluated_depsgraph_get())
 
 
 def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
@@ -139,11 +129,7 @@ def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
 
 
 def compare_to_folder(
-    context: Any,
-    directory: str,
-    trade: bool = False,
-    extremes: bool = False,
-    **choices: Any,
+    context: Any, directory: str, trade: bool = False, extremes: bool = False, **choices: Any
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing and writing the files.
 
@@ -151,9 +137,77 @@ def compare_to_folder(
     says why. Raises what :func:`gather` and `compare.compare` raise, and OSError.
     """
     folder = made(directory)  # now, not after all the work
-    with _failure_written(folder):
+    with comparison_report.failure_written(folder):
         work = compared(gather(context, **choices))
-        return _written(folder, work, trade, extremes)
+    return _to_folder(folder, work, trade, extremes)
+
+
+def _to_folder(
+    folder: Path, work: Work[Comparison], trade: bool, extremes: bool
+) -> Work[Comparison]:
+    share = 0.2 if trade or extremes else 0.8
+    with comparison_report.failure_written(folder):
+        comparison = yield from _written(folder, work, share, trade, extremes)
+    yield 1.0
+    return comparison
+
+
+def _written(
+    folder: Path, work: Work[Comparison], share: float, *measured: bool
+) -> Work[Comparison]:
+    """Compare, which takes a share of the time, find what the page shows besides, and write."""
+    comparison = yield from scaled(work, 0.0, share)
+    finding = page.extras(comparison, *measured)
+    extras = yield from scaled(finding, share, 1 - share)
+    comparison_report.write(folder, comparison, extras)
+    return comparison
+
+
+def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
+    """Have every engine draw the scene at once; return the work of comparing each.
+
+    Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
+    written if it is empty. The choices are those of :func:`gather`.
+
+    Raises
+    ------
+    SceneError
+        If no engine makes a picture.
+    OSError
+        If the folder cannot be written.
+    """
+    folder = made(directory) if directory else None
+    here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
+    drawn = [(name, _drawn(context, name, choices)) for name in here]
+    if all(isinstance(d, str) for _, d in drawn):
+        raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
+    return _all_compared(drawn, folder)
+
+
+def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Case | str:
+    """Return what is gathered for an engine, or why it makes no picture."""
+    try:
+        return gather(context, judge=engine.upper(), **choices)
+    except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
+        return words(error)
+
+
+def _all_compared(
+    drawn: list[tuple[str, Case | str]], folder: Path | None
+) -> Work[tuple[EngineRow, ...]]:
+    rows = []
+    for number, (engine, gathered) in enumerate(drawn):
+        if isinstance(gathered, str):
+            rows.append(EngineRow(engine, "failed", error=gathered))
+            continue
+        work = compared(gathered)
+        if folder:
+            work = _written(folder / engine, work, 0.9)
+        comparison = yield from scaled(work, number / len(drawn), 1 / len(drawn))
+        rows.append(EngineRow.of(comparison))
+    if folder:
+        engines_report.write(folder, rows)
+    return tuple(rows)
 
 
 def made(directory: str) -> Path:
@@ -169,27 +223,6 @@ def made(directory: str) -> Path:
     return folder
 
 
-def _written(folder: Path, work: Work[Comparison], trade: bool, extremes: bool) -> Work[Comparison]:
-    share = 0.2 if trade or extremes else 0.8  # of the comparison
-    with _failure_written(folder):
-        comparison = yield from scaled(work, 0.0, share)
-        finding = page.extras(comparison, trade, extremes)
-        extras = yield from scaled(finding, share, 1 - share)
-        comparison_report.write(folder, comparison, extras)
-    yield 1.0
-    return comparison
-
-
-@contextmanager
-def _failure_written(folder: Path) -> Iterator[None]:
-    try:
-        yield
-    except Exception as error:
-        with suppress(OSError):  # which may be what the error is
-            comparison_report.write_failure(folder, error)
-        raise
-
-
 def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
 
@@ -202,12 +235,3 @@ def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
     with temporary_scene(context.scene, context.view_layer.name) as tmp:
         exported, manifest, _ = export_for_render(tmp)
     return exported, manifest, context.scene.reference_tracer.settings()
-
-
-def _solid_shading(context: Any) -> Any:
-    """Return the solid shading of the 3D view the user is in, else of the window's first one."""
-    areas = [context.area, *(context.window.screen.areas if context.window else ())]
-    for area in areas:
-        if area and area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
-            return area.spaces.active.shading
-    return None

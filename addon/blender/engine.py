@@ -21,10 +21,10 @@ from ..scene import Scene, SceneError
 from ..tracer.certified.certainty import AssumptionError
 from ..tracer.frame import PASSES, Frame, Pass
 from ..tracer.render import steps
-from .animation import values_kept
 from .camera import certify_camera
 from .export import export
-from .temporary import is_temporary
+from .judges import Judge
+from .temporary import is_temporary, values_kept
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message
@@ -150,6 +150,14 @@ def export_for_render(scene: Any) -> Certified:
         raise SceneError(str(error).removeprefix("Error: ").strip()) from error
     finally:
         _captured = None
+
+
+def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
+    """Return what a judge is to be compared with, as :func:`export_certified` does."""
+    if not judge.needs_window:
+        return export_for_render(tmp)
+    with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
+        return export_certified(bpy.context.evaluated_depsgraph_get())
 
 
 register, unregister = bpy.utils.register_classes_factory((ReferenceTracerEngine,))

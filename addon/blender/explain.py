@@ -19,7 +19,7 @@ from ..report import folders
 from ..scene import Scene, SceneError
 from . import ray_objects, results
 from .camera import export_camera
-from .compare import export_for_judge
+from .engine import export_for_judge
 from .images import redraw, show_text
 from .judges import JUDGES, find
 from .temporary import temporary_scene

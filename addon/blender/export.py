@@ -18,11 +18,10 @@ from ..manifest import OUTSIDE, Manifest, ObjectEntry
 from ..scene import Camera, Instance, Mesh, Plane, Scene
 from .camera import export_camera
 from .colors import background
-from .meshes import export_mesh
+from .planes import outside
 from .temporary import user_scene
 from .unmodelled import of_scene
-from .view_volume import outside
-from .visible import Met, Seen, Shown, visible
+from .visible import Met, Seen, Shown, export_mesh, visible
 
 _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
 

@@ -19,7 +19,7 @@ from .explain import (
     REFERENCE_TRACER_OT_save_pixel,
 )
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .panel_parts import both, wrapped
+from .panels import both, wrapped
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent

@@ -16,8 +16,7 @@ from ..study import tradeoff
 from ..study.scenarios.sweeps import MAPS
 from ..tracer.progress import Work
 from . import results, scenario_scene, studies
-from .compare import compare_to_folder, compared, gather
-from .engines import compare_all
+from .compare import compare_all, compare_to_folder, compared, gather
 from .judges import JUDGES
 from .long_work import LongWork
 from .properties import SWEEPS

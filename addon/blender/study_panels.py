@@ -17,7 +17,7 @@ from .operators import (
     REFERENCE_TRACER_OT_extremes,
     REFERENCE_TRACER_OT_trade,
 )
-from .panel_parts import NARROW, both, short_name, table, wrapped
+from .panels import NARROW, both, short_name, table, wrapped
 from .scenario_scene import CHANGED
 
 _BY_NAME = {s.name: s for s in SCENARIOS}

@@ -2,6 +2,9 @@
 
 Everything is set on a temporary copy of the user's scene. What cannot live on a copy, the
 preference for the viewport's anti-aliasing and the mark that preferences were changed, is put back.
+
+Whose surface each pixel shows is found by drawing the scene again, a colour an object. What is
+instanced shows the colour of the object that instances it, and counts as that.
 """
 
 from __future__ import annotations
@@ -17,10 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import SizeError
+from ..compare.identity import MOST_OBJECTS, colors_of, decode
 from ..scene import Camera
 from . import images
-from .animation import values_kept
 from .judges import Judge
+from .temporary import STANDS_FOR, colored_copies, drawn, values_kept
 
 # What a picture that can be compared needs: property of the scene, and value.
 _ALWAYS = {
@@ -79,6 +83,15 @@ def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
     if judge.needs_window:
         return bpy.context.preferences.system.viewport_aa
     return scene.display.render_aa
+
+
+def solid_shading(context: Any) -> Any:
+    """Return the solid shading of the 3D view the user is in, else of the window's first one."""
+    areas = [context.area, *(context.window.screen.areas if context.window else ())]
+    for area in areas:
+        if area and area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
+            return area.spaces.active.shading
+    return None
 
 
 def use_view_shading(scene: Any, shading: Any) -> None:
@@ -165,3 +178,43 @@ def _viewport_aa(value: str) -> Iterator[None]:
     finally:
         preferences.system.viewport_aa = before
         preferences.is_dirty = dirty
+
+
+def draw_identity(
+    tmp: Any, layer: str, judge: Judge, camera: Camera
+) -> tuple[tuple[str, ...], NDArray[np.int32]] | None:
+    """Return the names of what may be shown, and which of them each pixel shows, (h, w).
+
+    The temporary scene is not as it was afterwards: it is to be the last drawing.
+
+    Parameters
+    ----------
+    tmp : bpy.types.Scene
+        Prepared, with the stand-ins of infinite planes.
+    layer : str
+        Name of the view layer.
+    judge : Judge
+    camera : Camera
+
+    Returns
+    -------
+    tuple, or None
+        None where there are more objects than colours tell apart.
+
+    Raises
+    ------
+    RuntimeError, SizeError
+        As :func:`viewport.picture` does.
+    """
+    objects = drawn(tmp, layer)
+    owners = [o.get(STANDS_FOR) or o.name_full for o in objects]
+    names = tuple(dict.fromkeys(owners))
+    if len(names) > MOST_OBJECTS:
+        return None
+    number = {name: n for n, name in enumerate(names)}
+    numbers = [number[owner] for owner in owners]
+    prepare(tmp, True)
+    tmp.display.shading.color_type = "OBJECT"
+    with colored_copies(tmp, layer, objects, colors_of(len(names))[numbers]):
+        found = decode(picture(tmp, layer, judge, camera, True), len(names))
+    return names, found

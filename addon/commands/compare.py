@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -77,13 +77,8 @@ def _failure_written(options: argparse.Namespace) -> Iterator[None]:
     """Make the folder, and say there why there is no comparison if there is none."""
     if options.out.startswith("//"):  # here it is the shell's: Blender's is beside the file
         options.out = os.path.realpath(options.out)
-    with folders.made(Path(options.out)):
-        try:
-            yield
-        except Exception as error:
-            with suppress(OSError):
-                comparison_report.write_failure(options.out, error)
-            raise
+    with folders.made(Path(options.out)), comparison_report.failure_written(options.out):
+        yield
 
 
 def _with_blender(options: argparse.Namespace) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -79,15 +81,18 @@ def _identity(comparison: Comparison) -> dict[str, NDArray]:
     return {} if found is None else {"owner_traced": found.traced, "owner_shown": found.shown}
 
 
-def write_failure(directory: str | Path, error: BaseException) -> None:
-    """Write a `comparison.json` that says why there is no comparison.
+@contextmanager
+def failure_written(directory: str | Path) -> Iterator[None]:
+    """Write a `comparison.json` that says why there is no comparison, if what is done here fails.
 
     The results of an earlier run are removed: they would pass for this run's.
     """
-    content = {
-        "schema": SCHEMA,
-        "verdict": "failed",
-        "error": {"type": type(error).__name__, "message": str(error)},
-    }
-    with replacing(Path(directory), _NAMES) as new:
-        write_json(new / JSON, content)
+    try:
+        yield
+    except Exception as error:
+        said = {"type": type(error).__name__, "message": str(error)}
+        content = {"schema": SCHEMA, "verdict": "failed", "error": said}
+        # Where the folder cannot be written, that may be what the error is.
+        with suppress(OSError), replacing(Path(directory), _NAMES) as new:
+            write_json(new / JSON, content)
+        raise

@@ -116,19 +116,19 @@ def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
 
 def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch):
     """What is drawn for identity lacks an object, and no colour says so."""
-    from reference_tracer.blender import identity as identity_module
+    from reference_tracer.blender import viewport
 
     build.scene(color_type="SINGLE")
     build.solids()
     build.corner_camera(lens=40)
-    real = identity_module.picture
+    real = viewport.picture
 
     def lacking(tmp, *rest):
         copy = next(o for o in tmp.objects if o.name.startswith("Green"))
         copy.hide_render = True
         return real(tmp, *rest)
 
-    monkeypatch.setattr(identity_module, "picture", lacking)
+    monkeypatch.setattr(viewport, "picture", lacking)
     found = compare()
     shows = found.pixels["unexplained_shows"]
     assert found.verdict == "differences"

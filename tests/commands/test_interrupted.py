@@ -10,7 +10,7 @@ import pytest
 from reference_tracer import images, interrupts
 from reference_tracer.arguments import AGREE, INPUT_ERROR, INTERRUPTED
 from reference_tracer.cli import main
-from reference_tracer.commands import trace as trace_command
+from reference_tracer.commands import files
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.tracer.progress import result_of
 
@@ -22,7 +22,7 @@ def refuse_memory(*args, **options):
 
 
 def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(trace_command, "render", refuse_memory)
+    monkeypatch.setattr(files, "render", refuse_memory)
     assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
@@ -41,7 +41,7 @@ def swallow(*args, **options):
 def interrupted_work(monkeypatch):
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
-    monkeypatch.setattr(trace_command, "render", lambda *given: result_of(swallow(), given[-1]))
+    monkeypatch.setattr(files, "render", lambda *given: result_of(swallow(), given[-1]))
 
 
 @pytest.mark.usefixtures("interrupted_work")

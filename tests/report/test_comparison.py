@@ -13,7 +13,7 @@ from reference_tracer.compare.comparison import SCHEMA, compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.report.comparison import difference, write, write_failure
+from reference_tracer.report.comparison import difference, failure_written, write
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -130,7 +130,8 @@ def test_writing_again_replaces(folder, compared):
 
 
 def test_a_failure_is_json_too(tmp_path):
-    write_failure(tmp_path / "out", SceneError("Camera 'Käm' is \"panoramic\"\nsecond line"))
+    with pytest.raises(SceneError), failure_written(tmp_path / "out"):
+        raise SceneError("Camera 'Käm' is \"panoramic\"\nsecond line")
     held = strict(tmp_path / "out")
     assert held == {
         "schema": SCHEMA,
@@ -141,7 +142,8 @@ def test_a_failure_is_json_too(tmp_path):
 
 def test_a_failure_leaves_no_older_pictures(folder):
     """Else they would pass for those of the run that failed."""
-    write_failure(folder, SceneError("no camera"))
+    with pytest.raises(SceneError), failure_written(folder):
+        raise SceneError("no camera")
     assert strict(folder)["verdict"] == "failed"
     assert sorted(p.name for p in folder.iterdir()) == ["comparison.json"]
 

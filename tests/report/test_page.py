@@ -16,8 +16,8 @@ import pytest
 from PIL import Image
 from reference_tracer.images import to_display
 from reference_tracer.report import page
+from reference_tracer.report.comparison import failure_written
 from reference_tracer.report.comparison import write as write_folder
-from reference_tracer.report.comparison import write_failure
 from reference_tracer.report.page import document, packing, surfaces
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.frame import Frame
@@ -174,7 +174,8 @@ def test_every_result_of_the_self_check_is_in_the_schema(differing):
 
 
 def test_a_failure_is_as_the_schema_says(tmp_path):
-    write_failure(tmp_path, ValueError("no camera"))
+    with pytest.raises(ValueError), failure_written(tmp_path):
+        raise ValueError("no camera")
     held = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
     own.validate(held)
@@ -189,7 +190,8 @@ def test_a_failure_is_as_the_schema_says(tmp_path):
 
 
 def test_a_page_is_of_no_failure(differing, tmp_path):
-    write_failure(tmp_path, ValueError("no camera"))
+    with pytest.raises(ValueError), failure_written(tmp_path):
+        raise ValueError("no camera")
     failure = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
     held = json.loads(document.json_text(content(differing)))
     with pytest.raises(jsonschema.ValidationError):

@@ -1,4 +1,4 @@
-"""`reftrace trade`: what every way of tracing costs on a scene."""
+"""`reftrace trade` and `reftrace extremes`: what tracing costs, and where every method breaks."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from ..tracer.settings import Settings
 from .parts import Commands, command, write_study
 
 
-def add(commands: Commands) -> None:
+def add_trade(commands: Commands) -> None:
     """Add the command."""
     parser = command(
         commands,
         "trade",
-        run,
+        trade,
         "measure what every method, precision, number of samples and size costs on a scene",
         "reftrace trade sample_scenes/suzanne.blend --out out/",
         SOURCES,
@@ -32,7 +32,7 @@ def add(commands: Commands) -> None:
     add_camera(parser, width=160, height=90, of_scenes=True)
 
 
-def run(options: argparse.Namespace) -> int:
+def trade(options: argparse.Namespace) -> int:
     """Measure, and print the table."""
     from ..report import trade as report
     from ..study import tradeoff
@@ -42,8 +42,34 @@ def run(options: argparse.Namespace) -> int:
         samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
         with progress_bar() as progress:
             work = tradeoff.measure(scene, options.width, samples, options.scene.name)
-            trade = result_of(work, progress)
-        print(report.table(trade))
+            found = result_of(work, progress)
+        print(report.table(found))
         if options.out:
-            write_study(options.out, lambda: report.write(options.out, trade))
+            write_study(options.out, lambda: report.write(options.out, found))
+    return 0
+
+
+def add_extremes(commands: Commands) -> None:
+    """Add the command."""
+    parser = command(
+        commands,
+        "extremes",
+        extremes,
+        "find where every method breaks: far away, tiny, edge-on, and so on",
+        "reftrace extremes --out out/",
+    )
+    parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
+    parser.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
+
+
+def extremes(options: argparse.Namespace) -> int:
+    """Measure, and print the breaking points."""
+    from ..report import extremes as report
+    from ..study.extremes import measure
+
+    with folders.made(Path(options.out)):
+        with progress_bar() as progress:
+            rows = result_of(measure(rays=options.rays), progress)
+        print(report.breaking_table(rows))
+        write_study(options.out, lambda: report.write(options.out, rows))
     return 0

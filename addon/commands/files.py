@@ -1,4 +1,4 @@
-"""`reftrace trace`: a scene or a mesh -> a picture."""
+"""`reftrace trace` and `reftrace export`: a scene -> one file, a picture or a scene."""
 
 from __future__ import annotations
 
@@ -10,18 +10,20 @@ from ..arguments import add_camera, add_settings, camera_from, settings_from
 from ..opening import SOURCES, load
 from ..report import folders
 from ..report.progress_bar import progress_bar
+from ..scene import SceneError
+from ..scene_files import save_scene
 from ..tracer.render import render
 from .parts import Commands, command
 
 _PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
 
 
-def add(commands: Commands) -> None:
+def add_trace(commands: Commands) -> None:
     """Add the command."""
     parser = command(
         commands,
         "trace",
-        run,
+        trace,
         "trace a scene or a mesh into a picture",
         "reftrace trace mesh.ply --out mesh.png --width 800",
         SOURCES,
@@ -32,7 +34,7 @@ def add(commands: Commands) -> None:
     add_camera(parser)
 
 
-def run(options: argparse.Namespace) -> int:
+def trace(options: argparse.Namespace) -> int:
     """Trace, and write the picture."""
     with folders.made_for_file(options.out):
         scene, stored = load(options.scene, *camera_from(options, options.scene))
@@ -52,4 +54,30 @@ def run(options: argparse.Namespace) -> int:
     )
     for line in s.required():
         print(line)
+    return 0
+
+
+def add_export(commands: Commands) -> None:
+    """Add the command."""
+    parser = command(
+        commands,
+        "export",
+        export,
+        "export a .blend to a scene that needs no Blender",
+        "reftrace export scene.blend --out scene.npz",
+        "scene.blend",
+    )
+    parser.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
+    parser.set_defaults(endings={"out": (".npz",)})
+
+
+def export(options: argparse.Namespace) -> int:
+    """Export, and write the scene."""
+    if options.scene.suffix.lower() != ".blend":
+        raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
+    with folders.made_for_file(options.out):
+        scene, _ = load(options.scene)
+        with folders.replacing_file(options.out) as new:
+            save_scene(new, scene)
+    print(f"{scene.triangle_count:,} triangles: {options.out}")
     return 0
