@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from reference_tracer.report.tables import columns, percent
-from reference_tracer.study.extreme_rows import written
+from reference_tracer.study.extremes import written
 
 from .examples import Example
 from .extremes import held

@@ -14,7 +14,7 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
-from ..study.extreme_rows import written
+from ..study.extremes import written
 from ..study.scenarios.sweeps import SCENARIOS, Scenario
 from ..tracer.vector import transform_points
 from .camera import window_of

@@ -7,8 +7,7 @@ from typing import Any
 import bpy
 
 from ..methods import MEASURED, PLAIN, Method
-from ..study.extreme_rows import written
-from ..study.extremes import BreakingPoint
+from ..study.extremes import BreakingPoint, written
 from ..study.scenarios.sweeps import SCENARIOS
 from ..study.trade import Row, Trade
 from . import results

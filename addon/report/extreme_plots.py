@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..methods import MEASURED, Method
-from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
+from ..study.extremes import BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.sweeps import SCENARIOS, Map
 from . import plots
 

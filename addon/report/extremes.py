@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .. import images
 from ..methods import MEASURED
-from ..study.extreme_rows import BreakingPoint, Row, breaking_points, written
+from ..study.extremes import BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.sweeps import MAPS, SCENARIOS, Map, Scenario
 from .extreme_plots import breaking_picture, map_picture, sweeps_picture
 from .folders import finite, replacing, write_json

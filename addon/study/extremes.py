@@ -1,20 +1,22 @@
 """Numerical stability: what each method makes of each scenario, against exact arithmetic.
 
-In come scenarios; out go rows, one for each scale, method and precision. The plain methods are held
-against the certified picture. What is certified is itself held against what it has no part in: the
-oracle, on a sample of the rays with every triangle; and, where it is known how often a ray must
-cross the scene's surfaces, even or odd, on all rays.
+In come scenarios; out go rows, one for each scale, method and precision, and the breaking points in
+them. The plain methods are held against the certified picture. What is certified is itself held
+against what it has no part in: the oracle, on a sample of the rays with every triangle; and, where
+it is known how often a ray must cross the scene's surfaces, even or odd, on all rays.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..methods import Method
+from ..scene import Camera
 from ..tracer.camera import Rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
@@ -23,14 +25,92 @@ from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import render
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
-from .extreme_rows import BreakingPoint, Row, breaking_points
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
-from .truth import Truth, crossings, keys, number, pixel_rays, sample, truth_of
-
-__all__ = ["BreakingPoint", "Row", "breaking_points", "measure"]
+from .truth import Truth, crossings, keys, pixel_rays, sample, truth_of
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
+
+
+@dataclass(frozen=True)
+class Row:
+    """What a method in a precision makes of a scenario at a scale; counts are of rays."""
+
+    scenario: str
+    scale: float
+    method: str
+    precision: str
+    rays: int
+    missed: int  # the certified ray sees a surface, the method nothing
+    doubled: int  # the method says to cross more triangles than the certified ray does
+    # The method sees another surface than the certified one (and than its ties, where a ray meets
+    # an edge), or one where there is none.
+    wrong: int
+    refused: int  # triangles and rays that are not finite in this precision, and so are left out
+    order: int = 0  # of the wrong, those that see what is truly crossed, but is not the nearest
+    # In ulp of the certified t (float64), over rays that see the same surface; None without one.
+    # For the certified row, against the oracle's exact t: at most 1/2.
+    largest_t_error: float | None = None
+    exact: float | None = (
+        None  # certified: share of the pairs that integers decided
+    )
+    judged: int = 0  # certified: rays about which the oracle was asked
+    seen: int = 0  # rays whose certified ray sees a surface
+    across: float | None = None  # the second scale of a map's row
+
+    @property
+    def lost(self) -> int:
+        """Rays that see nothing or something else than they should."""
+        return self.missed + self.wrong
+
+    @property
+    def share(self) -> float:
+        """`lost` as a share of the rays."""
+        return self.lost / self.rays
+
+
+@dataclass(frozen=True)
+class BreakingPoint:
+    """The first scale of a scenario at which a method goes wrong, each way; None for never."""
+
+    scenario: str
+    method: str
+    precision: str
+    missed: float | None
+    wrong: float | None
+    doubled: float | None
+    lost: float | None  # the first of `missed` and `wrong`
+
+    @property
+    def never(self) -> bool:
+        """Whether the method holds at every scale."""
+        return self.lost is None and self.doubled is None
+
+
+def breaking_points(rows: Sequence[Row]) -> list[BreakingPoint]:
+    """Return where each method first goes wrong in each sweep, in the order of the rows.
+
+    Rows of a map have two scales, and no first one: they are left out.
+    """
+    sweeps: dict[tuple[str, str, str], list[Row]] = {}
+    for row in rows:
+        if row.across is None:
+            sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
+    ways = "missed", "wrong", "doubled", "lost"
+    return [
+        BreakingPoint(*k, *(next((r.scale for r in rows if getattr(r, w)), None) for w in ways))
+        for k, rows in sweeps.items()
+    ]
+
+
+def written(scale: float | None) -> str:
+    """Return a scale in few letters: 1e+08 as 1e8, 179.999 as it is."""
+    if scale is None:
+        return "-"
+    if scale == 0 or 1e-2 <= abs(scale) < 1e4:
+        return f"{scale:.10g}"
+    mantissa, exponent = f"{scale:.1e}".split("e")
+    return f"{mantissa.removesuffix('.0')}e{int(exponent)}"
 
 
 def measure(
@@ -45,10 +125,6 @@ def measure(
         About as many of each scene, instead of its own number.
     judged : int
         Rays of each scene about which the oracle is asked.
-
-    Returns
-    -------
-    list of Row
 
     Raises
     ------
@@ -78,20 +154,18 @@ def _size(scenario: Scenario, rays: int | None) -> tuple[int, int]:
 
 
 def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Settings) -> Row:
-    scene, camera = truth.scene, truth.scene.camera
+    scene, camera = truth.frame.scene, truth.frame.scene.camera
     frame = render(scene, settings)
-    method = settings.method.function
 
     def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
-        hit, t, _ = method(rays, *pairs.corners)
+        hit, t, _ = settings.method.function(rays, *pairs.corners)
         return hit & within_clip(camera, t)
 
-    count = result_of(crossings(scene, settings, test)).count
+    _, count = result_of(crossings(scene, settings, test))
     off = frame.wrong_against(truth.frame).ravel()
     found = frame.triangle_index.ravel() != NOTHING
     wrong = np.flatnonzero(off & found)
-    name = number(scene, frame.instance_index.flat[wrong], frame.triangle_index.flat[wrong])
-    true = np.isin(keys(scene, wrong, name), truth.crossed.keys)
+    names = frame.instance_index.flat[wrong], frame.triangle_index.flat[wrong]
     return Row(
         scenario.name,
         scale,
@@ -99,21 +173,18 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
         settings.precision.value,
         rays=off.size,
         missed=int((off & ~found).sum()),
-        doubled=int((count > truth.crossed.count).sum()),
+        doubled=int((count > truth.count).sum()),
         wrong=len(wrong),
-        refused=frame.statistics.refused + _not_finite(pixel_rays(camera, settings.precision)),
-        order=int(true.sum()),
+        refused=frame.statistics.refused + _not_finite(camera, settings.precision),
+        order=int(np.isin(keys(scene, wrong, *names), truth.crossed).sum()),
         largest_t_error=_largest_t_error(frame, truth.frame),
         across=scenario.across,
-        seen=_seen(truth.frame),
+        seen=int((truth.frame.instance_index != NOTHING).sum()),
     )
 
 
-def _seen(frame: Frame) -> int:
-    return int((frame.instance_index != NOTHING).sum())
-
-
-def _not_finite(rays: Rays) -> int:
+def _not_finite(camera: Camera, precision: Precision) -> int:
+    rays = pixel_rays(camera, precision)
     finite = np.isfinite(rays.origins).all(axis=0) & np.isfinite(rays.directions).all(axis=0)
     return int((~finite).sum())
 
@@ -134,8 +205,7 @@ def _largest_t_error(frame: Frame, certified: Frame) -> float | None:
 
 
 def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) -> Row:
-    frame, scene = truth.frame, truth.scene
-    count = truth.crossed.count
+    frame, count = truth.frame, truth.count
     sees = frame.instance_index.ravel() != NOTHING
     # That the nearest is one of all, and that none of all is missed, holds for every ray.
     missed, wrong = ~sees & (count > 0), sees & (count == 0)
@@ -144,14 +214,16 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
         missed |= count % 2 != scenario.odd
     worst = None
     pixels = sample(frame, judged)
-    for pixel, sight in zip(pixels.tolist(), scene_sights(scene, pixels), strict=True):
+    for pixel, sight in zip(pixels.tolist(), scene_sights(frame.scene, pixels), strict=True):
         given = int(frame.instance_index.flat[pixel]), int(frame.triangle_index.flat[pixel])
         right = given == sight.seen
         missed[pixel] = count[pixel] < sight.crossings or (not right and not sees[pixel])
         wrong[pixel] = not right and sees[pixel]
         doubled[pixel] = count[pixel] > sight.crossings
         if right and sight.t is not None:
-            worst = max(worst or 0.0, _ulps(float(frame.t.flat[pixel]), sight.t))
+            t = float(frame.t.flat[pixel])
+            error = abs(Fraction(t) - sight.t) / Fraction(float(np.spacing(t)))
+            worst = max(worst or 0.0, float(error))
     statistics = frame.statistics
     return Row(
         scenario.name,
@@ -162,14 +234,10 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
         missed=int(missed.sum()),
         doubled=int(doubled.sum()),
         wrong=int(wrong.sum()),
-        refused=statistics.refused + _not_finite(pixel_rays(scene.camera, Precision.FLOAT64)),
+        refused=statistics.refused + _not_finite(frame.scene.camera, Precision.FLOAT64),
         largest_t_error=worst,
         exact=statistics.pairs_exact / statistics.pairs_tested if statistics.pairs_tested else 0.0,
         judged=len(pixels),
         across=scenario.across,
-        seen=_seen(frame),
+        seen=int(sees.sum()),
     )
-
-
-def _ulps(t: float, exact: Fraction) -> float:
-    return float(abs(Fraction(t) - exact) / Fraction(float(np.spacing(t))))

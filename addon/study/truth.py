@@ -27,20 +27,12 @@ CERTIFIED = Settings(Method.CERTIFIED)
 
 
 @dataclass(frozen=True, eq=False)
-class Crossings:
-    """Pairs of a ray and a triangle that it crosses: `keys` (k,) int64; `count` (n,) of each."""
-
-    keys: NDArray[np.int64]
-    count: NDArray[np.int64]
-
-
-@dataclass(frozen=True, eq=False)
 class Truth:
     """A scene's certified picture, and every triangle that a certified ray crosses."""
 
-    scene: Scene
     frame: Frame
-    crossed: Crossings
+    crossed: NDArray[np.int64]  # (k,) the `keys` of the pairs
+    count: NDArray[np.int64]  # (n,) of each ray
 
 
 def truth_of(scene: Scene) -> Work[Truth]:
@@ -49,40 +41,30 @@ def truth_of(scene: Scene) -> Work[Truth]:
     for share in steps(scene, CERTIFIED, frame):
         yield 0.5 * share
     clip = scene.camera.clip_start, scene.camera.clip_end
-    counting = crossings(
-        scene, CERTIFIED, lambda rays, pairs: decide(rays, pairs.corners, *clip).hit
-    )
-    crossed = yield from scaled(counting, 0.5, 0.5)
-    return Truth(scene, frame, crossed)
+    counting = crossings(scene, CERTIFIED, lambda rays, p: decide(rays, p.corners, *clip).hit)
+    return Truth(frame, *(yield from scaled(counting, 0.5, 0.5)))
 
 
 def crossings(
     scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], NDArray[np.bool_]]
-) -> Work[Crossings]:
-    """Find all that the camera's rays cross, whether it is the nearest or not.
+) -> Work[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Find all that the camera's n rays cross, whether it is the nearest or not.
 
-    Parameters
-    ----------
-    scene : Scene
-    settings : Settings
-    test : callable
-        Takes p rays and p pairs; returns which are crossed within the clip range, (p,) bool.
+    `test` takes p rays and p pairs, and returns which are crossed within the clip range, (p,) bool.
+    Returns the `keys` of what is crossed, (k,), and its count for each ray, (n,).
     """
     region = scene.camera.region
     rays = pixel_rays(scene.camera, settings.precision)
-    pixel, name = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    pixel, found = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
     made = yield from plan(scene, settings, reach=0.0)
     for share, some in candidates(made, region):
         yield share
         if some is not None:
             hit = np.flatnonzero(test(rays.take(some.pixel), some))
             pixel.append(some.pixel[hit])
-            name.append(number(scene, some.instance[hit], some.triangle[hit]))
-    pixel, name = np.concatenate(pixel), np.concatenate(name)
-    return Crossings(
-        keys(scene, pixel, name),
-        np.bincount(pixel, minlength=region.width * region.height),
-    )
+            found.append(keys(scene, pixel[-1], some.instance[hit], some.triangle[hit]))
+    count = np.bincount(np.concatenate(pixel), minlength=region.width * region.height)
+    return np.concatenate(found), count
 
 
 def pixel_rays(camera: Camera, precision: Precision) -> Rays:
@@ -90,15 +72,11 @@ def pixel_rays(camera: Camera, precision: Precision) -> Rays:
     return camera_rays(camera, *film_positions(camera.region, 0.0, 0.0), precision.dtype)
 
 
-def number(scene: Scene, instance: NDArray, triangle: NDArray) -> NDArray[np.int64]:
-    """Return numbers for triangles of all instances."""
+def keys(scene: Scene, pixel: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.int64]:
+    """Return one number for each pair of a pixel and a triangle of an instance."""
     counts = [len(scene.meshes[i.mesh].triangles) for i in scene.instances]
-    return np.concatenate(([0], np.cumsum(counts)))[instance] + triangle
-
-
-def keys(scene: Scene, pixel: NDArray, name: NDArray) -> NDArray[np.int64]:
-    """Return one number for each pair of a pixel and a numbered triangle."""
-    return pixel * max(1, scene.triangle_count) + name
+    first = np.concatenate(([0], np.cumsum(counts)))[instance]
+    return pixel.astype(np.int64) * max(1, scene.triangle_count) + first + triangle
 
 
 def sample(frame: Frame, count: int) -> NDArray[np.intp]:

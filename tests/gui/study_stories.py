@@ -25,7 +25,7 @@ from story import (
     window,
 )
 
-TRADE, EXTREMES = "study.trade.Trade", "study.extreme_rows.BreakingPoint"
+TRADE, EXTREMES = "study.trade.Trade", "study.extremes.BreakingPoint"
 SMALL = {"width": 48, "samples": 2}
 
 

@@ -18,7 +18,7 @@ from reference_tracer.report.extremes import (
     to_dict,
     write,
 )
-from reference_tracer.study.extreme_rows import Row
+from reference_tracer.study.extremes import Row
 from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS
 
 from ..scenarios import quick

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study import extremes
-from reference_tracer.study.extreme_rows import Row, breaking_points, written
-from reference_tracer.study.extremes import measure
+from reference_tracer.study.extremes import Row, breaking_points, measure, written
 from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -167,11 +166,8 @@ def truth():
 
 def judged_row(truth, frame=None, count=None, odd=True, judged=16):
     scenario, true = truth
-    true = replace(
-        true,
-        frame=frame or true.frame,
-        crossed=true.crossed if count is None else replace(true.crossed, count=count),
-    )
+    count = true.count if count is None else count
+    true = replace(true, frame=frame or true.frame, count=count)
     return extremes._certified_row(replace(scenario, odd=odd), 6.0, true, judged)
 
 
@@ -192,7 +188,7 @@ def test_the_oracle_finds_what_is_wrong_with_a_certified_frame(truth):
 
 
 def test_all_rays_are_held_against_how_often_they_must_cross(truth):
-    count = truth[1].crossed.count
+    count = truth[1].count
     assert judged_row(truth, count=count + 1).missed > 16 * 12 - 17
     assert judged_row(truth, count=count + 1).doubled == 16
     assert judged_row(truth, count=count + 1, odd=None).missed == 0

@@ -16,39 +16,20 @@ from . import scenes
 
 @dataclass(frozen=True)
 class Scenario:
-    """A scene to be swept over a scale.
+    """A scene to be swept over a scale."""
 
-    Parameters
-    ----------
-    name : str
-        In snake case.
-    title, explanation : str
-        For a student; the explanation is one sentence.
-    scale_name, unit : str
-        What the scale means; the unit is empty where it has none.
-    scales : tuple of float
-        From harmless to extreme.
-    build : callable
-        Takes the scale, and width and height of the picture in pixels.
-    odd : bool, optional
-        Whether every ray crosses the scene's surfaces an odd number of times (the camera is inside
-        a closed one) or an even one (outside); None where that is not known beforehand.
-    across : float, optional
-        Of a row of a map: the value of its other scale.
-    width, height : int
-        Of the picture, in pixels: as many rays has a scene.
-    """
-
-    name: str
+    name: str  # in snake case
     title: str
-    scale_name: str
-    unit: str
-    explanation: str
-    scales: tuple[float, ...]
-    build: Callable[[float, int, int], Scene]
+    scale_name: str  # what the scale means
+    unit: str  # of the scale; empty where it has none
+    explanation: str  # for a student, in one sentence
+    scales: tuple[float, ...]  # from harmless to extreme
+    build: Callable[[float, int, int], Scene]  # of the scale, and the picture's width and height
+    # Whether every ray crosses the scene's surfaces an odd number of times (the camera is inside a
+    # closed one) or an even one (outside); None where that is not known beforehand.
     odd: bool | None = None
-    across: float | None = None
-    width: int = 32
+    across: float | None = None  # of a row of a map: the value of its other scale
+    width: int = 32  # of the picture, in pixels
     height: int = 24
 
 
