@@ -20,7 +20,7 @@ from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report
-from ..report import trade_plot
+from ..report import trade as trade_report
 from ..report.comparison import difference
 from ..study.extremes import BreakingPoint, Row, breaking_points
 from ..study.trade import Trade
@@ -58,7 +58,7 @@ def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
 
 def keep_trade(context: Any, trade: Trade) -> Result:
     """Remember a trade, and show its plot if there can be one."""
-    why = _show_plots(context, lambda: [(images.TRADE, trade_plot.picture(trade))], "trade")
+    why = _show_plots(context, lambda: [(images.TRADE, trade_report.picture(trade))], "trade")
     return _keep(Trade, trade, [trade.advice, *why], trade.scene)
 
 

@@ -26,7 +26,7 @@ DOUBLED = "#d5e0f0"  # where no ray is lost, but some cross too many triangles
 _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 # Of lines that cover one another, each shows inside the one before: width, size of its marks.
 _WIDTHS, _SIZES = (6.0, 4.0, 2.4, 1.4), (11.0, 8.5, 6.5, 4.5)
-_KNOWN = {s.name: s for s in SCENARIOS}
+KNOWN = {s.name: s for s in SCENARIOS}
 _LEFT = -4.65  # of the scenes' names, where a column of the table is 1 wide
 _CENTRED = {"ha": "center", "va": "center"}
 
@@ -36,31 +36,25 @@ def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
 
     The later in the sweep, the paler. A plus marks methods that cross too many triangles somewhere.
     """
-    points = breaking_points(rows)
-    scales: dict[str, list[float]] = {}
-    for r in rows:
-        if r.across is None and r.scale not in scales.setdefault(r.scenario, []):
-            scales[r.scenario].append(r.scale)
+    points, sweeps = breaking_points(rows), by_scenario(rows)
     columns = list(dict.fromkeys((p.method, p.precision) for p in points))
-    names = list(scales)
+    names = list(sweeps)
     figure = plots.new_figure(1920, 320 + 46 * len(names))
     axes = figure.subplots()
     axes.set_axis_off()
     axes.set_xlim(-4.7, len(columns))
     axes.set_ylim(len(names) + 2.4, -1.7)
     for y, name in enumerate(names):
-        known = _KNOWN.get(name)
-        axes.text(_LEFT, y + 0.5, known.title if known else name, va="center", fontsize=13.5)
-        axes.text(
-            -0.12, y + 0.5, _scale_of(name), va="center", ha="right", color=plots.GREY, fontsize=11
-        )
+        axes.text(_LEFT, y + 0.5, _title(name), va="center", fontsize=13.5)
+        right = {"va": "center", "ha": "right", "color": plots.GREY, "fontsize": 11}
+        axes.text(-0.12, y + 0.5, scale_of(name), **right)
     for x, (method, precision) in enumerate(columns):
         lines = Method(method).words.replace(" ", "\n").replace("–", "–\n")
         axes.text(x + 0.5, -1.0, lines, **_CENTRED, fontsize=11.5, fontweight="bold")
         axes.text(x + 0.5, -0.2, precision, **_CENTRED, fontsize=11, color=plots.GREY)
     for p in points:
         x, y = columns.index((p.method, p.precision)), names.index(p.scenario)
-        _point(axes, x, y, p, scales[p.scenario])
+        _point(axes, x, y, p, list(dict.fromkeys(r.scale for r in sweeps[p.scenario])))
     _key(axes, len(names) + 0.3)
     title = "Where each method breaks: the first scale at which a ray is missed or wrong"
     plots.headline(figure, title, 18)
@@ -106,9 +100,23 @@ def _key(axes: Axes, y: float) -> None:
         y += 0.65
 
 
-def _scale_of(scenario: str) -> str:
-    known = _KNOWN.get(scenario)
+def by_scenario(rows: Sequence[Row]) -> dict[str, list[Row]]:
+    """Return the rows of each sweep; those of maps are left out."""
+    sweeps: dict[str, list[Row]] = {}
+    for row in rows:
+        if row.across is None:
+            sweeps.setdefault(row.scenario, []).append(row)
+    return sweeps
+
+
+def scale_of(scenario: str) -> str:
+    """Return what a scenario's scale means, and its unit; nothing for one of a user's own."""
+    known = KNOWN.get(scenario)
     return f"{known.scale_name}{f', {known.unit}' if known.unit else ''}" if known else ""
+
+
+def _title(scenario: str) -> str:
+    return KNOWN[scenario].title if scenario in KNOWN else scenario
 
 
 def _colormap() -> Colormap:
@@ -131,18 +139,16 @@ def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[n
         grid[0].plot([], [], "o-", color=m.color, lw=width, ms=size, label=m.words)[0]
         for m, (width, size) in _nested().items()
     ]
-    for label, style, fill in (("float64", "o-", plots.GREY), ("float32", "o:", "white")):
-        handles += grid[0].plot(
-            [], [], style, color=plots.GREY, mfc=fill, lw=2.5, ms=7, label=label
-        )
+    grey = {"color": plots.GREY, "lw": 2.5, "ms": 7}
+    handles += grid[0].plot([], [], "o-", label="float64", **grey)
+    handles += grid[0].plot([], [], "o:", label="float32", mfc="white", **grey)
     plots.legend_below(figure, handles)
-    plots.headline(
-        figure,
+    title = (
         f"Rays that are missed or see the wrong surface{page and f' ({page})'}\n"
         "Lines that cover one another are drawn one inside the other. The literal textbook is left "
-        "out: it loses rays from the first scale of nearly all.",
-        14,
+        "out: it loses rays from the first scale of nearly all."
     )
+    plots.headline(figure, title, 14)
     return plots.pixels(figure)
 
 
@@ -158,30 +164,21 @@ def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
     name = rows[0].scenario
     scales = list(dict.fromkeys(r.scale for r in rows))
     shown = [r for r in rows if r.method in SWEPT]
-    title = _KNOWN[name].title if name in _KNOWN else name
-    plots.plain_axes(axes, title, _scale_of(name), "", plots.SMALL)
+    plots.plain_axes(axes, _title(name), scale_of(name), "", plots.SMALL)
     for method, precision in dict.fromkeys((r.method, r.precision) for r in shown):
         some = [r for r in shown if (r.method, r.precision) == (method, precision)]
         color, whole = Method(method).color, precision == "float64"
         width, size = _nested()[method]
-        axes.plot(
-            [scales.index(r.scale) for r in some],
-            [100 * r.share for r in some],
-            "o-" if whole else "o:",
-            color=color,
-            lw=width,
-            ms=size,
-            mfc=color if whole else "white",
-            mew=1.5,
-            clip_on=False,
-            zorder=3 + SWEPT.index(method),
-        )
+        style = {"color": color, "mfc": color if whole else "white", "mew": 1.5, "clip_on": False}
+        style |= {"lw": width, "ms": size}
+        at = [scales.index(r.scale) for r in some]
+        shares = [100 * r.share for r in some]
+        axes.plot(at, shares, "o-" if whole else "o:", zorder=3 + SWEPT.index(method), **style)
     if not any(r.lost for r in shown):
         most = max(r.doubled / r.rays for r in shown)
-        note = f"\nup to {100 * most:.0f} % cross too many triangles" if most else ""
-        axes.text(
-            0.5, 0.5, f"no ray is lost{note}", transform=axes.transAxes, **_CENTRED, fontsize=12
-        )
+        note = "no ray is lost"
+        note += f"\nup to {100 * most:.0f} % cross too many triangles" if most else ""
+        axes.text(0.5, 0.5, note, transform=axes.transAxes, **_CENTRED, fontsize=12)
     axes.set_ylim(0, 100)
     axes.set_yticks([0, 50, 100], ["0 %", "50 %", "100 %"])
     _ticks(axes.set_xticks, scales)
@@ -210,13 +207,8 @@ def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
         f"{some.title}: rays that are missed or see the wrong surface\n{some.explanation}\n"
         f"Green: none.{' Grey: rounding has left nothing to see.' * any(map(_is_grey, rows))}",
     )
-    bar = figure.colorbar(
-        next(i for i in images if i),
-        ax=grid,
-        ticks=[0.01, 0.1, 0.25, 0.5, 1],
-        format=lambda share, _: f"{100 * share:.0f} %",
-        shrink=0.8,
-    )
+    bar = figure.colorbar(next(i for i in images if i), ax=grid, shrink=0.8)
+    bar.set_ticks([0.01, 0.1, 0.25, 0.5, 1], labels=["1 %", "10 %", "25 %", "50 %", "100 %"])
     bar.ax.tick_params(labelsize=13)
     return plots.pixels(figure)
 

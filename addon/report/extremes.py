@@ -1,7 +1,6 @@
 """Rows of numerical stability -> tables, `extremes.json` and pictures.
 
-The pictures show where each method breaks, the share of rays that it loses in each sweep, and a map
-for each pair of scales that are swept together. They need Matplotlib; the rest does not.
+The pictures need Matplotlib; the rest does not.
 """
 
 from __future__ import annotations
@@ -19,7 +18,8 @@ from .. import images
 from ..methods import MEASURED
 from ..study.extremes import BreakingPoint, Row, breaking_points, written
 from ..study.scenarios.sweeps import MAPS, SCENARIOS, Map, Scenario
-from .extreme_plots import breaking_picture, map_picture, sweeps_picture
+from . import extreme_plots
+from .extreme_plots import KNOWN, by_scenario, scale_of
 from .folders import finite, replacing, write_json
 from .tables import columns, percent
 
@@ -40,8 +40,6 @@ _UNITS = {
     "judged": "rays that an independent judge in integers decided, with every triangle",
     "across": "of a row of a map: its second scale",
 }
-
-
 _SHORT = {m.value: m.short for m in MEASURED}
 _LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
 _WIDTH = 12  # of a column of the tables
@@ -53,28 +51,16 @@ def table(rows: Sequence[Row]) -> str:
     Behind a plus: those that cross more triangles than there are.
     """
     methods = _shown(rows)
-    scenarios = {s.name: s for s in SCENARIOS}
-    lines: list[Sequence[str] | str] = list(_head([""], methods))
-    sweeps: dict[str, dict[float, dict[tuple[str, str], Row]]] = {}
-    for r in rows:
-        if r.across is None:
-            sweeps.setdefault(r.scenario, {}).setdefault(r.scale, {})[r.method, r.precision] = r
-    for name, sweep in sweeps.items():
+    lines: list[Sequence[str] | str] = []
+    for name, sweep in by_scenario(rows).items():
         lines.append("")
-        if name in scenarios:
-            s = scenarios[name]
-            unit = f", {s.unit}" if s.unit else ""
-            lines.append(f"{s.title} ({s.scale_name}{unit}): {s.explanation}")
-        for scale, by in sweep.items():
-            lines.append([written(scale), *(_lost(by[m]) if m in by else "" for m in methods)])
-    return "\n".join(
-        [
-            "Rays missed or wrong, in percent; + rays that cross more triangles than there are",
-            _LITERAL,
-            "",
-            *columns(lines, left=(), least=[_WIDTH] * (1 + len(methods))),
-        ]
-    )
+        if s := KNOWN.get(name):
+            lines.append(f"{s.title} ({scale_of(name)}): {s.explanation}")
+        by = {(r.scale, r.method, r.precision): r for r in sweep}
+        for scale in dict.fromkeys(r.scale for r in sweep):
+            lines.append([written(scale), *(_lost(by.get((scale, *m))) for m in methods)])
+    title = "Rays missed or wrong, in percent; + rays that cross more triangles than there are"
+    return _text(title, methods, lines, (_WIDTH,))
 
 
 def _shown(rows: Sequence[Row] | Sequence[BreakingPoint]) -> list[tuple[str, str]]:
@@ -83,12 +69,24 @@ def _shown(rows: Sequence[Row] | Sequence[BreakingPoint]) -> list[tuple[str, str
     return [m for m in found if m[0] != "textbook_literal"]
 
 
-def _head(first: list[str], methods: Sequence[tuple[str, str]]) -> tuple[list[str], list[str]]:
-    names = [_SHORT.get(method, method) for method, _ in methods]
-    return first + names, first + [precision for _, precision in methods]
+def _text(
+    title: str,
+    methods: Sequence[tuple[str, str]],
+    lines: Sequence[Sequence[str] | str],
+    least: Sequence[int],
+    left: Sequence[int] = (),
+) -> str:
+    """Return a table whose last columns are the methods'; `least` and `left` are of the others."""
+    empty = [""] * len(least)
+    names = [*empty, *(_SHORT.get(method, method) for method, _ in methods)]
+    head = names, [*empty, *(precision for _, precision in methods)]
+    widths = [*least, *[_WIDTH] * len(methods)]
+    return "\n".join([title, _LITERAL, "", *columns([*head, *lines], left, least=widths)])
 
 
-def _lost(row: Row) -> str:
+def _lost(row: Row | None) -> str:
+    if row is None:
+        return ""
     doubled = f" +{percent(row.doubled / row.rays)}" if row.doubled else ""
     return f"{percent(row.share)}{doubled}" if row.lost or row.doubled else "."
 
@@ -102,20 +100,14 @@ def breaking_table(rows: Sequence[Row]) -> str:
     methods = _shown(points)
     by = {(p.scenario, p.method, p.precision): p for p in points}
     scales = {s.name: s.scale_name for s in SCENARIOS}
-    lines: list[Sequence[str] | str] = [*_head(["", ""], methods), ""]
+    lines: list[Sequence[str] | str] = [""]
     for name in dict.fromkeys(p.scenario for p in points):
         cells = (_first_scale(by.get((name, *m))) for m in methods)
         lines.append([name, scales.get(name, ""), *cells])
-    least = [18, 2 + max(map(len, scales.values())), *[_WIDTH] * len(methods)]
-    return "\n".join(
-        [
-            "First scale at which a ray is missed or wrong; + at which one crosses too many; "
-            ". never",
-            _LITERAL,
-            "",
-            *columns(lines, left=(0, 1), least=least),
-        ]
+    title = (
+        "First scale at which a ray is missed or wrong; + at which one crosses too many; . never"
     )
+    return _text(title, methods, lines, (18, 2 + max(map(len, scales.values()))), left=(0, 1))
 
 
 def _first_scale(point: BreakingPoint | None) -> str:
@@ -144,13 +136,7 @@ def _about(some: Scenario | Map) -> dict[str, str]:
 
 
 def write(directory: str | Path, rows: Sequence[Row]) -> None:
-    """Write `extremes.txt`, `extremes.json` and the pictures, all or none.
-
-    Parameters
-    ----------
-    directory : path
-        Made where it is not there.
-    rows : sequence of Row
+    """Write `extremes.txt`, `extremes.json` and the pictures, all or none, in a folder.
 
     Raises
     ------
@@ -183,19 +169,14 @@ def pictures(rows: Sequence[Row]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
     MissingLibraryError
         If Matplotlib is not installed.
     """
-    sweeps: dict[str, list[Row]] = {}
-    for row in rows:
-        if row.across is None:
-            sweeps.setdefault(row.scenario, []).append(row)
-    if sweeps:
-        yield "breaking_points", breaking_picture(rows)
-        groups = list(sweeps.values())
+    if groups := list(by_scenario(rows).values()):
+        yield "breaking_points", extreme_plots.breaking_picture(rows)
         pages = math.ceil(len(groups) / PANELS)
         each = math.ceil(len(groups) / pages)
         for page in range(pages):
             shown = groups[page * each : (page + 1) * each]
-            yield f"sweeps_{page + 1}", sweeps_picture(shown, f"{page + 1} of {pages}")
+            number, title = page + 1, f"{page + 1} of {pages}"
+            yield f"sweeps_{number}", extreme_plots.sweeps_picture(shown, title)
     for some in MAPS:
-        found = [r for r in rows if r.across is not None and r.scenario == some.name]
-        if found:
-            yield f"map_{some.name}", map_picture(some, found)
+        if found := [r for r in rows if r.across is not None and r.scenario == some.name]:
+            yield f"map_{some.name}", extreme_plots.map_picture(some, found)

@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 from reference_tracer import images
 from reference_tracer.methods import Method
-from reference_tracer.report import plots, trade_plot
+from reference_tracer.report import plots
+from reference_tracer.report import trade as trade_report
 from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, picture, table, write
 from reference_tracer.study.trade import Row, Trade, mark
 from reference_tracer.tracer.settings import Precision
@@ -191,7 +192,7 @@ def test_names_in_a_plot_are_apart_or_left_out():
     """Also where all that is named is at one point."""
     axes = plots.new_figure().subplots()
     axes.plot([0.0, 1.0], [0.0, 1.0])
-    trade_plot._label(axes, [(0.5, 0.5, f"a name, number {k}") for k in range(20)])
+    trade_report._label(axes, [(0.5, 0.5, f"a name, number {k}") for k in range(20)])
     boxes = [t.get_window_extent() for t in axes.texts]
     assert 5 <= len(boxes) < 20
     assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])

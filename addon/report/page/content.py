@@ -24,7 +24,6 @@ from ...tracer.frame import Frame
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
-from .. import trade_plot
 from . import surfaces
 from .extras import Extras
 from .packing import data_uri, packed, size
@@ -206,7 +205,7 @@ def _by_priority(
 
 
 def _trade_plots(trade: Trade) -> Iterable[tuple[str, NDArray[np.uint8]]]:
-    yield "tradeoff", trade_plot.picture(trade)
+    yield "tradeoff", trade_report.picture(trade)
 
 
 def _extremes_dict(rows: Sequence[Row]) -> dict[str, Any]:
