@@ -7,6 +7,7 @@ OpenEXR reads and writes an EXR.
 
 from __future__ import annotations
 
+import base64
 import struct
 import zlib
 from dataclasses import dataclass
@@ -90,6 +91,11 @@ def png(picture: NDArray[np.uint8]) -> bytes:
     header = struct.pack(">2I5B", width, height, 8, _RGBA, 0, 0, 0)
     chunks = (b"IHDR", header), (b"IDAT", zlib.compress(rows, _LEVEL)), (b"IEND", b"")
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*chunk) for chunk in chunks)
+
+
+def data_uri(picture: NDArray[np.uint8]) -> str:
+    """Return the same PNG as the address of an image in a page."""
+    return f"data:image/png;base64,{base64.b64encode(png(picture)).decode('ascii')}"
 
 
 def _chunk(kind: bytes, content: bytes) -> bytes:

@@ -6,7 +6,7 @@ In come entries from an exporter; out go lines for people and a dict for JSON.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -55,6 +55,11 @@ class Unmodelled:
         if self.bounds is not None and not np.isfinite(self.bounds).all():
             object.__setattr__(self, "bounds", None)  # a box without an end explains nothing
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the feature as JSON can hold it."""
+        out = {k: v for k, v in vars(self).items() if k != "bounds"}
+        return out | {"bounds": None if self.bounds is None else np.asarray(self.bounds).tolist()}
+
 
 @dataclass(frozen=True)
 class Manifest:
@@ -72,7 +77,7 @@ class Manifest:
     camera: str
     objects: tuple[ObjectEntry, ...] = ()
     unmodelled: tuple[Unmodelled, ...] = ()
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = ()
     owners: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
@@ -80,17 +85,7 @@ class Manifest:
         out = {k: v for k, v in vars(self).items() if k not in ("objects", "unmodelled", "owners")}
         out["notes"] = list(self.notes)
         out["objects"] = [asdict(entry) for entry in self.objects]
-        out["unmodelled"] = [
-            {
-                "object": u.object,
-                "feature": u.feature,
-                "detail": u.detail,
-                "everywhere": u.everywhere,
-                "recolours": u.recolours,
-                "bounds": None if u.bounds is None else np.asarray(u.bounds).tolist(),
-            }
-            for u in self.unmodelled
-        ]
+        out["unmodelled"] = [u.to_dict() for u in self.unmodelled]
         return out
 
     def lines(self) -> list[str]:

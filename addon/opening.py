@@ -13,7 +13,7 @@ from typing import Any
 
 from . import interrupts
 from .scene import Camera, Scene, SceneError
-from .scene_files import MESH_SUFFIXES, load_meshes, load_scene, scene_of_meshes
+from .scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
 from .tracer.settings import Settings
 
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
@@ -22,24 +22,17 @@ SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
 def load(
     path: Path, camera: Camera | None = None, size: tuple[int, int] = (960, 540)
 ) -> tuple[Scene, Settings]:
-    """Return the scene of a file, with the settings that it stores.
+    """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
-    Parameters
-    ----------
-    path : Path
-        A .blend, a .npz, or a mesh.
-    camera : Camera, optional
-        For meshes, which have none; by default one that frames them.
-    size : (int, int)
-        Width and height of its picture, in pixels.
+    `camera` is for meshes, which have none: by default one that frames them, and whose picture is
+    of this size, width and height in pixels.
 
     Raises
     ------
     SceneError, OSError
         If there is no such scene, or it cannot be read.
     """
-    if not path.is_file():
-        raise SceneError(f"there is no file '{path}'")
+    check_is_file(path)
     suffix = path.suffix.lower()
     if suffix == ".npz":
         return load_scene(path), Settings()
@@ -64,8 +57,7 @@ def open_blend(path: Path) -> Iterator[Any]:
     SceneError
         If there is no such file, it cannot be opened, or Blender is not there as a module.
     """
-    if not path.is_file():
-        raise SceneError(f"there is no file '{path}'")
+    check_is_file(path)
     with interrupts.held():
         try:
             import bpy

@@ -192,10 +192,9 @@ class Mesh:
         slots = np.zeros(len(triangles), np.int32) if self.slots is None else self.slots
         slots = np.asarray(slots, dtype=np.int32)
         what = f"Mesh '{self.name}'"
-        if vertices.ndim != 2 or vertices.shape[1] != 3:
-            raise SceneError(f"{what}: vertices must be (v, 3), not {vertices.shape}.")
-        if triangles.ndim != 2 or triangles.shape[1] != 3:
-            raise SceneError(f"{what}: triangles must be (n, 3), not {triangles.shape}.")
+        for name, first, array in (("vertices", "v", vertices), ("triangles", "n", triangles)):
+            if array.shape[1:] != (3,):
+                raise SceneError(f"{what}: {name} must be ({first}, 3), not {array.shape}.")
         if triangles.size and not (0 <= triangles.min() and triangles.max() < len(vertices)):
             raise SceneError(f"{what}: a triangle names a vertex that is not there.")
         if slots.shape != (len(triangles),) or (slots < 0).any():
@@ -210,9 +209,9 @@ class Mesh:
             if colors.shape != (len(triangles), 3, 4):
                 raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
             _store(self, "corner_colors", _locked(colors))
-        _store(self, "vertices", _locked(vertices))
-        _store(self, "triangles", _locked(triangles.astype(np.int32, copy=False)))
-        _store(self, "slots", _locked(slots))
+        triangles = triangles.astype(np.int32, copy=False)
+        for name, array in (("vertices", vertices), ("triangles", triangles), ("slots", slots)):
+            _store(self, name, _locked(array))
 
     @cached_property
     def bounds(self) -> NDArray[np.float64]:
@@ -223,13 +222,10 @@ class Mesh:
         # Rows of some hundred numbers are compared many times faster than rows of three.
         long = v[: len(v) // 64 * 64].reshape(-1, 3 * 64)
         rest = v[len(v) // 64 * 64 :]
-        ends = []
-        for end in (np.min, np.max):
-            ends.append(
-                end(np.concatenate((end(long, axis=0).reshape(-1, 3), rest)), axis=0)
-                if len(long)
-                else end(rest, axis=0)
-            )
+        ends = [
+            end(np.concatenate((end(long, axis=0, initial=none).reshape(-1, 3), rest)), axis=0)
+            for end, none in ((np.min, np.inf), (np.max, -np.inf))
+        ]
         return np.array(ends, np.float64)
 
 
@@ -383,9 +379,8 @@ def drop_non_finite(
     if np.isfinite(vertices).all():
         return vertices, np.ones(len(triangles), bool)
     finite = np.isfinite(vertices).all(axis=1)
-    return np.where(finite[:, None], vertices, vertices.dtype.type(0)), finite[triangles].all(
-        axis=1
-    )
+    cleared = np.where(finite[:, None], vertices, vertices.dtype.type(0))
+    return cleared, finite[triangles].all(axis=1)
 
 
 def _store(instance: object, name: str, value: object) -> None:

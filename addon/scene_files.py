@@ -30,6 +30,11 @@ from .scene import (
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
+_ARRAYS = {  # of a .npz, by what has them
+    "mesh": ("vertices", "triangles", "slots", "corner_colors"),
+    "instance": ("world_from_object", "colors"),
+    "plane": ("point", "normal", "color"),
+}
 
 
 def diagnose(mesh: Mesh) -> dict[str, Any]:
@@ -97,16 +102,11 @@ def save_scene(path: str | Path, scene: Scene) -> None:
         "planes": [{"object": p.object} for p in scene.planes],
     }
     arrays: dict[str, np.ndarray] = {"scene": np.array(json.dumps(head, default=np.generic.item))}
-    for k, mesh in enumerate(scene.meshes):
-        for name in ("vertices", "triangles", "slots", "corner_colors"):
-            if getattr(mesh, name) is not None:
-                arrays[f"mesh{k}_{name}"] = getattr(mesh, name)
-    for k, instance in enumerate(scene.instances):
-        arrays[f"instance{k}_world_from_object"] = instance.world_from_object
-        arrays[f"instance{k}_colors"] = instance.colors
-    for k, plane in enumerate(scene.planes):
-        for name in ("point", "normal", "color"):
-            arrays[f"plane{k}_{name}"] = getattr(plane, name)
+    parts = scene.meshes, scene.instances, scene.planes
+    for (part, names), things in zip(_ARRAYS.items(), parts, strict=True):
+        for k, thing in enumerate(things):
+            held = {f"{part}{k}_{name}": getattr(thing, name) for name in names}
+            arrays |= {name: array for name, array in held.items() if array is not None}
     with open(path, "wb") as file:  # given a name, numpy would add .npz to one in capitals
         np.savez_compressed(file, **arrays)
 
@@ -119,7 +119,7 @@ def load_scene(path: str | Path) -> Scene:
     SceneError
         If there is no such file, it is not a scene, or its content is inconsistent.
     """
-    _check_is_file(path)
+    check_is_file(path)
     try:
         with np.load(path, allow_pickle=False) as stored:
             data = dict(stored)
@@ -132,27 +132,18 @@ def load_scene(path: str | Path) -> Scene:
             **c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])},
         )
 
-        def stored_of(part: str, *names: str) -> list[np.ndarray]:
-            return [data[f"{part}_{name}"] for name in names]
+        def arrays(part: str, k: int, without: str = "") -> dict[str, np.ndarray]:
+            return {n: data[f"{part}{k}_{n}"] for n in _ARRAYS[part] if n != without}
 
         meshes = [
-            Mesh(
-                *stored_of(f"mesh{k}", "vertices", "triangles", "slots"),
-                *(stored_of(f"mesh{k}", "corner_colors") if m["corner_colors"] else [None]),
-                m["name"],
-            )
+            Mesh(**arrays("mesh", k, "" if m["corner_colors"] else "corner_colors"), name=m["name"])
             for k, m in enumerate(head["meshes"])
         ]
         instances = [
-            Instance(
-                i["mesh"], i["object"], *stored_of(f"instance{k}", "world_from_object", "colors")
-            )
+            Instance(i["mesh"], i["object"], **arrays("instance", k))
             for k, i in enumerate(head["instances"])
         ]
-        planes = [
-            Plane(p["object"], *stored_of(f"plane{k}", "point", "normal", "color"))
-            for k, p in enumerate(head["planes"])
-        ]
+        planes = [Plane(p["object"], **arrays("plane", k)) for k, p in enumerate(head["planes"])]
         background, objects = np.array(head["background"]), tuple(head["objects"])
         return Scene(camera, tuple(meshes), tuple(instances), tuple(planes), background, objects)
     except SceneError as error:
@@ -161,7 +152,8 @@ def load_scene(path: str | Path) -> Scene:
         raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
 
 
-def _check_is_file(path: str | Path) -> None:
+def check_is_file(path: str | Path) -> None:
+    """Raise a SceneError if there is no such file."""
     if not Path(path).is_file():
         raise SceneError(f"there is no file '{path}'")
 
@@ -182,14 +174,11 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
     import trimesh
 
     path = Path(path)
-    _check_is_file(path)
+    check_is_file(path)
     try:
+        kind = path.suffix.lower().lstrip(".")
         loaded = trimesh.load(
-            path,
-            file_type=path.suffix.lower().lstrip("."),
-            force="scene",
-            process=False,
-            skip_materials=True,
+            path, file_type=kind, force="scene", process=False, skip_materials=True
         )
     except Exception as error:  # each of trimesh's readers raises its own kinds
         raise SceneError(f"'{path}' cannot be read as a mesh: {error}") from error
@@ -198,9 +187,8 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
         matrix, name = loaded.graph[node]
         geometry = loaded.geometry[name]
         if len(getattr(geometry, "faces", ())):
-            vertices, keep = drop_non_finite(
-                np.asarray(geometry.vertices), np.asarray(geometry.faces)
-            )
+            faces = np.asarray(geometry.faces)
+            vertices, keep = drop_non_finite(np.asarray(geometry.vertices), faces)
             out.append((Mesh(vertices, geometry.faces[keep], name=str(name)), np.array(matrix)))
     if not any(len(mesh.triangles) for mesh, _ in out):
         raise SceneError(f"'{path}' holds no triangles.")

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.images import to_display
-from reference_tracer.report.page.packing import data_uri
+from reference_tracer.images import data_uri, to_display
 
 from .examples import Example
 from .judging import Judgement

@@ -22,22 +22,10 @@ _DIM = 0.25  # of the traced picture below the causes
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 
-def write(
-    directory: str | Path,
-    comparison: Comparison,
-    extras: page.Extras | None = None,
-) -> None:
-    """Write the pictures, `frame.npz`, `page.html` and `comparison.json`.
+def write(directory: str | Path, comparison: Comparison, extras: page.Extras | None = None) -> None:
+    """Write the pictures, `frame.npz`, `page.html` with the extras, and `comparison.json`.
 
-    All or none: see :func:`folders.replacing`.
-
-    Parameters
-    ----------
-    directory : path
-        Made where it is not there.
-    comparison : Comparison
-    extras : page.Extras, optional
-        What the page shows beside the comparison.
+    All or none, in a folder that is made where it is not there: see :func:`folders.replacing`.
 
     Raises
     ------
@@ -45,7 +33,9 @@ def write(
         If the folder cannot be written.
     """
     colors = comparison.frame.color, comparison.picture, difference(comparison)
-    causes = comparison.causes
+    causes, owners = comparison.causes, comparison.identity
+    # Whose surface each side shows, as numbers of the JSON's names, where it is known.
+    whose = {"owner_traced": owners.traced, "owner_shown": owners.shown} if owners else {}
     with replacing(Path(directory), _NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
@@ -56,7 +46,7 @@ def write(
             cause=causes.cause,
             cause_figure=causes.figure,
             cause_allowed=causes.allowed,
-            **_identity(comparison),
+            **whose,
         )
         page.write(new / page.NAME, comparison, extras)
         write_json(new / JSON, comparison.to_dict())
@@ -73,12 +63,6 @@ def difference(comparison: Comparison) -> NDArray[np.float32]:
             share = 0.5 if cause.see_through else 1.0
             out[where, :3] = (1 - share) * out[where, :3] + share * np.array(cause.color)
     return out
-
-
-def _identity(comparison: Comparison) -> dict[str, NDArray]:
-    """Return whose surface each side shows, as numbers of the JSON's names, where it is known."""
-    found = comparison.identity
-    return {} if found is None else {"owner_traced": found.traced, "owner_shown": found.shown}
 
 
 @contextmanager

@@ -78,20 +78,18 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
     """
     make(directory)
     with tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX) as new:
+        missing = None
         try:
             yield Path(new)
-        except MissingLibraryError:
-            _replace(directory, Path(new), names)
-            raise
-        _replace(directory, Path(new), names)
-
-
-def _replace(directory: Path, new: Path, names: Sequence[str]) -> None:
-    for name in reversed(names):
-        (directory / name).unlink(missing_ok=True)
-    for name in names:
-        if (new / name).exists():
-            os.replace(new / name, directory / name)
+        except MissingLibraryError as error:
+            missing = error
+        for name in reversed(names):
+            (directory / name).unlink(missing_ok=True)
+        for name in names:
+            if Path(new, name).exists():
+                os.replace(Path(new, name), directory / name)
+        if missing:
+            raise missing
 
 
 @contextmanager

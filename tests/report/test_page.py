@@ -18,21 +18,21 @@ from reference_tracer.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.comparison import failure_written
 from reference_tracer.report.comparison import write as write_folder
-from reference_tracer.report.page import document, packing, surfaces
+from reference_tracer.report.page import arrays
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
-FOLDER = document._HERE
+FOLDER = page._HERE
 PROJECT = Path(__file__).resolve().parents[2]
 DATA = re.compile(r'<script type="application/json" id="data">(.*?)</script>', re.DOTALL)
 SCRIPT = re.compile(r"<script>(.*?)</script>", re.DOTALL)
 
 
 def unpacked(held):
-    """Undo packing.packed, as the page's script does."""
+    """Undo arrays.packed, as the page's script does."""
     planes = zlib.decompress(base64.b64decode(held["data"]))
     kind = np.dtype(held["type"]).newbyteorder("<")
     sorted_ = np.frombuffer(planes, np.uint8).reshape(kind.itemsize, -1).T
@@ -63,7 +63,7 @@ def whole(comparison):
 @pytest.mark.parametrize("shape", [(0,), (1,), (7, 3), (2, 3, 4)])
 def test_packing_loses_nothing(rng, kind, shape):
     values = rng.integers(0, 255, (*shape, np.dtype(kind).itemsize), np.uint8).view(kind)[..., 0]
-    held = json.loads(json.dumps(packing.packed(values)))
+    held = json.loads(json.dumps(arrays.packed(values)))
     assert held["type"] == kind
     assert np.array_equal(
         unpacked(held).view(np.uint8), np.ascontiguousarray(values).view(np.uint8)
@@ -75,14 +75,14 @@ def test_packing_loses_nothing(rng, kind, shape):
 def test_surfaces_and_t_are_those_of_the_frame(room, orthographic, float32):
     scene = room(orthographic=orthographic, float32=float32)
     frame = render(scene)
-    seen = surfaces.seen(frame)
+    seen = arrays.seen(frame)
     hit = seen.number > 0
     assert np.array_equal(hit, frame.instance_index >= 0) and hit.any() and len(seen.instance) > 20
     assert np.array_equal(seen.instance[seen.number[hit] - 1], frame.instance_index[hit])
     assert np.array_equal(seen.triangle[seen.number[hit] - 1], frame.triangle_index[hit])
-    held = {k: unpacked(v) for k, v in surfaces.table(scene, seen).items() if k != "instances"}
+    held = {k: unpacked(v) for k, v in arrays.table(scene, seen).items() if k != "instances"}
     assert held["vertices"].dtype == (np.float32 if float32 else np.float64)
-    offsets = surfaces.t_offsets(scene, frame, seen)
+    offsets = arrays.t_offsets(scene, frame, seen)
     assert (offsets < 1 << 13).all()  # twice the ulp: so near is the formula to the proven t
     assert (offsets != 0).any()
 
@@ -97,7 +97,7 @@ def test_a_page_is_one_file(differing, tmp_path):
 
 
 def test_only_the_pages_own_scripts_may_run(differing):
-    text = document.html(content(differing))
+    text = page.html(content(differing))
     allowed = set(re.findall(r"'sha256-([^']+)'", text))
     found = {
         base64.b64encode(hashlib.sha256(s.encode()).digest()).decode() for s in SCRIPT.findall(text)
@@ -107,7 +107,7 @@ def test_only_the_pages_own_scripts_may_run(differing):
 
 def test_no_name_ends_the_script(differing, hostile):
     held = content(differing)
-    text = document.html(held)
+    text = page.html(held)
     [data] = DATA.findall(text)
     assert not set("<>&") & set(data)
     assert json.loads(data) == json.loads(json.dumps(held))
@@ -116,12 +116,12 @@ def test_no_name_ends_the_script(differing, hostile):
 
 def test_a_name_that_is_no_unicode(differing):
     held = content(differing) | {"objects": ["\ud800 lone"]}
-    assert document.json_text(held).encode("utf-8")
+    assert page.json_text(held).encode("utf-8")
 
 
 def test_what_json_cannot_hold_is_an_error(differing):
     with pytest.raises(ValueError, match="JSON"):
-        document.json_text(content(differing) | {"size": [float("nan"), 1]})
+        page.json_text(content(differing) | {"size": [float("nan"), 1]})
 
 
 def test_the_schemas_are_schemas():
@@ -131,7 +131,7 @@ def test_the_schemas_are_schemas():
 
 def test_content_is_as_the_schema_says(differing, compared, room):
     for comparison in (differing, compared(room(orthographic=True, planes=False))):
-        held = json.loads(document.json_text(whole(comparison)))
+        held = json.loads(page.json_text(whole(comparison)))
         validator().validate(held)
 
 
@@ -165,7 +165,7 @@ def test_every_result_of_the_self_check_is_in_the_schema(differing):
     assert [row.result for row in rows] == results
     held = replace(differing, self_check=tuple(rows)).to_dict()
     own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
-    own.validate(json.loads(document.json_text(held)))
+    own.validate(json.loads(page.json_text(held)))
     of_row = own.schema["$defs"]["compared"]["properties"]["self_check"]["items"]
     assert of_row["properties"]["result"]["enum"] == results
     held["self_check"][0]["result"] = "fine"
@@ -193,13 +193,13 @@ def test_a_page_is_of_no_failure(differing, tmp_path):
     with pytest.raises(ValueError), failure_written(tmp_path):
         raise ValueError("no camera")
     failure = json.loads((tmp_path / "comparison.json").read_text(encoding="utf-8"))
-    held = json.loads(document.json_text(content(differing)))
+    held = json.loads(page.json_text(content(differing)))
     with pytest.raises(jsonschema.ValidationError):
         validator().validate(held | {"comparison": failure})
 
 
 def test_the_schema_finds_what_is_wrong(differing):
-    held = json.loads(document.json_text(content(differing)))
+    held = json.loads(page.json_text(content(differing)))
     for broken in (
         held | {"size": [48]},
         held | {"schema": "another"},
@@ -232,14 +232,14 @@ def test_causes_are_those_found(differing):
 
 
 def test_what_does_not_fit_is_left_out_and_said(differing):
-    whole_ = packing.size(content(differing)["pixels"])
+    whole_ = arrays.size(content(differing)["pixels"])
     held = content(differing, limit=whole_ - 1)
     assert held["pixels"]["colors"] is None and held["pixels"]["surfaces"]
     assert "linear colours" in " ".join(held["left_out"])
     held = content(differing, limit=0)
     assert held["pixels"]["surfaces"] is held["pixels"]["t_offset"] is None
     assert len(held["left_out"]) == 3
-    validator().validate(json.loads(document.json_text(held)))
+    validator().validate(json.loads(page.json_text(held)))
 
 
 def test_extras_are_the_literal_picture_and_derivations(differing):
@@ -268,7 +268,7 @@ def test_a_cancelled_picture_has_a_page(room, compared):
     comparison.frame.rows_done[:] = empty.rows_done
     held = content(comparison)
     assert held["comparison"]["verdict"] == "cancelled"
-    validator().validate(json.loads(document.json_text(held)))
+    validator().validate(json.loads(page.json_text(held)))
 
 
 def test_pages_need_no_library_but_numpy(differing, tmp_path, monkeypatch):

@@ -8,7 +8,7 @@ import struct
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.report.page import surfaces
+from reference_tracer.report.page import arrays
 from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions_of
 from reference_tracer.tracer.world import world_corners
@@ -84,7 +84,7 @@ def test_the_traced_t_is_there_to_the_last_bit(show, room, compared, orthographi
     expected = [struct.pack(">d", t).hex() for t in comparison.frame.t.ravel()]
     assert found == expected
     assert (
-        surfaces.t_offsets(comparison.scene, comparison.frame, surfaces.seen(comparison.frame))
+        arrays.t_offsets(comparison.scene, comparison.frame, arrays.seen(comparison.frame))
     ).any()
 
 

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from reference_tracer.manifest import ObjectEntry
 from reference_tracer.report import page
-from reference_tracer.report.page import document
 from reference_tracer.report.page.content import content
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
@@ -141,7 +140,7 @@ def test_a_page_without_what_was_left_out(show, differing):
 def test_studies_are_shown_with_their_plots(show, differing):
     trade = result_of(tradeoff.measure(differing.scene, 24, 2, "a.blend"))
     rows = result_of(extremes.measure(SCENARIOS[:1], 40))
-    held = json.loads(document.json_text(content(differing, page.Extras(trade, rows))))
+    held = json.loads(page.json_text(content(differing, page.Extras(trade, rows))))
     tab = show(differing, held=held)
     text = tab.locator("#tables").inner_text()
     assert trade.advice not in text and "where methods break" in text  # the plot has it
@@ -154,7 +153,7 @@ def test_studies_are_shown_with_their_plots(show, differing):
 
 def test_advice_without_a_plot_is_text(show, differing):
     trade = result_of(tradeoff.measure(differing.scene, 24, 1, "a.blend"))
-    held = json.loads(document.json_text(content(differing, page.Extras(trade))))
+    held = json.loads(page.json_text(content(differing, page.Extras(trade))))
     held["trade"]["plots"] = []
     assert trade.advice in show(differing, held=held).locator("#tables").inner_text()
 

@@ -1,10 +1,88 @@
 """A `Comparison` -> one HTML file that opens offline and says why each pixel differs.
 
-`page.html`, `page.css` and the scripts here are the page; `content.py` gathers what it shows, and
-`document.py` joins the two into one file. What the embedded JSON holds is in `page.schema.json`.
+`content.py` gathers what it shows, and `page.schema.json` says what that is. `page.html` names its
+style sheets and its scripts; the written file holds their contents in place of their names. A
+Content Security Policy lets only these scripts run and nothing be fetched, so that no name in a
+scene can do either.
 """
 
-from .document import NAME, write
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ...compare.comparison import Comparison
+from ...explain import html as explained
+from ..folders import replacing_file
+from .content import content
 from .extras import Extras, extras
 
-__all__ = ["NAME", "Extras", "extras", "write"]
+__all__ = ["NAME", "Extras", "extras", "html", "json_text", "write"]
+NAME = "page.html"  # of the file that a comparison leaves
+
+_HERE = Path(__file__).parent
+_STYLE = re.compile(r'<link rel="stylesheet" href="([\w.]+)" />')
+_SCRIPT = re.compile(r'<script src="([\w.]+)"></script>')
+_POLICY = "<!-- policy -->"
+_DATA = '<script type="application/json" id="data"></script>'
+
+
+def write(path: str | Path, comparison: Comparison, extras: Extras | None = None) -> None:
+    """Write the page of a comparison, and of what else was found out.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written.
+    """
+    text = html(content(comparison, extras))
+    with replacing_file(Path(path)) as new:
+        new.write_text(text, encoding="utf-8")
+
+
+def html(held: Mapping[str, Any]) -> str:
+    """Return the page that shows this content."""
+    text = _text("page.html")
+    policy = _policy([_text(name) for name in _SCRIPT.findall(text)])
+    # As functions: what replaces a match may hold backslashes.
+    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", text)
+    text = text.replace("</head>", f"<style>{explained.STYLE}</style>\n</head>")
+    text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
+    data = _DATA.replace("></", f">{json_text(held)}</")
+    return text.replace(_POLICY, policy).replace(_DATA, data)
+
+
+def json_text(held: Mapping[str, Any]) -> str:
+    """Return JSON that cannot end a script element, whatever names it holds.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite.
+    """
+    text = json.dumps(held, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
+    for letter in "<>&":  # which JSON has inside strings only
+        text = text.replace(letter, f"\\u{ord(letter):04x}")
+    return text.encode("utf-8", "replace").decode("utf-8")  # a lone surrogate is no UTF-8
+
+
+def _text(name: str) -> str:
+    return (_HERE / name).read_text(encoding="utf-8")
+
+
+def _policy(scripts: Sequence[str]) -> str:
+    """Return the policy: these scripts, the page's own style and pictures, and no address."""
+    hashes = " ".join(
+        f"'sha256-{base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()}'"
+        for s in scripts
+    )
+    return (
+        '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
+        f"img-src data: blob:; style-src 'unsafe-inline'; script-src {hashes}; "
+        "base-uri 'none'; form-action 'none'\" />"
+    )

@@ -7,6 +7,7 @@ arrays. The least useful arrays are left out where the page would grow beyond LI
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import astuple
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from numpy.typing import NDArray
 from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
-from ...images import MissingLibraryError, to_display
-from ...scene import Camera, Scene
+from ...images import MissingLibraryError, data_uri, to_display
+from ...scene import Camera
 from ...study.extremes import Row
 from ...study.trade import Trade
 from ...tracer.certified.certainty import Certainty
@@ -24,9 +25,9 @@ from ...tracer.frame import Frame
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
-from . import surfaces
+from . import arrays
+from .arrays import packed
 from .extras import Extras
-from .packing import data_uri, packed, size
 
 SCHEMA = "reference_tracer.page/1"
 LIMIT = 32 << 20  # characters of the packed arrays: what a browser still opens at once
@@ -44,13 +45,7 @@ def content(
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
-    Parameters
-    ----------
-    comparison : Comparison
-    extras : Extras, optional
-        What else was found out.
-    limit : int
-        Characters that the packed arrays may take.
+    `extras` is what else was found out; `limit`, how many characters the packed arrays may take.
     """
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
@@ -63,7 +58,10 @@ def content(
         "camera": _camera(scene.camera),
         "objects": list(scene.objects),
         "object_of": scene.instance_objects[:-1].tolist(),
-        "planes": [_plane(p, k) for k, p in enumerate(scene.planes, len(scene.instances))],
+        "planes": [
+            {"instance": k, "point": p.point.tolist(), "normal": p.normal.tolist()}
+            for k, p in enumerate(scene.planes, len(scene.instances))
+        ],
         "causes": _causes(comparison),
         "certainties": {
             str(int(c)): {"name": _words(c.name), "sentence": text}
@@ -83,24 +81,15 @@ def content(
 
 
 def _camera(camera: Camera) -> dict[str, Any]:
-    r, w = camera.region, camera.window
     return {
         "name": camera.name,
         "world_from_camera": camera.world_from_camera.tolist(),
-        "window": [w.left, w.right, w.bottom, w.top],
+        "window": list(astuple(camera.window)),
         "width": camera.width,
         "height": camera.height,
-        "region": [r.x0, r.y0, r.x1, r.y1],
+        "region": list(astuple(camera.region)),
         "orthographic": camera.projection.in_files,
         "clip": [camera.clip_start, camera.clip_end],
-    }
-
-
-def _plane(plane: Any, instance: int) -> dict[str, Any]:
-    return {
-        "instance": instance,
-        "point": plane.point.tolist(),
-        "normal": plane.normal.tolist(),
     }
 
 
@@ -149,31 +138,28 @@ def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, s
 
 def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[str]]:
     """Return as many of the pixels' numbers as fit, and sentences on what was left out."""
-    scene, frame, causes = comparison.scene, comparison.frame, comparison.causes
-    seen = surfaces.seen(frame)
+    frame, causes = comparison.frame, comparison.causes
+    seen = arrays.seen(frame)
     index = np.flatnonzero(causes.cause != Cause.AGREE)
+    differing = {"index": packed(index.astype(np.uint32))}
+    for name in ("cause", "figure", "allowed"):
+        differing[name] = packed(getattr(causes, name).ravel()[index])
     found: dict[str, Any] = {
-        "differing": {
-            "index": packed(index.astype(np.uint32)),
-            "cause": packed(causes.cause.ravel()[index]),
-            "figure": packed(causes.figure.ravel()[index]),
-            "allowed": packed(causes.allowed.ravel()[index]),
-        },
+        "differing": differing,
         "certainty": packed(frame.certainty),
         "surface": packed(seen.number),
-        "surfaces": None,
-        "t_offset": None,
-        "colors": None,
+        **dict.fromkeys(("surfaces", "t_offset", "colors")),
     }
     if (identity := comparison.identity) is not None:
         found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
-    missing, taken = [], size(found)
-    for name, what, made in _by_priority(scene, comparison, seen):
+    missing, taken = [], arrays.size(found)
+    for name, what, made in _by_priority(comparison, seen):
         part = made()
-        if taken + size(part) <= limit:
-            found[name], taken = part, taken + size(part)
+        size = arrays.size(part)
+        if taken + size <= limit:
+            found[name], taken = part, taken + size
         else:
-            millions = size(part) / 1e6
+            millions = size / 1e6
             missing.append(f"{what}: left out, as they would add {millions:.0f} MB to this page.")
     if found["surfaces"] is None and found["t_offset"] is not None:
         found["t_offset"] = None
@@ -181,26 +167,17 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
 
 
 def _by_priority(
-    scene: Scene, comparison: Comparison, seen: surfaces.Surfaces
+    comparison: Comparison, seen: arrays.Surfaces
 ) -> list[tuple[str, str, Callable[[], dict[str, Any]]]]:
     """Return the name, description and maker of each optional array, the most useful first."""
-    frame = comparison.frame
+    scene, frame = comparison.scene, comparison.frame
+    triangles = "The triangles that are seen, and with them t and the derivation of every pixel"
+    colors = "The linear colours of every pixel (those of the screen are there)"
+    both = {"traced": frame.color, "blender": comparison.picture}
     return [
-        (
-            "surfaces",
-            "The triangles that are seen, and with them t and the derivation of every pixel",
-            lambda: surfaces.table(scene, seen),
-        ),
-        (
-            "t_offset",
-            "The last bits of t",
-            lambda: packed(surfaces.t_offsets(scene, frame, seen)),
-        ),
-        (
-            "colors",
-            "The linear colours of every pixel (those of the screen are there)",
-            lambda: {"traced": packed(frame.color), "blender": packed(comparison.picture)},
-        ),
+        ("surfaces", triangles, lambda: arrays.table(scene, seen)),
+        ("t_offset", "The last bits of t", lambda: packed(arrays.t_offsets(scene, frame, seen))),
+        ("colors", colors, lambda: {side: packed(color) for side, color in both.items()}),
     ]
 
 
@@ -219,8 +196,7 @@ def _study(found: Any, to_dict: Callable, plots: Callable, missing: list[str]) -
         return None
     shown = []
     try:
-        for name, picture in plots(found):
-            shown.append({"name": name, "png": data_uri(picture)})
+        shown += ({"name": name, "png": data_uri(picture)} for name, picture in plots(found))
     except MissingLibraryError as error:
         missing.append(f"Plots: {error}.")
     return to_dict(found) | {"plots": shown}

@@ -38,9 +38,7 @@ class Extras:
 
 
 def extras(
-    comparison: Comparison,
-    measure_trade: bool = False,
-    measure_extremes: bool = False,
+    comparison: Comparison, measure_trade: bool = False, measure_extremes: bool = False
 ) -> Work[Extras]:
     """Find out what a page shows beside a comparison; yields the share of the work done."""
     left_out: list[str] = []

@@ -1,12 +1,14 @@
-"""What a traced picture sees -> a table of its surfaces, small enough for a page.
+"""Arrays -> text within a page, which its `data.js` unpacks; among them, the surfaces of a picture.
 
-A pixel holds the number of its surface in the table, 0 for none. The table holds vertices and
+A pixel holds the number of its surface in a table, 0 for none. The table holds vertices and
 matrices as the scene has them. The page computes world-space corners from these as the tracer does,
 so that all numbers that follow have the same bits.
 """
 
 from __future__ import annotations
 
+import base64
+import zlib
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,9 +22,34 @@ from ...tracer.camera import Rays, camera_rays, film_positions_of
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.world import world_corners
-from .packing import packed
 
+_LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
 _TOGETHER = 1 << 16  # pixels: some MiB of temporaries
+
+
+def packed(values: NDArray) -> dict[str, Any]:
+    """Return an array's type, its shape, and its bytes, deflated (zlib) and in base64.
+
+    The first bytes of all numbers come first, then all second ones, and so on, so that the
+    exponents of neighbouring numbers stand side by side and compress. Numbers are little-endian.
+    """
+    values = np.ascontiguousarray(values)
+    values = values.astype(values.dtype.newbyteorder("<"), copy=False)
+    planes = values.reshape(-1).view(np.uint8).reshape(-1, values.dtype.itemsize).T
+    return {
+        "type": values.dtype.name,
+        "shape": list(values.shape),
+        "data": base64.b64encode(zlib.compress(np.ascontiguousarray(planes), _LEVEL)).decode(
+            "ascii"
+        ),
+    }
+
+
+def size(value: Any) -> int:
+    """Return how many characters the packed arrays in a value take."""
+    if isinstance(value, dict):
+        return sum(map(size, value.values()))
+    return len(value) if isinstance(value, str) else 0
 
 
 @dataclass(frozen=True, eq=False)
