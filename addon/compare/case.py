@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.settings import Settings
-from .cause import Hidden
 from .certificate import CameraCertificate
 from .picture import Curve, Picture
 
@@ -31,13 +30,10 @@ class Case:
 
     Parameters
     ----------
-    scene : Scene
-    manifest : Manifest
     settings : Settings
         How the scene is traced.
     picture : Picture
         What it is compared with.
-    certificate : CameraCertificate, optional
     alternatives : tuple of Alternative
         The scene as the other side may have it.
     curves : tuple of Curve, optional
@@ -59,12 +55,10 @@ class Case:
     self_check: bool = False
     next_frame: Scene | None = None
 
-    def absent(self) -> Iterator[tuple[int, Hidden]]:
-        """Yield the number and the reason of each object that may be shown, and is not traced."""
-        why = {e.name: e.reason for e in self.manifest.objects if e.hidden}
-        for number, name in enumerate(self.picture.names):
-            if name in why:
-                yield number, Hidden(name, why[name])
+    def exported(self, change: Callable[[Scene], Scene]) -> Case:
+        """Return the same with the scene and the alternatives changed alike."""
+        others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
+        return replace(self, scene=change(self.scene), alternatives=others)
 
     def before(self, background: NDArray[np.float32]) -> Case:
         """Return the same with every scene, and the picture, before a background, linear RGBA."""
@@ -72,10 +66,6 @@ class Case:
         def behind(scene: Scene) -> Scene:
             return replace(scene, background=background)
 
-        return replace(
-            self,
-            scene=behind(self.scene),
-            picture=replace(self.picture, background=background),
-            alternatives=tuple(replace(a, scene=behind(a.scene)) for a in self.alternatives),
-            next_frame=self.next_frame and behind(self.next_frame),
-        )
+        picture = replace(self.picture, background=background)
+        then = self.next_frame and behind(self.next_frame)
+        return replace(self.exported(behind), picture=picture, next_frame=then)

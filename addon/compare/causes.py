@@ -19,12 +19,12 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps, tiles
+from .bounds import sample_band
 from .case import Case
 from .cause import Cause, Causes
-from .checks import anti_aliasing, clip, color, edges, hidden, unmodelled
+from .checks import anti_aliasing, clip, color, edges, hidden
 from .checks.background import Background, find_background
-from .checks.band import sample_bands
-from .checks.open_pixels import OpenPixels
+from .checks.probe import OpenPixels
 
 DECIDABLE = 0.5  # pixels: within a larger band, what lies there explains nothing
 
@@ -35,9 +35,9 @@ CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
     (anti_aliasing.check, 0.1),
     (edges.check, 0.6),
     (clip.check, 0.1),
-    (unmodelled.in_its_place, 0.01),
+    (hidden.unmodelled_in_its_place, 0.01),
     (hidden.check, 0.16),
-    (unmodelled.everywhere, 0.01),
+    (hidden.unmodelled_everywhere, 0.01),
 ]
 _OPENING = 0.1  # of the work, before the checks
 
@@ -52,15 +52,9 @@ class Explained(NamedTuple):
 
 
 def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explained]:
-    """Do all that says why pixels differ: the comparison and its self-check do the same.
+    """Say why the pixels of a traced frame differ; the comparison and its self-check do the same.
 
-    Parameters
-    ----------
-    case : Case
-    frame : Frame
-        What was traced of its scene.
-    at_most : int, optional
-        As :func:`find_causes` has it.
+    No more than `at_most` differing pixels are looked at, if given: see :func:`find_causes`.
     """
     background = None
     if case.curves is not None and not frame.cancelled:
@@ -84,16 +78,10 @@ def _before(case: Case, frame: Frame) -> Work[Frame]:
 
 
 def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Causes]:
-    """Give every pixel of a picture its cause; yields the share of the work done.
+    """Give every pixel of a traced frame its cause; yields the share of the work done.
 
-    Parameters
-    ----------
-    case : Case
-    frame : Frame
-        What was traced of its scene.
-    at_most : int, optional
-        Look at no more than so many differing pixels, spread over the picture; the others keep
-        AGREE, and are counted in `Causes.passed_over`.
+    No more than `at_most` differing pixels are looked at, if given, spread over the picture; the
+    others keep AGREE, and are counted in `Causes.passed_over`.
     """
     picture = case.picture
     if any(u.everywhere and u.recolours for u in case.manifest.unmodelled):
@@ -116,7 +104,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
     """Open the pixels that differ, but those of which nothing can be said; find the band."""
     scene, frame, region = pixels.case.scene, pixels.frame, pixels.case.scene.camera.region
     all_rows = [slice(t.y0 - region.y0, t.y1 - region.y0) for t in tiles(scene.camera)]
-    pixels.band = yield from sample_bands(scene, frame, all_rows)
+    pixels.band = yield from sample_band(scene, frame, all_rows)
     pixels.band += pixels.picture.sample_radius
     for rows in all_rows:
         part, seen = pixels.rows(rows), frame.instance_index[rows]

@@ -86,13 +86,8 @@ def certify(
 ) -> CameraCertificate:
     """Return the certificate of a camera.
 
-    Parameters
-    ----------
-    camera : Camera
-    points : (3, n) float64
-        World space, as :func:`known_points` gives them.
-    film : (2, n) float64
-        Where Blender's own matrix has them, in pixels of the whole picture.
+    `points` (3, n) are in world space, as :func:`known_points` gives them; `film` (2, n) is where
+    Blender's own matrix has them, in pixels of the whole picture.
     """
     x, y, depth = film_of(camera, points)
     distance = np.hypot(film[0] - x, film[1] - y)

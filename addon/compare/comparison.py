@@ -18,12 +18,10 @@ from .case import Case
 from .cause import Cause, Causes
 from .causes import explain
 from .checks.background import Background
-from .counts import boundary, count_pixels
 from .identity import Identity
 from .methods import MethodRow, list_methods
-from .metrics import measure
-from .self_check import FaultRow, self_check
-from .words import lines
+from .metrics import boundary, count_pixels, measure
+from .self_check import FaultRow, self_check, table
 
 SCHEMA = "reference_tracer.comparison/1"
 
@@ -128,7 +126,53 @@ class Comparison:
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        return lines(self)
+        p, m, statistics = self.pixels, self.metrics, self.frame.statistics
+        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
+        x, y = m["largest_difference"]["pixel"]
+        return [
+            f"{p['agree']:,} of {p['total']:,} pixels agree with {self.case.picture.source}, "
+            f"{p['differ']:,} differ",
+            *(
+                f"  {c.label}: {n:,}{_at(p['examples'].get(c.key, ()))}"
+                for c in sorted(Cause)
+                if (n := p["by_cause"].get(c.key))
+            ),
+            *self._evidence(),
+            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
+            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
+            f"traced {statistics.triangles:,} triangles in {statistics.seconds:.2f} s",
+            *(row.line() for row in self.methods),
+            *self.required,
+            *table(self.self_check),
+            f"verdict: {self.verdict}",
+        ]
+
+    def _evidence(self) -> list[str]:
+        """Say what else was found out of the pixels that differ."""
+        p, causes = self.pixels, self.causes
+        inside, rim = p["interior"], p["boundary"]
+        certificate, hidden, told = self.case.certificate, dict.fromkeys(causes.hidden), ""
+        if self.identity and p["unexplained"]:
+            shows = p["unexplained_shows"]
+            told = (
+                f"of the unexplained pixels {shows['same_object']:,} show the same object in "
+                f"another colour, {shows['other_object']:,} another object"
+            )
+        facts = (
+            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
+            f"{rim['total']:,} boundary pixels differ",
+            self.background and self.background.line(),
+            causes.transform and f"colours: {causes.transform}",
+            *(f"only one side shows '{h.object}': {h.reason}" for h in hidden),
+            told,
+            certificate and certificate.line(),
+        )
+        return [fact for fact in facts if fact]
+
+
+def _at(pixels: list[list[int]]) -> str:
+    """Say where the first of some pixels are."""
+    return f", as at {', '.join(f'({x}, {y})' for x, y in pixels[:3])}" if pixels else ""
 
 
 def trace_and_compare(case: Case) -> Work[Comparison]:
@@ -159,7 +203,12 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     SizeError
         If the picture is not of the frame's size.
     """
-    check_sizes(case.picture.color, frame.color)
+    shown, traced = case.picture.color.shape, frame.color.shape
+    if shown != traced:
+        raise SizeError(
+            f"The picture has {shown[1]} x {shown[0]} pixels, the traced one {traced[1]} x "
+            f"{traced[0]}."
+        )
     share = (1 - _CHECKING if case.self_check else 1.0) * _CAUSES
     found = yield from scaled(explain(case, frame), 0.0, share)
     picture, frame_then = found.case.picture, found.frame
@@ -174,22 +223,5 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
         checking = self_check(case, frame, found.causes)
         faults = yield from scaled(checking, 1 - _CHECKING, _CHECKING)
     counted = count_pixels(found.causes, boundary(frame_then), identity)
-    return Comparison(
-        found.case,
-        frame_then,
-        found.causes,
-        counted,
-        measured,
-        identity=identity,
-        self_check=faults,
-        background=found.background,
-    )
-
-
-def check_sizes(picture: NDArray, traced: NDArray) -> None:
-    """Raise a SizeError if two pictures (h, w, 4) are not of one size."""
-    if picture.shape != traced.shape:
-        raise SizeError(
-            f"The picture has {picture.shape[1]} x {picture.shape[0]} pixels, the traced one "
-            f"{traced.shape[1]} x {traced.shape[0]}."
-        )
+    made = Comparison(found.case, frame_then, found.causes, counted, measured)
+    return replace(made, identity=identity, self_check=faults, background=found.background)

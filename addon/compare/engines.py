@@ -10,8 +10,8 @@ import numpy as np
 
 from .cause import Cause
 from .comparison import EXIT_CODES, Comparison
-from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
+from .metrics import EXAMPLES
 
 SCHEMA = "reference_tracer.engines/1"
 
@@ -56,7 +56,7 @@ def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
         told = Cause(cause[y, x])
         row = {
             "pixel": [int(x), int(y)],
-            "traced": _object(comparison, int(frame.object_index[y, x])),
+            "traced": _name(comparison.scene.objects, int(frame.object_index[y, x])),
             "triangle": int(frame.triangle_index[y, x]),
             "cause": told.label,
             "why": told.told(causes.figure[y, x], causes.allowed[y, x]),
@@ -65,10 +65,6 @@ def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
             row["shown"] = _name(identity.names, int(identity.shown[y, x]))
         out.append(row)
     return out
-
-
-def _object(comparison: Comparison, index: int) -> str:
-    return "nothing" if index == NOTHING else comparison.scene.objects[index]
 
 
 def _name(names: Sequence[str], index: int) -> str:
@@ -83,8 +79,5 @@ def worst(rows: Sequence[EngineRow]) -> str:
 
 def to_dict(rows: Sequence[EngineRow]) -> dict[str, Any]:
     """Return all engines as JSON can hold them."""
-    return {
-        "schema": SCHEMA,
-        "engines": [row.to_dict() for row in rows],
-        "verdict": worst(rows),
-    }
+    engines = [row.to_dict() for row in rows]
+    return {"schema": SCHEMA, "engines": engines, "verdict": worst(rows)}

@@ -21,15 +21,9 @@ from .case import Case
 Make = Callable[[Case, Frame], Case | None]  # of a comparison's case, and what was traced of it
 
 
-def _exported(case: Case, change: Callable[[Scene], Scene]) -> Case:
-    """Change the scene and the alternatives alike."""
-    others = tuple(replace(a, scene=change(a.scene)) for a in case.alternatives)
-    return replace(case, scene=change(case.scene), alternatives=others)
-
-
 def _camera(case: Case, **changes: object) -> Case:
     camera = replace(case.scene.camera, **changes)
-    return _exported(case, lambda scene: replace(scene, camera=camera))
+    return case.exported(lambda scene: replace(scene, camera=camera))
 
 
 def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) -> Case:
@@ -40,10 +34,27 @@ def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) ->
     return _camera(case, window=ViewWindow(left + x, right + x, bottom + y, top + y))
 
 
-def _axes(case: Case, change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Case:
-    matrix = case.scene.camera.world_from_camera.copy()
-    matrix[:3, :3] = change(matrix[:3, :3])
-    return _camera(case, world_from_camera=matrix)
+def _axes(change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Make:
+    """Change the axes of the camera."""
+
+    def make(case: Case, _: Frame) -> Case:
+        matrix = case.scene.camera.world_from_camera.copy()
+        matrix[:3, :3] = change(matrix[:3, :3])
+        return _camera(case, world_from_camera=matrix)
+
+    return make
+
+
+def _picture(change: Callable[[NDArray], NDArray], moves: bool = False) -> Make:
+    """Change the picture, and whose surfaces it shows where its pixels move."""
+
+    def make(case: Case, _: Frame) -> Case:
+        picture = case.picture
+        color = np.ascontiguousarray(change(picture.color.copy()))
+        owner = change(picture.owner) if moves and picture.owner is not None else picture.owner
+        return replace(case, picture=replace(picture, color=color, owner=owner))
+
+    return make
 
 
 def _seen(case: Case, frame: Frame) -> list[int]:
@@ -74,7 +85,7 @@ def _instance(case: Case, number: int, change: Callable[[Instance], Instance | N
             instances[own : own + 1] = [i for i in [change(instances[own])] if i is not None]
         return replace(scene, instances=tuple(instances))
 
-    return _exported(case, changed)
+    return case.exported(changed)
 
 
 def sensor_fit(case: Case, _: Frame) -> Case:
@@ -93,18 +104,12 @@ def clip_start(case: Case, frame: Frame) -> Case | None:
 
 def flipped_winding(case: Case, _: Frame) -> Case:
     """Turn the normals of all triangles over."""
-    return _exported(
-        case, lambda scene: replace(scene, meshes=tuple(_flipped(m) for m in scene.meshes))
-    )
+    return case.exported(lambda s: replace(s, meshes=tuple(_flipped(m) for m in s.meshes)))
 
 
 def _flipped(mesh: Mesh) -> Mesh:
-    colors = mesh.corner_colors
-    return replace(
-        mesh,
-        triangles=mesh.triangles[:, ::-1],
-        corner_colors=None if colors is None else colors[:, ::-1],
-    )
+    colors = None if mesh.corner_colors is None else mesh.corner_colors[:, ::-1]
+    return replace(mesh, triangles=mesh.triangles[:, ::-1], corner_colors=colors)
 
 
 def dropped_instance(case: Case, frame: Frame) -> Case | None:
@@ -127,23 +132,19 @@ def dropped_triangle(case: Case, frame: Frame) -> Case | None:
 
     def less(scene: Scene) -> Scene:
         own, meshes = _in(scene, case.scene, instance), list(scene.meshes)
-        if own is not None and triangle < len(
-            (mesh := meshes[number := scene.instances[own].mesh]).triangles
-        ):
-            meshes[number] = _less(mesh, triangle)
+        if own is not None:
+            number = scene.instances[own].mesh
+            meshes[number] = _less(meshes[number], triangle)
         return replace(scene, meshes=tuple(meshes))
 
-    return _exported(case, less)
+    return case.exported(less)
 
 
 def _less(mesh: Mesh, triangle: int) -> Mesh:
-    colors = mesh.corner_colors
-    return replace(
-        mesh,
-        triangles=np.delete(mesh.triangles, triangle, axis=0),
-        slots=np.delete(mesh.slots, triangle),
-        corner_colors=None if colors is None else np.delete(colors, triangle, axis=0),
-    )
+    kept = np.arange(len(mesh.triangles)) != triangle
+    colors = None if mesh.corner_colors is None else mesh.corner_colors[kept]
+    triangles, slots = mesh.triangles[kept], mesh.slots[kept]
+    return replace(mesh, triangles=triangles, slots=slots, corner_colors=colors)
 
 
 def moved_object(case: Case, frame: Frame) -> Case | None:
@@ -181,17 +182,6 @@ def wrong_frame(case: Case, _: Frame) -> Case | None:
     return replace(case, scene=case.next_frame)
 
 
-def _picture(case: Case, change: Callable[[NDArray], NDArray]) -> Case:
-    color = np.ascontiguousarray(change(case.picture.color.copy()))
-    return replace(case, picture=replace(case.picture, color=color))
-
-
-def _moved_picture(case: Case, change: Callable[[NDArray], NDArray]) -> Case:
-    owner, wrong = case.picture.owner, _picture(case, change)
-    owner = None if owner is None else change(owner)
-    return replace(wrong, picture=replace(wrong.picture, owner=owner))
-
-
 def _gamma(color: NDArray) -> NDArray:
     color[..., :3] = np.sign(color[..., :3]) * np.abs(color[..., :3]) ** np.float32(1 / 2.2)
     return color
@@ -208,20 +198,10 @@ class Fault(NamedTuple):
 FAULTS = (
     Fault("half_pixel", "rays through the pixels' corners", lambda c, _: _window(c, 1, 0.5, 0.5)),
     Fault("one_pixel", "the camera off by a pixel to the right", lambda c, _: _window(c, 1, 1)),
-    Fault(
-        "mirrored_x",
-        "the camera mirrored left to right",
-        lambda c, _: _axes(c, lambda m: m * (-1, 1, 1)),
-    ),
-    Fault(
-        "mirrored_y",
-        "the camera mirrored upside down",
-        lambda c, _: _axes(c, lambda m: m * (1, -1, 1)),
-    ),
+    Fault("mirrored_x", "the camera mirrored left to right", _axes(lambda m: m * (-1, 1, 1))),
+    Fault("mirrored_y", "the camera mirrored upside down", _axes(lambda m: m * (1, -1, 1))),
     Fault("sensor_fit", "the lens fitted to the picture's other side", sensor_fit),
-    Fault(
-        "camera_transposed", "the camera's rotation inverted", lambda c, _: _axes(c, np.transpose)
-    ),
+    Fault("camera_transposed", "the camera's rotation inverted", _axes(np.transpose)),
     Fault("clip_start", "the clip start halfway into the scene", clip_start),
     Fault("flipped_winding", "all normals turned over", flipped_winding),
     Fault("dropped_instance", "the largest object left out", dropped_instance),
@@ -229,16 +209,8 @@ FAULTS = (
     Fault("moved_object", "the largest object moved by a pixel", moved_object),
     Fault("swapped_colors", "two objects with one another's colours", swapped_colors),
     Fault("wrong_frame", "the scene a frame later", wrong_frame),
-    Fault(
-        "border",
-        "the border off by one row",
-        lambda c, _: _moved_picture(c, lambda v: np.roll(v, 1, axis=0)),
-    ),
-    Fault(
-        "rows", "the picture's rows from top to bottom", lambda c, _: _moved_picture(c, np.flipud)
-    ),
-    Fault(
-        "channels", "red and blue swapped", lambda c, _: _picture(c, lambda v: v[..., [2, 1, 0, 3]])
-    ),
-    Fault("gamma", "a gamma of 2.2 applied to the picture", lambda c, _: _picture(c, _gamma)),
+    Fault("border", "the border off by one row", _picture(lambda v: np.roll(v, 1, axis=0), True)),
+    Fault("rows", "the picture's rows from top to bottom", _picture(np.flipud, moves=True)),
+    Fault("channels", "red and blue swapped", _picture(lambda v: v[..., [2, 1, 0, 3]])),
+    Fault("gamma", "a gamma of 2.2 applied to the picture", _picture(_gamma)),
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -41,46 +40,29 @@ class MethodRow:
 def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[MethodRow, ...]]:
     """Trace a scene by the textbook and certified, too; yields the share of the work done.
 
-    Parameters
-    ----------
-    scene : Scene
-    settings : Settings
-        What `frame` was traced with.
-    frame : Frame
-
-    Returns
-    -------
-    tuple of MethodRow
-        Certified where that is possible, the textbook in float64, and what `frame` is if neither.
+    Returns a row of the certified tracer where that is possible, of the textbook in float64, and of
+    `frame`, which was traced with `settings`, if it is neither.
     """
-    certified = None if broken_assumptions() else (Method.CERTIFIED, Precision.FLOAT64)
     own = Method(frame.statistics.method), settings.precision
-    frames = {own: frame}
-    wanted = [w for w in (certified, (Method.TEXTBOOK, Precision.FLOAT64)) if w]
-    missing = [w for w in wanted if w not in frames]
-    for number, (method, precision) in enumerate(missing):
-        traced = frames[method, precision] = Frame.empty(scene)
-        tracing = steps(scene, Settings(method, precision), traced)
+    possible = [Method.TEXTBOOK] if broken_assumptions() else [Method.CERTIFIED, Method.TEXTBOOK]
+    wanted = [(method, Precision.FLOAT64) for method in possible]
+    frames = dict.fromkeys(wanted) | {own: frame}
+    missing = [w for w in wanted if w != own]
+    for number, key in enumerate(missing):
+        frames[key] = Frame.empty(scene)
+        tracing = steps(scene, Settings(*key), frames[key])
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
-    truth = frames[certified] if certified else None
-    order: Sequence = [*wanted, *(f for f in frames if f not in wanted)]
+    truth = frames[wanted[0]] if Method.CERTIFIED in possible else None
     return tuple(
-        _row(method, precision, settings.samples if key == own else 1, frames[key], truth)
-        for key in order
-        for method, precision in [key]
+        _row(*key, settings.samples if key == own else 1, traced, truth)
+        for key, traced in frames.items()
     )
 
 
-def _row(method, precision, samples: int, frame: Frame, truth: Frame | None) -> MethodRow:
+def _row(
+    method: Method, precision: Precision, samples: int, frame: Frame, truth: Frame | None
+) -> MethodRow:
     wrong = None if truth is None else int(frame.wrong_against(truth).sum())
     ambiguous = 0 if truth is None else int((truth.certainty == Certainty.AMBIGUOUS).sum())
-    took = frame.statistics
-    return MethodRow(
-        method.value,
-        precision.value,
-        samples,
-        took.seconds,
-        wrong,
-        ambiguous,
-        tuple(took.required()),
-    )
+    names, took = (method.value, precision.value), frame.statistics
+    return MethodRow(*names, samples, took.seconds, wrong, ambiguous, tuple(took.required()))

@@ -1,4 +1,4 @@
-"""How far two pictures differ: RMSE, PSNR, SSIM and the largest difference.
+"""How far two pictures differ, and in how many pixels: RMSE, PSNR, SSIM, and counts by cause.
 
 Pictures are (h, w, c) of any real type; the data range is given, not guessed.
 """
@@ -10,9 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tracer.progress import Work, result_of, scaled
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, scaled
+from .cause import Cause, Causes
+from .identity import Identity
 
 ROWS = 32  # looked at together, so that a step of the work is short
+EXAMPLES = 10  # pixels named of each cause
 
 
 def rmse(first: NDArray, second: NDArray) -> float:
@@ -27,24 +31,12 @@ def rmse(first: NDArray, second: NDArray) -> float:
     return float(np.sqrt(np.mean((first.astype(np.float64) - second) ** 2)))
 
 
-def psnr(first: NDArray, second: NDArray, data_range: float = 1.0) -> float:
-    """Return the peak signal-to-noise ratio in decibels; infinite for equal pictures."""
-    return psnr_of(rmse(first, second), data_range)
-
-
-def psnr_of(error: float, data_range: float = 1.0) -> float:
-    """Return the peak signal-to-noise ratio in decibels of a root mean squared error."""
+def psnr(error: float, data_range: float = 1.0) -> float:
+    """Return the peak signal-to-noise ratio in decibels of an RMSE; infinite for equal pictures."""
     return float("inf") if error == 0 else float(20 * np.log10(data_range / error))
 
 
-def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7) -> float:
-    """Return the mean structural similarity of two pictures; see :func:`ssim_work`."""
-    return result_of(ssim_work(first, second, data_range, size))
-
-
-def ssim_work(
-    first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
-) -> Work[float]:
+def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7) -> Work[float]:
     """Return the mean structural similarity of two pictures, 1 for equal ones.
 
     Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to
@@ -104,10 +96,10 @@ def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[d
             largest = found | {"pixel": [found["pixel"][0], found["pixel"][1] + start]}
         yield 0.2 * start / height
     error = float(np.sqrt(squares / height))
-    similarity = yield from scaled(ssim_work(a, b), 0.2, 0.8)
+    similarity = yield from scaled(ssim(a, b), 0.2, 0.8)
     return {
         "rmse": error,
-        "psnr": psnr_of(error) if error else None,
+        "psnr": psnr(error) if error else None,
         "ssim": similarity,
         "largest_difference": largest,
     }
@@ -130,3 +122,61 @@ def _same_shape(first: NDArray, second: NDArray) -> None:
         raise ValueError(
             f"Pictures must be (h, w, c) of one size, not {first.shape} and {second.shape}."
         )
+
+
+def boundary(frame: Frame) -> NDArray[np.bool_]:
+    """Return which pixels see, with the eight around them, more than one appearance of an object.
+
+    The background is one, too. Beyond the picture's rim is what its outermost pixels see.
+    """
+    seen = np.pad(frame.instance_index, 1, mode="edge")
+    out = np.zeros(frame.instance_index.shape, bool)
+    height, width = out.shape
+    for y in range(3):
+        for x in range(3):
+            out |= seen[y : y + height, x : x + width] != frame.instance_index
+    return out
+
+
+def count_pixels(
+    causes: Causes, at_boundary: NDArray[np.bool_], identity: Identity | None = None
+) -> dict[str, Any]:
+    """Count pixels by what is said of them, and those at boundaries and inside apart.
+
+    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
+    `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
+    lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
+    unexplained is a wrong colour (the same object) or a wrong object.
+    """
+    cause = causes.cause
+    out = _counts(cause)
+    out["interior"] = _counts(cause[~at_boundary])
+    out["boundary"] = _counts(cause[at_boundary])
+    out["examples"] = {
+        c.key: _positions(cause == c) for c in sorted(Cause) if c.differs and out["by_cause"][c.key]
+    }
+    if identity is not None:
+        out["unexplained_shows"] = identity.counts(cause == Cause.UNEXPLAINED)
+    return out
+
+
+def _counts(cause: NDArray[np.uint8]) -> dict[str, Any]:
+    count = {c: int((cause == c).sum()) for c in sorted(Cause)}
+    explained = sum(n for c, n in count.items() if c.explains)
+    return {
+        "total": cause.size,
+        "agree": count[Cause.AGREE],
+        "differ": explained + count[Cause.UNEXPLAINED],
+        "explained": explained,
+        "unexplained": count[Cause.UNEXPLAINED],
+        "not_decidable": count[Cause.NOT_DECIDABLE],
+        "not_traced": count[Cause.NOT_TRACED],
+        "by_cause": {c.key: n for c, n in count.items() if c.differs or c is Cause.NOT_DECIDABLE},
+    }
+
+
+def _positions(where: NDArray[np.bool_]) -> list[list[int]]:
+    """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
+    found = np.flatnonzero(where)
+    chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)
+    return [[int(i % where.shape[1]), int(i // where.shape[1])] for i in found[chosen]]

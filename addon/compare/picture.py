@@ -52,7 +52,6 @@ class Picture:
     ----------
     color : (..., 4) float32
         Linear RGBA, alpha premultiplied.
-    source : Source
     owner : (...,) int32, optional
         Whose surface it is: an index of `names`, NOTHING or UNKNOWN.
     owners : (k + 1,) int32, optional
@@ -113,11 +112,7 @@ class Picture:
 
     def differ(self, scene: Scene, hits: Hits) -> NDArray[np.bool_]:
         """Return which of n hits show something else than these n pixels."""
-        other = self.other_object(hits.instance)
-        if self.lit:
-            return other | ~self.known(hits.instance)
-        ramp = shading.interpolated(scene, hits.instance)
-        return other | self.other_color(shading.colors(scene, hits), ramp)
+        return self.other_object(hits.instance) | ~self.same_color(scene, hits)
 
     def other_color(
         self, colors: NDArray, interpolated: NDArray[np.bool_] | bool = False
@@ -154,9 +149,7 @@ class Picture:
 
     def other_object(self, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
         """Return where another object is known to be shown than that of the instances (...)."""
-        if self.owner is None:
-            return np.zeros(instance.shape, bool)
-        return (self.owner != UNKNOWN) & (self.owner != self.owners[instance])
+        return self.known(instance) & ~self.same_object(instance)
 
     def same_color(self, scene: Scene, hits: Hits) -> NDArray[np.bool_]:
         """Return which of n hits have the colour of these n pixels; of lit ones, all may."""

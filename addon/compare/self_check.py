@@ -10,7 +10,7 @@ number of pixels that it changed, and not counted as caught.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -75,51 +75,43 @@ def self_check(
 ) -> Work[tuple[FaultRow, ...]]:
     """Make every fault and see what becomes of it; yields the share of the work done.
 
-    Parameters
-    ----------
-    case : Case
-        The right one, as it was given.
-    frame : Frame
-        What was traced of it.
-    causes : Causes
-        What was found of it.
-    faults : sequence of Fault, optional
+    `case` is the right one, as it was given; `frame` was traced, and `causes` were found of it.
     """
     rows, part = [], 1 / len(faults)
-    for number, fault in enumerate(faults):
-        row = yield from scaled(_checked(case, frame, causes, fault), number * part, part)
-        rows.append(row)
+    for fault in faults:
+        checking = _checked(case, frame, causes, fault)
+        rows.append((yield from scaled(checking, len(rows) * part, part)))
     return tuple(rows)
 
 
 def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[FaultRow]:
+    row = FaultRow(fault.name, fault.text)
     try:
         wrong = fault.make(case, frame)
     except SceneError as error:  # nothing can be traced with it: nobody would miss that
-        return FaultRow(fault.name, fault.text, note=f"refused: {error}")
+        return replace(row, note=f"refused: {error}")
     if wrong is None:
-        return FaultRow(fault.name, fault.text, note="there is nothing to get wrong")
+        return replace(row, note="there is nothing to get wrong")
     traced = frame
     if wrong.scene is not case.scene:
         traced = Frame.empty(wrong.scene)
         yield from scaled(steps(wrong.scene, case.settings, traced), 0.0, 0.3)
     changed = int(_changed(case, frame, wrong, traced).sum())
     if not changed:
-        return FaultRow(fault.name, fault.text)
+        return row
     found = (yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)).causes
     looked_at = int((found.cause != Cause.AGREE).sum())
     named = bool(found.transform) and found.transform != causes.transform
     rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
-    return FaultRow(
-        fault.name,
-        fault.text,
-        changed,
-        looked_at + found.passed_over,
-        looked_at,
-        int((found.cause == Cause.UNEXPLAINED).sum()),
-        bool(np.isin(found.cause, rounding).all()),
-        f"named: {found.transform}" if named else "",
-        named,
+    return replace(
+        row,
+        changed=changed,
+        differ=looked_at + found.passed_over,
+        looked_at=looked_at,
+        unexplained=int((found.cause == Cause.UNEXPLAINED).sum()),
+        within_rounding=bool(np.isin(found.cause, rounding).all()),
+        note=f"named: {found.transform}" if named else "",
+        named=named,
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.compare import bounds
 from reference_tracer.compare.bounds import (
     HALF_UNITS,
     LEAST_STEP,
@@ -20,6 +21,7 @@ from reference_tracer.compare.cause import Cause
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.nearest import Hits
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.vector import transform_points
 
@@ -193,3 +195,17 @@ def test_half_floats_agree_and_bytes_do_not():
     white = np.ones((1, 1, 4), np.float32)
     assert not differing(white, white - 3 * np.float32(2.0**-11)).any()
     assert differing(white, white - np.float32(1 / 255)).all()
+
+
+@pytest.mark.parametrize("rows", [1, 3, 1000])
+@pytest.mark.parametrize("shape", [(1, 1), (9, 13), (40, 7)])
+def test_every_error_reaches_as_far_as_it_is_large(rng, monkeypatch, rows, shape):
+    monkeypatch.setattr(bounds, "_ROWS", rows)
+    for scale in (0.0, 0.5, 4.0, 60.0):
+        own = np.where(rng.random(shape) < 0.3, scale * rng.random(shape) ** 4, 0.0)
+        expected = np.full(shape, SNAPPING)
+        for y, x in np.argwhere(own > 0):
+            reach = int(2 ** np.ceil(np.log2(max(own[y, x], 1))))
+            near = expected[max(0, y - reach) : y + reach + 1, max(0, x - reach) : x + reach + 1]
+            np.maximum(near, own[y, x], out=near)
+        assert np.array_equal(result_of(bounds.spread(own)), expected)

@@ -15,7 +15,7 @@ from reference_tracer.compare.comparison import (
     compare,
     trace_and_compare,
 )
-from reference_tracer.compare.counts import boundary
+from reference_tracer.compare.metrics import boundary
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of

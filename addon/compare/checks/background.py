@@ -16,10 +16,10 @@ from ...images import encoded
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
-from ..counts import boundary
+from ..metrics import boundary
 from ..picture import Curve, Picture
 from . import color as colors
-from .open_pixels import blocks
+from .probe import blocks
 
 NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
 _NAMES = {(0, 0, 0): "black", (1, 1, 1): "white"}
@@ -54,16 +54,10 @@ class Background:
 def find_background(
     frame: Frame, picture: Picture, curves: Sequence[Curve]
 ) -> Work[Background | None]:
-    """Return the background of a picture that has one of its own, else None.
+    """Return the background of a picture (h, w) that has one of its own, else None.
 
-    Parameters
-    ----------
-    frame : Frame
-    picture : Picture
-        (h, w).
-    curves : sequence of Curve
-        What may have been done to the colours: the scene's background through the transform that
-        the surfaces went through is the scene's.
+    The scene's background through the transform that the surfaces went through is the scene's;
+    `curves` are what may have been done to the colours.
     """
     interior = frame.rows_done[:, None] & ~boundary(frame)
     nothing = (frame.instance_index == NOTHING) & interior

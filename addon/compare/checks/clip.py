@@ -15,8 +15,7 @@ from ...tracer.nearest import NOTHING, Hits, plan
 from ...tracer.progress import Work
 from ..bounds import U, depth_resolution
 from ..cause import Cause
-from .open_pixels import OpenPixels
-from .probe import LAYERS, SOUND, Part, by_parts
+from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts
 
 # The clip range is widened by so many times what it may be off for a point right before the camera.
 WIDENED = 64
@@ -37,7 +36,7 @@ def _clipped(part: Part) -> Work[None]:
     going, near = np.ones(count, bool), np.zeros(count, bool)
     figure, allowed = np.zeros(count), np.zeros(count)
     for _ in range(LAYERS):
-        after = hits = yield from part.probe.tracing(after=after)
+        after = hits = yield from part.probe.trace(after=after)
         start, end = np.abs(hits.t - camera.clip_start), np.abs(hits.t - camera.clip_end)
         distance, bound = np.minimum(start, end), part.resolution(hits)
         at_clip = (hits.instance != NOTHING) & (distance <= bound)

@@ -19,9 +19,9 @@ from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
 from ..bounds import difference
 from ..cause import Cause
-from ..counts import boundary
+from ..metrics import boundary
 from ..picture import MAJORITY, Curve, Picture, Transform, straight
-from .open_pixels import OpenPixels, blocks
+from .probe import OpenPixels, blocks
 
 FITTED_SHARE = 0.9  # as MAJORITY, of a curve whose number was fitted to the pixels
 ENOUGH = 4096  # pixels on which it is tried
@@ -47,56 +47,35 @@ def check(pixels: OpenPixels) -> Work[None]:
     """
     if pixels.picture.lit:
         pixels.out.transform = "light that the tracer does not have"
-        yield from _settle(pixels, _lit)
-    elif pixels.case.curves is not None and pixels.open.any():
+    elif pixels.case.curves is None or not pixels.open.any():
+        return
+    else:
         interior = pixels.open & ~boundary(pixels.frame)
         found = yield from find(pixels.frame, pixels.picture, interior, pixels.case.curves)
-        if found is not None:
-            pixels.out.transform = found.name
-            pixels.picture = replace(pixels.picture, transform=found.of)
-            yield from _settle(pixels, _transformed)
-
-
-Look = Callable[[Picture, NDArray, NDArray], tuple[NDArray, NDArray, NDArray | float]]
-
-
-def _settle(pixels: OpenPixels, look: Look) -> Work[None]:
-    """Settle what `look` finds to be another shade of the traced surface, some rows a step."""
+        if found is None:
+            return
+        pixels.out.transform = found.name
+        pixels.picture = replace(pixels.picture, transform=found.of)
     for rows in blocks(pixels.open.shape):
-        part, frame = pixels.rows(rows), pixels.frame
-        alike, *measured = look(part.picture, frame.color[rows], frame.instance_index[rows])
-        part.settle(part.open & alike, Cause.COLOR, *measured)
+        part, instance = pixels.rows(rows), pixels.frame.instance_index[rows]
+        picture, color = part.picture, pixels.frame.color[rows]
+        if picture.lit:
+            alike = picture.same_object(instance)
+            left, allowed = difference(color, picture.color)[0].max(axis=-1), 1.0
+        else:
+            alike = ~picture.other_color(color) & ~picture.other_object(instance)
+            left, allowed = picture.difference(color)
+        part.settle(part.open & alike, Cause.COLOR, left, allowed)
         yield 1.0
-
-
-def _lit(
-    picture: Picture, color: NDArray, instance: NDArray
-) -> tuple[NDArray, NDArray, NDArray | float]:
-    left, _ = difference(color, picture.color)
-    return picture.same_object(instance), left.max(axis=-1), 1.0
-
-
-def _transformed(
-    picture: Picture, color: NDArray, instance: NDArray
-) -> tuple[NDArray, NDArray, NDArray | float]:
-    alike = ~picture.other_color(color) & ~picture.other_object(instance)
-    return alike, *picture.difference(color)
 
 
 def find(
     frame: Frame, picture: Picture, interior: NDArray[np.bool_], more: Sequence[Curve] = ()
 ) -> Work[Curve | None]:
-    """Return the transform that makes a picture's differing surfaces agree, or None.
+    """Return the transform that makes a picture's (h, w) differing surfaces agree, or None.
 
-    Parameters
-    ----------
-    frame : Frame
-    picture : Picture
-        (h, w).
-    interior : (h, w) bool
-        Pixels that may be asked: away from edges, and traced.
-    more : sequence of Curve
-        Others to try, such as the scene's own view transform.
+    Only the pixels `interior` (h, w) are asked, which are away from edges, and traced; `more` are
+    tried besides CURVES, such as the scene's own view transform.
     """
     where = interior & (frame.instance_index != NOTHING)
     for rows in blocks(where.shape):

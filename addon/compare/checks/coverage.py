@@ -70,17 +70,9 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
         rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
         hit, t, s = settings.method.function(rays, *some.corners[..., near])
         hit = np.flatnonzero(hit & within_clip(scene.camera, t))
-        found.append(
-            (
-                pixel[hit],
-                np.abs(nearest[:, near]).max(axis=0)[hit],
-                np.stack((x, y))[:, hit],
-                t[hit],
-                some.instance[near][hit],
-                some.triangle[near][hit],
-                s[:, hit],
-            )
-        )
+        of, offset = some.take(near[hit]), np.stack((x, y))[:, hit]
+        distance = np.abs(nearest[:, near[hit]]).max(axis=0)
+        found.append((of.pixel, distance, offset, t[hit], of.instance, of.triangle, s[:, hit]))
         yield 0.0
     if not found:
         return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure, np.zeros(0))

@@ -9,13 +9,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...tracer.nearest import Hits, plan
+from ...tracer.nearest import NOTHING, Hits, plan
 from ...tracer.progress import Work
 from ..cause import Cause
 from .coverage import coverage
-from .depth_ties import behind
-from .open_pixels import OpenPixels
-from .probe import SOUND, Part, by_parts
+from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts
 
 # Where in the band the tracer is asked again, in widths of it: eight directions on three rings,
 # and eight between them on the rim.
@@ -35,10 +33,10 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 def _look(part: Part) -> Work[None]:
     """Ask at samples, then behind, then of the triangles themselves, while pixels are left."""
-    centre = yield from part.probe.tracing()
+    centre = yield from part.probe.trace()
     # By the picture's method: the centre itself shows what Blender does.
     lost = ~part.picture.differ(part.scene, centre)
-    for look in (_beside, behind, _covering):
+    for look in (_beside, _behind, _covering):
         if not part.settled:
             yield from look(part, centre, lost)
 
@@ -50,10 +48,42 @@ def _beside(part: Part, centre: Hits, lost: NDArray[np.bool_]) -> Work[None]:
     where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
     """
     for x, y in OFFSETS:
-        hits = yield from part.probe.tracing(x * part.band, y * part.band)
+        hits = yield from part.probe.trace(x * part.band, y * part.band)
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
         same = np.where(lost, other, ~part.picture.differ(part.scene, hits))
         part.settle(same, Cause.EDGE, part.band * max(abs(x), abs(y)), part.band)
+        yield 0.0
+        if part.settled:
+            return
+
+
+def _behind(part: Part, first: Hits, lost: NDArray[np.bool_]) -> Work[None]:
+    """Settle open pixels that show a surface which ties with the first one.
+
+    Colours and whose surfaces they are come from two drawings, in which a tie may go either way:
+    each must be found among the surfaces that tie.
+
+    Parameters
+    ----------
+    part : Part
+        Of n pixels.
+    first : Hits
+        Through their centres.
+    lost : (n,) bool
+        Where the picture's own method lost what its centre shows.
+    """
+    scene, picture = part.scene, part.picture
+    allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
+    hits = first
+    color, owner = picture.same_color(scene, first) & ~lost, ~picture.other_object(first.instance)
+    for _ in range(LAYERS):
+        hits = yield from part.probe.trace(after=hits)
+        with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
+            gap = hits.t - first.t
+            tied = gap <= allowed
+        color |= tied & picture.same_color(scene, hits)
+        owner |= tied & ~picture.other_object(hits.instance)
+        part.settle(tied & color & owner, Cause.DEPTH_TIE, gap, allowed)
         yield 0.0
         if part.settled:
             return

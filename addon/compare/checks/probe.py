@@ -1,6 +1,7 @@
-"""Rays that a picture does not have: beside their pixel's centre, or behind its first hit.
+"""The open pixels, which differ and have no cause yet, and the rays that the checks ask about them.
 
-The checks ask with them what a pixel would show had Blender's arithmetic moved it a little. They do
+The picture has no such rays: they pass beside their pixel's centre, or go on behind its first hit.
+A check asks with them what a pixel would show had Blender's arithmetic moved it a little. It does
 so for a part of the picture at a time, in steps of a bounded number of pixels and pairs.
 """
 
@@ -16,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays
+from ...tracer.frame import Frame
 from ...tracer.nearest import (
     NOTHING,
     Hits,
@@ -26,14 +28,14 @@ from ...tracer.nearest import (
     test_pairs,
     test_planes,
 )
-from ...tracer.progress import Work, result_of, scaled
+from ...tracer.progress import Work, scaled
 from ...tracer.render import tiles
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import positions
 from ..bounds import depth_resolution, view_error
-from ..cause import Cause
+from ..case import Case
+from ..cause import Cause, Causes
 from ..picture import Picture
-from .open_pixels import OpenPixels
 
 # A method that loses hits would find at some sample or other whatever Blender shows.
 SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
@@ -41,6 +43,62 @@ SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
 LAYERS = 4  # surfaces behind one another that are looked at
 
 FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
+
+BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
+
+
+def blocks(shape: tuple[int, ...]) -> list[slice]:
+    """Split a picture (h, w, ...) into whole rows of about BLOCK pixels."""
+    rows = max(1, BLOCK // shape[1])
+    return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
+
+
+@dataclass(eq=False)
+class OpenPixels:
+    """What a check takes: it gives some of the open pixels their cause.
+
+    Parameters
+    ----------
+    case : Case
+    frame : Frame
+        What was traced.
+    picture : Picture
+        (h, w): the case's, as it is seen once a transform of its colours is found.
+    out : Causes
+        What has been found.
+    open : (h, w) bool
+    band : (h, w) float64
+        How far from its pixel's centre Blender's sample may lie, in pixels.
+    """
+
+    case: Case
+    frame: Frame
+    picture: Picture
+    out: Causes
+    open: NDArray[np.bool_]
+    band: NDArray[np.float64]
+
+    def settle(
+        self,
+        where: NDArray[np.bool_],
+        cause: Cause,
+        figure: ArrayLike | None = None,
+        allowed: ArrayLike = np.nan,
+    ) -> None:
+        """Give the pixels of `where` (h, w) a cause, but for those that have one."""
+        where = where & (self.out.cause == Cause.AGREE)
+        self.out.cause[where] = cause
+        if figure is not None:
+            self.out.figure[where] = np.broadcast_to(figure, where.shape)[where]
+            self.out.allowed[where] = np.broadcast_to(allowed, where.shape)[where]
+        self.open &= ~where
+
+    def rows(self, rows: slice) -> OpenPixels:
+        """Return those of some rows; their causes are written into the whole."""
+        o = self.out
+        out = replace(o, cause=o.cause[rows], figure=o.figure[rows], allowed=o.allowed[rows])
+        open_, band = self.open[rows], self.band[rows]
+        return replace(self, picture=self.picture.at(rows), out=out, open=open_, band=band)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,28 +130,12 @@ class Probe:
         return positions(camera_rays(self.plan.scene.camera, self.px, self.py), hits)
 
     def trace(
-        self,
-        dx: NDArray[np.floating] | float = 0.0,
-        dy: NDArray[np.floating] | float = 0.0,
-        after: Hits | None = None,
-    ) -> Hits:
-        """Do the work of :meth:`tracing` at once."""
-        return result_of(self.tracing(dx, dy, after))
-
-    def tracing(
-        self,
-        dx: NDArray[np.floating] | float = 0.0,
-        dy: NDArray[np.floating] | float = 0.0,
-        after: Hits | None = None,
+        self, dx: ArrayLike = 0.0, dy: ArrayLike = 0.0, after: Hits | None = None
     ) -> Work[Hits]:
         """Trace one ray a pixel, a chunk of pairs a step.
 
-        Parameters
-        ----------
-        dx, dy : float or (n,)
-            Where the ray passes its pixel's centre, in pixels; at most the plan's reach.
-        after : Hits, optional
-            Of the n pixels: only what lies behind them counts.
+        It passes its pixel's centre at (dx, dy), a number or (n,) each, in pixels: at most the
+        plan's reach. Only what lies behind the n hits `after` counts.
         """
         scene, settings = self.plan.scene, self.plan.settings
         rays = camera_rays(scene.camera, self.px + dx, self.py + dy, settings.precision.dtype)
@@ -153,15 +195,9 @@ class Part:
 
 
 def by_parts(pixels: OpenPixels, plan: Plan, look: Callable[[Part], Work[None]]) -> Work[None]:
-    """Have `look` settle the open pixels, a part of the picture at a time.
+    """Have `look` settle the open pixels of a whole picture, a part of it at a time.
 
-    Parameters
-    ----------
-    pixels : OpenPixels
-        Of the whole picture.
-    plan : Plan
-        Of what is asked; its scene may have another clip range than the case's.
-    look : callable
+    The scene of `plan` is what is asked: it may have another clip range than the case's.
     """
     parts, first = list(parts_of(plan.scene, pixels.open)), plan.scene.camera.region.y0
     for number, tile in enumerate(parts):

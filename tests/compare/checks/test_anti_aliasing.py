@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.checks.hull import NEAR, distance_to_triangles, is_mix
+from reference_tracer.compare.checks.anti_aliasing import NEAR, distance_to_triangles, is_mix
 from reference_tracer.compare.picture import Picture
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.counts import boundary
+from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture
 from reference_tracer.images import curve, curve_undone, decoded
 from reference_tracer.tracer.progress import result_of

@@ -48,7 +48,7 @@ def wanted(rng):
 @pytest.mark.parametrize("offset", [(0.0, 0.0), (0.5, -0.5), (-0.3, 0.004)])
 def test_a_probe_sees_what_a_picture_shifted_as_much_does(scene, settings, wanted, offset):
     expected = result_of(trace_tile(result_of(plan(scene, settings, 0.5)), TILE, *offset))
-    found = probe_of(scene, settings, wanted).trace(*offset)
+    found = result_of(probe_of(scene, settings, wanted).trace(*offset))
     for name in ("t", "instance", "triangle", "s"):
         assert np.array_equal(getattr(found, name), getattr(expected, name)[..., wanted]), name
     assert len(np.unique(found.triangle)) > 10
@@ -57,11 +57,12 @@ def test_a_probe_sees_what_a_picture_shifted_as_much_does(scene, settings, wante
 def test_an_offset_for_each_pixel(scene, wanted, rng):
     probe = probe_of(scene, PLAIN, wanted)
     dx, dy = rng.choice([-0.5, 0.0, 0.25], (2, int(wanted.sum())))
-    found = probe.trace(dx, dy)
+    found = result_of(probe.trace(dx, dy))
     for x in np.unique(dx):
         for y in np.unique(dy):
             same = (dx == x) & (dy == y)
-            assert same.any() and np.array_equal(found.t[same], probe.trace(x, y).t[same])
+            expected = result_of(probe.trace(x, y))
+            assert same.any() and np.array_equal(found.t[same], expected.t[same])
 
 
 @EVERY_SETTING
@@ -79,7 +80,7 @@ def test_layers_come_in_order_each_once(scene, settings, wanted):
             expected[pixel] += [(float(t[pixel]), i, k) for i in (0, 1)]
     hits, found = None, [[] for _ in range(count)]
     for _ in range(60):
-        hits = probe.trace(after=hits)
+        hits = result_of(probe.trace(after=hits))
         if not (hits.instance != NOTHING).any():
             break
         for pixel in np.flatnonzero(hits.instance != NOTHING):
@@ -95,10 +96,10 @@ def test_layers_come_in_order_each_once(scene, settings, wanted):
 
 
 def test_nothing_wanted_and_nothing_there(scene, make, wanted):
-    none = probe_of(scene, PLAIN, np.zeros_like(wanted)).trace()
+    none = result_of(probe_of(scene, PLAIN, np.zeros_like(wanted)).trace())
     assert len(none.t) == 0
     empty = replace(scene, meshes=(), instances=(), planes=())
-    assert np.isinf(probe_of(empty, PLAIN, wanted).trace(0.1, 0.1).t).all()
+    assert np.isinf(result_of(probe_of(empty, PLAIN, wanted).trace(0.1, 0.1)).t).all()
 
 
 def test_steps_are_small(scene, wanted, monkeypatch):
