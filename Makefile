@@ -42,10 +42,11 @@ test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs
 torture: .venv/.stamp ## run the long tests, too long for every day: the suites at their full size
 	$(PYTEST) -m torture
 
+# OPTIONS=--quick: two minutes instead; or any other option of `reftrace bench`.
 bench: .venv/.stamp ## measure speed beside embreex, Cycles and others, half an hour: out/bench
 	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
 		--editable '.[bench]'
-	.venv/bin/reftrace bench --out out/bench
+	.venv/bin/reftrace bench --out out/bench $(OPTIONS)
 
 # Pictures of the page need a browser, the tutorial's a real window, too; where there can be none,
 # they stay as they are.
