@@ -63,19 +63,12 @@ class Parser(argparse.ArgumentParser):
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """Add what the user can trade; without an option, what the scene stores holds."""
     group = parser.add_argument_group("how to trace (by default what the scene says)")
-    group.add_argument(
-        "--method",
-        choices=[m.value for m in Method],
-        help="how a ray meets a triangle; auto is certified wherever this machine allows",
-    )
-    group.add_argument(
-        "--precision",
-        choices=[p.value for p in Precision],
-        help="floating-point type of rays and vertices; what is certified needs float64",
-    )
-    group.add_argument(
-        "--samples", type=int, metavar="N", help="colour is the mean of N x N rays a pixel"
-    )
+    method = "how a ray meets a triangle; auto is certified wherever this machine allows"
+    precision = "floating-point type of rays and vertices; what is certified needs float64"
+    samples = "colour is the mean of N x N rays a pixel"
+    group.add_argument("--method", choices=[m.value for m in Method], help=method)
+    group.add_argument("--precision", choices=[p.value for p in Precision], help=precision)
+    group.add_argument("--samples", type=int, metavar="N", help=samples)
 
 
 def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
@@ -87,55 +80,39 @@ def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
         help="which of Blender's pictures to compare with; all: a table of every one (and the "
         "viewport's, in a window)",
     )
-    group.add_argument(
-        "--as-is",
-        action="store_true",
-        help="leave Blender's shading as the scene has it, not like for like",
+    as_is = "leave Blender's shading as the scene has it, not like for like"
+    identity = "draw once more, a colour an object, to know whose surface each pixel shows"
+    self_check = (
+        "then make known faults (a pixel off, mirrored, an object left out...) and see that each "
+        "is found"
     )
-    group.add_argument(
-        "--identity",
-        action=argparse.BooleanOptionalAction,
-        help="draw once more, a colour an object, to know whose surface each pixel shows",
-    )
-    group.add_argument(
-        "--self-check",
-        action="store_true",
-        default=None,
-        help="then make known faults (a pixel off, mirrored, an object left out...) and see that "
-        "each is found",
-    )
+    group.add_argument("--as-is", action="store_true", help=as_is)
+    group.add_argument("--identity", action=argparse.BooleanOptionalAction, help=identity)
+    group.add_argument("--self-check", action="store_true", default=None, help=self_check)
 
 
 def add_page(parser: argparse.ArgumentParser) -> None:
     """Add what the page shows beside the comparison."""
     group = parser.add_argument_group("the page (page.html in DIR)")
-    group.add_argument(
-        "--trade", action="store_true", help="measure the trade on this scene, too: half a minute"
-    )
-    group.add_argument(
-        "--extremes", action="store_true", help="find where every method breaks: two minutes"
-    )
+    trade = "measure the trade on this scene, too: half a minute"
+    extremes = "find where every method breaks: two minutes"
+    group.add_argument("--trade", action="store_true", help=trade)
+    group.add_argument("--extremes", action="store_true", help=extremes)
 
 
 def add_pixel(parser: argparse.ArgumentParser) -> None:
     """Add which pixel is explained, and where that is written."""
-    parser.add_argument(
-        "--pixel", type=int, nargs=2, metavar=("X", "Y"), help="0 0 is the picture's lower left"
+    pixel = "0 0 is the picture's lower left"
+    out = f"{', '.join(WRITERS)}; without it, Markdown is printed"
+    reproducer = (
+        "write the pixel's ray and all that it may meet: `reftrace explain FILE.json` derives it "
+        "again, without the scene"
     )
-    endings = ", ".join(WRITERS)
-    parser.add_argument(
-        "--out", type=Path, metavar="FILE", help=f"{endings}; without it, Markdown is printed"
-    )
-    parser.add_argument(
-        "--reproducer",
-        type=Path,
-        metavar="FILE.json",
-        help="write the pixel's ray and all that it may meet: `reftrace explain FILE.json` "
-        "derives it again, without the scene",
-    )
-    parser.add_argument(
-        "--limit", type=int, metavar="N", help=f"show so many triangles at most (default {LIMIT})"
-    )
+    limit = f"show so many triangles at most (default {LIMIT})"
+    parser.add_argument("--pixel", type=int, nargs=2, metavar=("X", "Y"), help=pixel)
+    parser.add_argument("--out", type=Path, metavar="FILE", help=out)
+    parser.add_argument("--reproducer", type=Path, metavar="FILE.json", help=reproducer)
+    parser.add_argument("--limit", type=int, metavar="N", help=limit)
     parser.set_defaults(endings={"out": tuple(WRITERS), "reproducer": (".json",)})
 
 
@@ -200,11 +177,8 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
     SceneError
         If a value is out of range, or the method does not come in the precision.
     """
-    chosen = {
-        name: value
-        for name in ("method", "precision", "samples")
-        if (value := getattr(options, name, None)) is not None
-    }
+    given = {name: getattr(options, name, None) for name in ("method", "precision", "samples")}
+    chosen = {name: value for name, value in given.items() if value is not None}
     method = Method(chosen.get("method", stored.method))
     if not method.is_plain:  # float64 in place of another precision that is stored
         if chosen.setdefault("precision", Precision.FLOAT64) != Precision.FLOAT64:
@@ -250,46 +224,31 @@ def add_camera(
 
     With `of_scenes`, the width is heard for scenes as well.
     """
-    wide: dict = {"type": int, "metavar": "PIXELS", "help": f"default {width}"}
+    title = "camera of a mesh (by default one that frames it; a scene has its own)"
+    group = parser.add_argument_group(title)
+    wide = f"default {width}"
     if of_scenes:
-        wide["help"] = (
+        wide = (
             "width of the largest picture, of a scene or a mesh; a scene's height follows "
             f"(default {width}, or the scene's own width where that is less)"
         )
-        parser.add_argument("--width", **wide)
-    group = parser.add_argument_group(
-        "camera of a mesh (by default one that frames it; a scene has its own)"
-    )
-    if not of_scenes:
-        group.add_argument("--width", **wide)
-    group.add_argument("--height", type=int, metavar="PIXELS", help=f"default {height}")
-    group.add_argument("--eye", type=float, nargs=3, metavar=("X", "Y", "Z"), help="its position")
-    group.add_argument(
-        "--target",
-        type=float,
-        nargs=3,
-        metavar=("X", "Y", "Z"),
-        help="where it looks (default the origin); Z is up",
-    )
-    group.add_argument(
-        "--angle",
-        type=float,
-        metavar="DEGREES",
-        help="vertical angle of view (default 50)",
-    )
-    group.add_argument(
-        "--ortho-scale",
-        type=float,
-        metavar="METRES",
-        help="height of the picture of an orthographic camera, in place of --angle",
-    )
+    pixels: dict = {"type": int, "metavar": "PIXELS"}
+    place: dict = {"type": float, "nargs": 3, "metavar": ("X", "Y", "Z")}
+    tall = "height of the picture of an orthographic camera, in place of --angle"
+    angle = "vertical angle of view (default 50)"
+    (parser if of_scenes else group).add_argument("--width", **pixels, help=wide)
+    group.add_argument("--height", **pixels, help=f"default {height}")
+    group.add_argument("--eye", **place, help="its position")
+    group.add_argument("--target", **place, help="where it looks (default the origin); Z is up")
+    group.add_argument("--angle", type=float, metavar="DEGREES", help=angle)
+    group.add_argument("--ortho-scale", type=float, metavar="METRES", help=tall)
     parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
 
 
 def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None, tuple[int, int]]:
-    """Return the camera that the options place for the meshes of a file, and its picture's size.
+    """Return the camera that the options place for a file's meshes, and its picture's size, pixels.
 
-    The camera is None where they place none; the size is in pixels, width and height.
+    The camera is None where they place none.
 
     Raises
     ------
@@ -303,10 +262,8 @@ def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None,
             why += "; --width sets the size of its picture, and the height follows"
         refuse(options, tuple(sorted(set(CAMERA_OPTIONS) - set(options.heard))), why)
         return None, options.default_size
-    width, height = size = (
-        options.width or options.default_size[0],
-        options.height or options.default_size[1],
-    )
+    given, default = (options.width, options.height), options.default_size
+    width, height = size = given[0] or default[0], given[1] or default[1]
     check_size(width, height)
     if options.eye is None:
         refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 _heard = False
 _holding = False
@@ -20,27 +20,20 @@ def heard() -> Iterator[None]:
 
     A handler that someone else has set, and all that is not the main thread, is left alone.
     """
-    global _heard
-    if not _taken_over():
+    ours = False
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        with suppress(ValueError):  # outside the main thread
+            signal.signal(signal.SIGINT, _hear)
+            ours = True
+    if not ours:
         yield
         return
-    _heard = False
+    answered()
     try:
         yield
     finally:
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        _heard = False  # it is answered: what comes later is not meant
-
-
-def _taken_over() -> bool:
-    """Hear Ctrl-C from now on; return whether that is possible."""
-    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        return False
-    try:
-        signal.signal(signal.SIGINT, _hear)
-    except ValueError:  # outside the main thread
-        return False
-    return True
+        answered()  # what comes later is not meant
 
 
 def _hear(*_: object) -> None:

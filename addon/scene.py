@@ -60,21 +60,8 @@ class Region:
 class Camera:
     """A view window in front of a frame of axes.
 
-    Parameters
-    ----------
-    world_from_camera : (4, 4) float64
-        Columns are right, up, backward and the position. The axes carry no scale of the
-        camera object, but may be mirrored or sheared, as Blender's own may.
-    window : ViewWindow
-    width, height : int
-        Size of the whole picture in pixels.
-    projection : Projection
-        One of `projections.PROJECTIONS`.
-    clip_start, clip_end : float
-        Depths along the view axis, in metres; hits outside are not seen.
-    region : Region, optional
-        The border; the whole picture by default.
-    name : str
+    `world_from_camera` is (4, 4): its columns are right, up, backward and the position. The axes
+    carry no scale of the camera object, but may be mirrored or sheared, as Blender's own may.
 
     Raises
     ------
@@ -84,12 +71,12 @@ class Camera:
 
     world_from_camera: NDArray[np.float64]
     window: ViewWindow
-    width: int
+    width: int  # of the whole picture, in pixels
     height: int
-    projection: Projection = PERSPECTIVE
-    clip_start: float = 0.1
+    projection: Projection = PERSPECTIVE  # one of `projections.PROJECTIONS`
+    clip_start: float = 0.1  # depths along the view axis, metres; hits outside are not seen
     clip_end: float = 1000.0
-    region: Region = None  # type: ignore[assignment]  # None only until __post_init__
+    region: Region = None  # type: ignore[assignment]  # by default, the whole picture
     name: str = "Camera"
 
     def __post_init__(self) -> None:
@@ -160,27 +147,17 @@ class Camera:
 class Mesh:
     """Triangles in object space, kept in the precision in which they were stored.
 
-    Parameters
-    ----------
-    vertices : (v, 3) float32 or float64
-        Object space, metres, finite.
-    triangles : (n, 3) int32
-        Corner indices into `vertices`.
-    slots : (n,) int32, optional
-        Which of an instance's `colors` each triangle shows; all 0 by default.
-    corner_colors : (n, 3, 4) float32, optional
-        Linear RGBA at each corner; where given, it is what the mesh shows.
-    name : str
-
     Raises
     ------
     SceneError
         If shapes do not fit, an index is out of range, or a vertex is not finite.
     """
 
-    vertices: NDArray[np.floating]
-    triangles: NDArray[np.int32]
+    vertices: NDArray[np.floating]  # (v, 3) float32 or float64, metres, finite
+    triangles: NDArray[np.int32]  # (n, 3), indices into `vertices`
+    # Which of an instance's `colors` each triangle shows, (n,); all 0 by default.
     slots: NDArray[np.int32] = None  # type: ignore[assignment]
+    # Linear RGBA at each corner, (n, 3, 4); where given, it is what the mesh shows.
     corner_colors: NDArray[np.float32] | None = None
     name: str = "Mesh"
 
@@ -200,10 +177,8 @@ class Mesh:
         if slots.shape != (len(triangles),) or (slots < 0).any():
             raise SceneError(f"{what}: slots must be (n,) and not negative.")
         if not np.isfinite(vertices).all():
-            raise SceneError(
-                f"{what} has vertices that are not finite: leave out their triangles "
-                "(scene.drop_non_finite does)."
-            )
+            do = "leave out their triangles (scene.drop_non_finite does)"
+            raise SceneError(f"{what} has vertices that are not finite: {do}.")
         if self.corner_colors is not None:
             colors = np.asarray(self.corner_colors, dtype=np.float32)
             if colors.shape != (len(triangles), 3, 4):
@@ -231,22 +206,12 @@ class Mesh:
 
 @dataclass(frozen=True, eq=False)
 class Instance:
-    """One appearance of a mesh.
+    """One appearance of a mesh."""
 
-    Parameters
-    ----------
-    mesh : int
-        Index into `Scene.meshes`.
-    object : int
-        Index into `Scene.objects`: which object of the scene this is.
-    world_from_object : (4, 4) float64
-    colors : (k, 4) float32
-        Linear RGBA by material slot; a slot past the end shows the last one.
-    """
-
-    mesh: int
-    object: int
-    world_from_object: NDArray[np.float64]
+    mesh: int  # index into `Scene.meshes`
+    object: int  # index into `Scene.objects`: which object of the scene this is
+    world_from_object: NDArray[np.float64]  # (4, 4)
+    # Linear RGBA by material slot, (k, 4); a slot past the end shows the last one.
     colors: NDArray[np.float32] = field(default_factory=lambda: np.array([GREY], np.float32))
 
     def __post_init__(self) -> None:
@@ -279,24 +244,15 @@ class Plane:
 class Scene:
     """Everything that the tracer is told.
 
-    Parameters
-    ----------
-    camera : Camera
-    meshes : tuple of Mesh
-    instances : tuple of Instance
-        Where two surfaces are exactly as near, the one with the lower index is seen.
-    planes : tuple of Plane
-    background : (4,) float32
-        Linear RGBA of a pixel that sees nothing; alpha 0 for a transparent film.
-    objects : tuple of str
-        Names, by the `object` index of instances and planes. Some may have none: they are there,
-        but outside the view.
+    `objects` are names, by the `object` index of instances and planes. Some may have neither: they
+    are there, but outside the view.
     """
 
     camera: Camera
     meshes: tuple[Mesh, ...] = ()
-    instances: tuple[Instance, ...] = ()
+    instances: tuple[Instance, ...] = ()  # of surfaces exactly as near, the lower index is seen
     planes: tuple[Plane, ...] = ()
+    # Linear RGBA of a pixel that sees nothing, (4,); alpha 0 for a transparent film.
     background: NDArray[np.float32] = field(default_factory=lambda: np.zeros(4, np.float32))
     objects: tuple[str, ...] = ()
 

@@ -48,12 +48,8 @@ class Perspective:
     ) -> tuple[Floats, Floats]:
         """Return where m triangles, from `front` on, lie on the window: lowest, highest, (m,) each.
 
-        Parameters
-        ----------
-        value, depth : (3, m) float64
-            The corners' right or up, and depth, metres; off by at most `error` (m,).
-        front : (m,) float64
-            The least depth of what can be seen of each.
+        `value` and `depth`, (3, m), are the corners' right or up, and depth, metres, off by at most
+        `error` (m,); `front` (m,) is the least depth of what can be seen of each.
         """
         smallest, largest = value.min(axis=0) - error, value.max(axis=0) + error
         end = np.maximum(depth.max(axis=0) + error, front)

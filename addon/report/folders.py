@@ -22,10 +22,7 @@ _PREFIX = ".reftrace-"  # of the folder beside the results in which they are wri
 def make(directory: Path) -> list[Path]:
     """Make a folder before the work whose results it takes, and test that it can be written.
 
-    Returns
-    -------
-    list of Path
-        The folders that were not there, the innermost first.
+    Return the folders that were not there, the innermost first.
 
     Raises
     ------
@@ -39,10 +36,11 @@ def make(directory: Path) -> list[Path]:
             pass
     except OSError as error:
         _remove(new)
-        why = {
+        known = {
             FileExistsError: "it is a file",
             NotADirectoryError: "a part of this path is a file",
-        }.get(type(error), error.strerror)
+        }
+        why = known.get(type(error), error.strerror)
         raise OSError(f"cannot write to the folder '{directory}': {why}") from error
     return new
 

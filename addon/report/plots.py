@@ -51,15 +51,8 @@ def headline(figure: Figure, text: str, size: float = 17) -> None:
 
 def legend_below(figure: Figure, handles: Sequence[Line2D]) -> None:
     """Explain lines and marks in one row below all axes."""
-    figure.legend(
-        handles=handles,
-        loc="outside lower center",
-        ncols=len(handles),
-        fontsize=14,
-        frameon=False,
-        columnspacing=1.4,
-        handletextpad=0.4,
-    )
+    style = {"fontsize": 14, "frameon": False, "columnspacing": 1.4, "handletextpad": 0.4}
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), **style)
 
 
 def plain_axes(
