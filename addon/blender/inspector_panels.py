@@ -6,10 +6,9 @@ from typing import Any
 
 import bpy
 
-from ..explain.answers import SENTENCES
 from ..explain.derivation import Derivation, Test
 from ..explain.digits import exact_text, marked, off_text, ulps
-from ..explain.formulas import REASONS
+from ..explain.pixel import SENTENCES
 from ..explain.textbook import Arithmetic
 from . import results
 from .explain import (
@@ -64,7 +63,7 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
         icon = "CHECKMARK" if judged.accepted else "X"
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:
-            wrapped(box, context, REASONS[reason], "BLANK1")
+            wrapped(box, context, reason.sentence, "BLANK1")
     wrapped(layout, context, f"All of it is in the text '{TEXT}'.", "TEXT")
 
 

@@ -19,10 +19,9 @@ from ..tracer.candidates import Pairs
 from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
-from ..tracer.settings import Settings
+from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.world import WorldTriangles, refused
-from .answers import PLAIN, contest_hits, plain_answer
-from .pixel import Candidate, Pixel, check_pixel
+from .pixel import Candidate, Pixel, check_pixel, contest_hits, plain_answer
 
 LIMIT = 8  # candidates that one still reads
 
@@ -58,23 +57,14 @@ def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
     check_pixel(scene.camera, x, y)
     column, row = scene.camera.region.x0 + x, scene.camera.region.y0 + y
     triangles = _triangles(scene, Region(column, row, column + 1, row + 1))
+    first = len(scene.instances)
     planes = tuple(
-        Candidate(
-            scene.objects[p.object],
-            len(scene.instances) + k,
-            NOTHING,
-            np.stack((p.point, p.normal)),
-            p.color[None],
-        )
-        for k, p in enumerate(scene.planes)
+        Candidate(scene.objects[p.object], k, NOTHING, np.stack((p.point, p.normal)), p.color[None])
+        for k, p in enumerate(scene.planes, first)
     )
     pixel = Pixel(
-        scene.camera,
-        x,
-        y,
-        planes,
-        scene.background,
-        first_plane=len(scene.instances),
+        *(scene.camera, x, y, planes, scene.background),
+        first_plane=first,
         triangles=scene.triangle_count,
         refused=refused(scene),
         source=source,
@@ -92,8 +82,13 @@ def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
 def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     """Return the triangles whose boxes on the film hold the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
+    cubes = [Mesh(_corners(mesh), _CUBE) for mesh in scene.meshes]
+    blank = [Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances]
+    boxes = replace(scene, meshes=cubes, instances=blank, planes=())
     for camera in _both_ways(replace(scene.camera, region=tile)):
-        near = _near_instances(scene, camera)
+        # First the instances that have a bounding box that the ray may meet.
+        met = (pairs.instance for pairs in _pairs(replace(boxes, camera=camera), 0.5))
+        near = np.unique(np.concatenate([np.zeros(0, np.intp), *met]))
         some = replace(scene, camera=camera, instances=[scene.instances[k] for k in near])
         for pairs in _pairs(some, 0.0):
             names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
@@ -120,15 +115,6 @@ def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
     for _, pairs in candidates(result_of(plan(scene, _PLAIN, reach)), scene.camera.region):
         if pairs is not None and len(pairs.row):
             yield pairs
-
-
-def _near_instances(scene: Scene, camera: Camera) -> NDArray[np.intp]:
-    """Return which instances have a bounding box that the ray may meet."""
-    cubes = [Mesh(_corners(mesh), _CUBE) for mesh in scene.meshes]
-    blank = [Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances]
-    boxes = replace(scene, camera=camera, meshes=cubes, instances=blank, planes=())
-    near = [pairs.instance for pairs in _pairs(boxes, 0.5)]
-    return np.unique(np.concatenate([np.zeros(0, np.intp), *near]))
 
 
 def _corners(mesh: Mesh) -> NDArray[np.float64]:
@@ -169,23 +155,18 @@ def _seen_by_methods(
     pixel: Pixel, triangles: WorldTriangles, left: NDArray[np.intp]
 ) -> list[np.intp]:
     """Return which of those left out a plain method sees, in the order given."""
-    seen = {plain_answer(pixel, triangles, *plain).seen for plain in PLAIN}
+    seen = {plain_answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
     return [k for k in left if (int(triangles.instance[k]), int(triangles.triangle[k])) in seen]
 
 
 def _candidate(scene: Scene, triangles: WorldTriangles, k: int) -> Candidate:
-    instance = scene.instances[triangles.instance[k]]
-    triangle, mesh = int(triangles.triangle[k]), scene.meshes[instance.mesh]
+    number, triangle = int(triangles.instance[k]), int(triangles.triangle[k])
+    instance = scene.instances[number]
+    mesh = scene.meshes[instance.mesh]
     slot = min(int(mesh.slots[triangle]), len(instance.colors) - 1)
     colors = instance.colors[slot : slot + 1]
     if mesh.corner_colors is not None:
         colors = mesh.corner_colors[triangle]
-    return Candidate(
-        scene.objects[instance.object],
-        int(triangles.instance[k]),
-        triangle,
-        np.ascontiguousarray(triangles.corners[..., k]),
-        colors,
-        mesh.name,
-        slot,
-    )
+    points = np.ascontiguousarray(triangles.corners[..., k])
+    name = scene.objects[instance.object]
+    return Candidate(name, number, triangle, points, colors, mesh.name, slot)

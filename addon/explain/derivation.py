@@ -18,10 +18,9 @@ import numpy as np
 
 from ..scene import Scene
 from ..tracer.hits import NOWHERE, Name
-from .answers import Answer, certified_answer, plain_answers
 from .candidates import LIMIT, gather
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
-from .pixel import Candidate, Pixel
+from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
 from .textbook import (
     Arithmetic,
     Number,

@@ -44,7 +44,9 @@ def exact_text(value: Fraction, count: int = EXACT_DIGITS) -> str:
     """Return an exact number as a decimal, correctly rounded to so many digits, "…" if inexact."""
     if not value:
         return "0"
-    decimal = as_decimal(value, count)
+    with localcontext() as context:
+        context.prec, context.Emax, context.Emin = count, 10**9, -(10**9)
+        decimal = (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
     more = "" if Fraction(decimal) == value else "…"
     sign, digits, exponent = decimal.as_tuple()
     place = len(digits) - 1 + int(exponent)
@@ -53,13 +55,6 @@ def exact_text(value: Fraction, count: int = EXACT_DIGITS) -> str:
     shown = "".join(map(str, digits))
     point = f".{shown[1:]}" if shown[1:] else ""
     return f"{'-' * sign}{shown[0]}{point}{more}e{place:+03d}"
-
-
-def as_decimal(value: Fraction, count: int = EXACT_DIGITS) -> Decimal:
-    """Return a number correctly rounded to so many significant digits, no zeros at its end."""
-    with localcontext() as context:
-        context.prec, context.Emax, context.Emin = count, 10**9, -(10**9)
-        return (Decimal(value.numerator) / Decimal(value.denominator)).normalize()
 
 
 def ulps(value: np.floating, exact: Fraction | None) -> float | None:

@@ -8,11 +8,11 @@ from __future__ import annotations
 from ..images import to_display
 from ..tracer.certified.certainty import Certainty
 from . import blocks
-from .answers import SENTENCES as CERTAINTIES
 from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
 from .derivation import Derivation, Test
 from .digits import text
-from .formulas import ERRATA, REASONS
+from .formulas import ERRATA
+from .pixel import SENTENCES
 from .textbook import FLOATS, Arithmetic, Verdict
 
 READING = (
@@ -61,8 +61,8 @@ def _opening(derivation: Derivation) -> list[Block]:
         *_textbook_t(derivation),
         Paragraph(
             f"Camera “{camera.name}”: {camera.projection.name}, {camera.width} × {camera.height} "
-            f"pixels, it shows depths from {text_float(camera.clip_start)} m to "
-            f"{text_float(camera.clip_end)} m. "
+            f"pixels, it shows depths from {text(float(camera.clip_start))} m to "
+            f"{text(float(camera.clip_end))} m. "
             f"Pixel (0, 0) is the lower left.{part}"
         ),
         Paragraph(READING, "note"),
@@ -76,7 +76,7 @@ def answer_sentence(derivation: Derivation) -> str:
         return "The ray meets nothing within the clip range: the pixel shows the background."
     proven = derivation.certified.certainty is not Certainty.NOT_CERTIFIED
     origin = "proven: the exact value, rounded once" if proven else "not proven"
-    return f"The pixel sees {seen.title}, at t = {text_float(derivation.certified.t)} m ({origin})."
+    return f"The pixel sees {seen.title}, at t = {text(derivation.certified.t)} m ({origin})."
 
 
 def _textbook_t(derivation: Derivation) -> list[Block]:
@@ -86,11 +86,6 @@ def _textbook_t(derivation: Derivation) -> list[Block]:
             t = text(test.number("t", Arithmetic.FLOAT64))
             return [Paragraph(f"By the textbook’s formula in float64, t = {t} m.", "note")]
     return []
-
-
-def text_float(value: float) -> str:
-    """Return a float64 with the fewest digits that mean it."""
-    return repr(float(value))
 
 
 def _camera(derivation: Derivation) -> list[Block]:
@@ -166,7 +161,7 @@ def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
 
 
 def _verdict(kind: Arithmetic, verdict: Verdict) -> tuple[str, ...]:
-    why = "; ".join(REASONS[r] for r in verdict.reasons) or "all conditions hold"
+    why = "; ".join(r.sentence for r in verdict.reasons) or "all conditions hold"
     printed = {None: "–", True: "hit", False: "no"}[verdict.literal]
     if verdict.accepted and verdict.literal is False:
         printed = "lost: the sum is not 1"
@@ -217,7 +212,7 @@ def _color(derivation: Derivation) -> list[Block]:
             "1 on every surface, and light plays no part."
         )
     steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
-    rgba = ", ".join(text_float(v) for v in derivation.color)
+    rgba = ", ".join(text(v) for v in derivation.color)
     shown = to_display([[derivation.color]])[0, 0, :3]
     srgb = "#" + "".join(f"{v:02x}" for v in shown)
     text_ = f"linear RGBA ({rgba}); on a screen (sRGB) {srgb}"
@@ -226,7 +221,7 @@ def _color(derivation: Derivation) -> list[Block]:
 
 def _certain(derivation: Derivation) -> list[Block]:
     certified = derivation.certified
-    said = CERTAINTIES[certified.certainty]
+    said = SENTENCES[certified.certainty]
     out: list[Block] = [
         Heading(2, "5. How certain this is", "5"),
         Paragraph(f"{answer_sentence(derivation)} This is {said}.", "answer"),

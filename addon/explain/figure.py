@@ -84,11 +84,8 @@ def _end(derivation: Derivation) -> float:
 
 def _t(test: Test) -> float | None:
     """Return t, None where there is none that float64 holds."""
-    values = next(
-        (q.values[Arithmetic.FLOAT64][0] for q in test.quantities if q.key == "t"), np.nan
-    )
-    defined = np.isfinite(values) and any(_normal(test))
-    return float(values) if defined else None
+    t = float(test.number("t", Arithmetic.FLOAT64))
+    return t if np.isfinite(t) and any(_normal(test)) else None
 
 
 def _normal(test: Test) -> tuple[float, ...]:

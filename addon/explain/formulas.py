@@ -90,37 +90,30 @@ ERRATA = (
 class Reason(StrEnum):
     """Why a surface is rejected; the values are what JSON calls them."""
 
-    DEGENERATE = "degenerate"
-    PARALLEL = "parallel"
-    NOT_A_NUMBER = "not_a_number"
-    S1_NEGATIVE = "s1_negative"
-    S2_NEGATIVE = "s2_negative"
-    S3_NEGATIVE = "s3_negative"
-    S1_ABOVE_1 = "s1_above_1"
-    S2_ABOVE_1 = "s2_above_1"
-    S3_ABOVE_1 = "s3_above_1"
-    SUM = "sum"
-    BEHIND = "behind"
-    BEFORE_CLIP_START = "before_clip_start"
-    BEYOND_CLIP_END = "beyond_clip_end"
+    sentence: str  # for a reader
 
+    def __new__(cls, value: str, sentence: str) -> Reason:
+        """Return the string that JSON has, with its sentence."""
+        made = str.__new__(cls, value)
+        made._value_, made.sentence = value, sentence
+        return made
 
-REASONS = {
-    Reason.DEGENERATE: "n = 0: the corners lie on one line, there is no plane",
-    Reason.PARALLEL: "d · n = 0: the ray is parallel to the plane",
-    Reason.NOT_A_NUMBER: "t is not a finite number: an operation overflowed",
-    Reason.S1_NEGATIVE: "s₁ < 0: x lies beyond the edge p₂p₃",
-    Reason.S2_NEGATIVE: "s₂ < 0: x lies beyond the edge p₃p₁",
-    Reason.S3_NEGATIVE: "s₃ < 0: x lies beyond the edge p₁p₂",
-    Reason.S1_ABOVE_1: "s₁ > 1: x lies beyond the corner p₁",
-    Reason.S2_ABOVE_1: "s₂ > 1: x lies beyond the corner p₂",
-    Reason.S3_ABOVE_1: "s₃ > 1: x lies beyond the corner p₃",
-    Reason.SUM: "s₁ + s₂ + s₃ is farther from 1 than rounding takes it: the sᵢ have lost their "
-    "digits",
-    Reason.BEHIND: "t < 0: the plane is behind the eye",
-    Reason.BEFORE_CLIP_START: "t < clip start: nearer than the camera shows",
-    Reason.BEYOND_CLIP_END: "t > clip end: farther than the camera shows",
-}
+    DEGENERATE = "degenerate", "n = 0: the corners lie on one line, there is no plane"
+    PARALLEL = "parallel", "d · n = 0: the ray is parallel to the plane"
+    NOT_A_NUMBER = "not_a_number", "t is not a finite number: an operation overflowed"
+    S1_NEGATIVE = "s1_negative", "s₁ < 0: x lies beyond the edge p₂p₃"
+    S2_NEGATIVE = "s2_negative", "s₂ < 0: x lies beyond the edge p₃p₁"
+    S3_NEGATIVE = "s3_negative", "s₃ < 0: x lies beyond the edge p₁p₂"
+    S1_ABOVE_1 = "s1_above_1", "s₁ > 1: x lies beyond the corner p₁"
+    S2_ABOVE_1 = "s2_above_1", "s₂ > 1: x lies beyond the corner p₂"
+    S3_ABOVE_1 = "s3_above_1", "s₃ > 1: x lies beyond the corner p₃"
+    SUM = (
+        "sum",
+        "s₁ + s₂ + s₃ is farther from 1 than rounding takes it: the sᵢ have lost their digits",
+    )
+    BEHIND = "behind", "t < 0: the plane is behind the eye"
+    BEFORE_CLIP_START = "before_clip_start", "t < clip start: nearer than the camera shows"
+    BEYOND_CLIP_END = "beyond_clip_end", "t > clip end: farther than the camera shows"
 
 
 def ray_formulas(projection: Projection) -> dict[str, Formula]:

@@ -174,6 +174,7 @@ def _marked(parts: Parts) -> str:
 _TOKEN = re.compile(r"([A-Za-z]+)([ₛᵢ₁₂₃]+)?(?:_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
 _BARS = '<mo stretchy="false">‖</mo>'
 _SIGNS = re.compile(r"\d|[a-z]+")
+_AROUND = re.compile(r"^\((.*)\)$")
 _INDEX = str.maketrans("ₛᵢ₁₂₃", "si123")
 
 
@@ -191,13 +192,9 @@ def _right(text: str) -> str:
     if not slash:
         return inline(text)
     minus = "<mo>−</mo>" if above.startswith("−") else ""
-    parts = (inline(_bare(part.removeprefix("−"))) for part in (above, below))
+    # Without the brackets around all of it, which a bar makes needless.
+    parts = (inline(_AROUND.sub(r"\1", part.removeprefix("−"))) for part in (above, below))
     return f"{minus}<mfrac>{''.join(f'<mrow>{p}</mrow>' for p in parts)}</mfrac>"
-
-
-def _bare(text: str) -> str:
-    """Return text without the brackets around all of it, which a bar makes needless."""
-    return text[1:-1] if text.startswith("(") and text.endswith(")") else text
 
 
 def inline(text: str) -> str:
@@ -222,13 +219,9 @@ def inline(text: str) -> str:
 def _word(word: str, indices: list[str | None]) -> str:
     kind = ' class="derivation-vector"' if word in VECTORS else ""
     letter = f"<mi{kind}>{word}</mi>"
-    below = "".join(_index(sign) for index in indices if index for sign in _SIGNS.findall(index))
+    signs = _SIGNS.findall(" ".join(index for index in indices if index))
+    below = "".join(f"<mn>{s}</mn>" if s.isdigit() else f"<mi>{s}</mi>" for s in signs)
     return f"<msub>{letter}<mrow>{below}</mrow></msub>" if below else letter
-
-
-def _index(sign: str) -> str:
-    tag = "mn" if sign.isdigit() else "mi"
-    return f"<{tag}>{sign}</{tag}>"
 
 
 def _last_group(out: list[str]) -> str:

@@ -1,6 +1,8 @@
 """What one pixel's ray may meet: all that its derivation needs of a scene, and nothing else.
 
-It stands alone: `reproducer.py` writes it to a file, and what is derived from that is the same.
+It stands alone: `reproducer.py` writes it to a file, and what is derived from that is the same. And
+what the tracer says of it: every plain method in both precisions, and the proof. These `Answer`s
+are by the tracer's own functions, not by the steps that the derivation shows.
 """
 
 from __future__ import annotations
@@ -11,38 +13,32 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from ..scene import Camera, SceneError
-from ..tracer.camera import Rays, camera_rays
-from ..tracer.hits import NOTHING, Name
+from ..tracer import plane
+from ..tracer.camera import Rays, camera_rays, corner_rays
+from ..tracer.candidates import Pairs
+from ..tracer.certified.certainty import Certainty, broken_assumptions
+from ..tracer.certified.contest import Contest
+from ..tracer.hits import NOTHING, NOWHERE, Hits, Name, Statistics
+from ..tracer.nearest import within_clip
+from ..tracer.progress import result_of
+from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from ..tracer.world import WorldTriangles
 
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A triangle or an infinite plane that the ray may meet.
+    """A triangle or an infinite plane that the ray may meet."""
 
-    Parameters
-    ----------
-    object : str
-        Name of the object.
-    instance, triangle : int
-        As in a `Frame`: a plane has a number after all instances, and no triangle (NOTHING).
-    points : (3, 3) float64
-        The corners, a row each; of a plane (2, 3): its point and its normal. World space, metres.
-    colors : (1, 4) or (3, 4) float32
-        Linear RGBA: one, or one at each corner.
-    mesh : str
-    slot : int
-        Material slot whose colour it is.
-    """
-
-    object: str
-    instance: int
-    triangle: int
+    object: str  # its name
+    instance: int  # as in a `Frame`: a plane has a number after all instances,
+    triangle: int  # and no triangle (NOTHING)
+    # World space, metres: (3, 3) the corners, a row each; of a plane (2, 3), its point and normal.
     points: NDArray[np.float64]
-    colors: NDArray[np.float32]
+    colors: NDArray[np.float32]  # linear RGBA: (1, 4), or (3, 4) with one at each corner
     mesh: str = ""
-    slot: int = 0
+    slot: int = 0  # of the material whose colour it is
 
     @property
     def is_plane(self) -> bool:
@@ -66,26 +62,6 @@ class Candidate:
 class Pixel:
     """A camera, one of its pixels, and the candidates.
 
-    Parameters
-    ----------
-    camera : Camera
-    x, y : int
-        Of the traced picture, the camera's region: (0, 0) is its lower left pixel.
-    candidates : tuple of Candidate
-        What is nearest first.
-    background : (4,) float32
-        Linear RGBA.
-    first_plane : int
-        The number of the scene's first infinite plane: that of its instances.
-    triangles : int
-        In the whole scene.
-    left_out : int
-        Candidates beyond the limit: none of them is nearer than what is seen.
-    refused : int
-        Triangles of the scene with a corner that is not finite in world space.
-    source : str
-        Where it comes from, for a reader.
-
     Raises
     ------
     SceneError
@@ -93,15 +69,15 @@ class Pixel:
     """
 
     camera: Camera
-    x: int
+    x: int  # of the traced picture, the camera's region: (0, 0) is its lower left pixel
     y: int
-    candidates: tuple[Candidate, ...]
-    background: NDArray[np.float32]
-    first_plane: int = 0
-    triangles: int = 0
-    left_out: int = 0
-    refused: int = 0
-    source: str = ""
+    candidates: tuple[Candidate, ...]  # what is nearest first
+    background: NDArray[np.float32]  # (4,) linear RGBA
+    first_plane: int = 0  # the number of the scene's first infinite plane: that of its instances
+    triangles: int = 0  # in the whole scene
+    left_out: int = 0  # candidates beyond the limit: none of them is nearer than what is seen
+    refused: int = 0  # the scene's triangles with a corner that is not finite in world space
+    source: str = ""  # where it comes from, for a reader
 
     def __post_init__(self) -> None:
         check_pixel(self.camera, self.x, self.y)
@@ -151,12 +127,93 @@ class Pixel:
 
 def check_pixel(camera: Camera, x: int, y: int) -> None:
     """Raise a SceneError if the traced picture has no pixel (x, y)."""
-    size = camera.region.width, camera.region.height
-    for name, value, count in (("x", x, size[0]), ("y", y, size[1])):
+    width, height = camera.region.width, camera.region.height
+    for name, value, count in (("x", x, width), ("y", y, height)):
         if not isinstance(value, (int, np.integer)):
             raise SceneError(f"{name} of the pixel is {value!r}; it must be a whole number.")
         if not 0 <= value < count:
             raise SceneError(
-                f"There is no pixel ({x}, {y}) in a picture of {size[0]} x {size[1]}: {name} must "
+                f"There is no pixel ({x}, {y}) in a picture of {width} x {height}: {name} must "
                 f"be between 0 and {count - 1}. (0, 0) is the lower left."
             )
+
+
+SENTENCES = {
+    Certainty.NOT_CERTIFIED: "by floating point alone: this machine's arithmetic allows no proof",
+    Certainty.BOUND: "proven by the error bound of float64: no rounding could change it",
+    Certainty.EXACT: "proven by whole numbers: float64's error bound left some doubt",
+    Certainty.AMBIGUOUS: "decided by the rule, as exact arithmetic leaves several answers: the ray "
+    "meets an edge, a corner, or two surfaces at once, and is taken to pass infinitesimally beside "
+    "itself",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What one method in one precision sees; `seen` is NOWHERE, and `t` inf, for nothing."""
+
+    method: Method
+    precision: Precision
+    seen: Name
+    t: float
+    s: NDArray[np.float64]  # (3,) barycentrics of the corners; zeros of a plane and of nothing
+    certainty: Certainty = Certainty.NOT_CERTIFIED
+    ties: frozenset[Name] = frozenset()  # all that an ambiguous ray may be said to see
+
+
+def plain_answers(pixel: Pixel) -> list[Answer]:
+    """Return the answers of the plain methods, in the tracer's order.
+
+    They are the pictures' own, except where float32 rounds a triangle so far that its box on the
+    film, which float64 keeps away from the pixel, holds it: that triangle is no candidate.
+    """
+    triangles = pixel.world_triangles()
+    return [plain_answer(pixel, triangles, settings) for settings in PLAIN_SETTINGS]
+
+
+def plain_answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings) -> Answer:
+    """Return what a plain method sees of these triangles and the pixel's planes."""
+    method, precision = settings.method, settings.precision
+    rays = pixel.rays(precision.dtype)
+    with np.errstate(over="ignore"):  # what float32 cannot hold is inf, and is not hit
+        corners = triangles.corners.astype(precision.dtype)
+        planes = [(c.name, *c.points.astype(precision.dtype)) for c in pixel.planes]
+    met = [(np.inf, NOWHERE, np.zeros(3))]
+    if len(triangles.instance):
+        hit, t, s = method.function(rays, *corners)
+        for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
+            name = int(triangles.instance[k]), int(triangles.triangle[k])
+            met.append((float(t[k]), name, s[:, k].astype(float)))
+    for name, point, normal in planes:
+        t = plane.intersect(rays, point[:, None], normal[:, None])
+        if within_clip(pixel.camera, t)[0]:
+            met.append((float(t[0]), name, np.zeros(3)))
+    t, seen, s = min(met, key=lambda m: m[:2])
+    return Answer(method, precision, seen, t, s)
+
+
+def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
+    """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
+    planes = [(c.points[0], c.points[1]) for c in pixel.planes]
+    clip = pixel.camera.clip_start, pixel.camera.clip_end
+    around = corner_rays(pixel.camera)  # the bounds are those for all of the picture's rays
+    contest = Contest(pixel.rays(), planes, pixel.first_plane, *clip, around)
+    every = np.arange(len(triangles.instance))
+    if len(every):
+        contest.enter(Pairs(np.zeros_like(every), every, triangles))
+    return result_of(contest.hits(Statistics()))
+
+
+def certified_answer(pixel: Pixel) -> Answer:
+    """Return the answer that is proven; NOT_CERTIFIED where this process can prove nothing."""
+    hits = contest_hits(pixel, pixel.world_triangles())
+    certainty = Certainty(int(hits.certainty[0]))
+    return Answer(
+        Method.CERTIFIED,
+        Precision.FLOAT64,
+        (int(hits.instance[0]), int(hits.triangle[0])),
+        float(hits.t[0]),
+        hits.s[:, 0],
+        Certainty.NOT_CERTIFIED if broken_assumptions() else certainty,
+        hits.ties.get(0, frozenset()),
+    )

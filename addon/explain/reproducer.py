@@ -183,10 +183,7 @@ def _array(
     except (ValueError, TypeError, OverflowError):
         values = np.array(np.nan)
     if not np.isfinite(values).all() or (shape is not None and values.shape != shape):
-        what = "finite numbers" if shape is None else f"{_size(shape)} finite numbers"
-        raise SceneError(f"{where}{key} must be {what if shape != () else 'a finite number'}")
+        size = " x ".join(map(str, shape or ()))
+        what = "a finite number" if shape == () else f"{size} finite numbers".lstrip()
+        raise SceneError(f"{where}{key} must be {what}")
     return values
-
-
-def _size(shape: tuple[int, ...]) -> str:
-    return " x ".join(map(str, shape))

@@ -14,12 +14,11 @@ from typing import Any
 
 import numpy as np
 
-from .answers import Answer
 from .derivation import Derivation, Quantity, Test
 from .digits import exact_text, text, ulps
 from .document import markdown
-from .formulas import REASONS
 from .html import page
+from .pixel import Answer
 from .textbook import FLOATS, Arithmetic, Number
 
 SCHEMA = "reference_tracer.derivation/1"
@@ -111,7 +110,7 @@ def _test(test: Test) -> dict[str, Any]:
             kind: {
                 "accepted": j.accepted,
                 "as_printed": j.literal,
-                "reasons": [{"code": r.value, "sentence": REASONS[r]} for r in j.reasons],
+                "reasons": [{"code": r.value, "sentence": r.sentence} for r in j.reasons],
             }
             for kind, j in ((kind, test.verdicts[kind]) for kind in Arithmetic)
         },

@@ -51,9 +51,7 @@ class Row:
     # In ulp of the certified t (float64), over rays that see the same surface; None without one.
     # For the certified row, against the oracle's exact t: at most 1/2.
     largest_t_error: float | None = None
-    exact: float | None = (
-        None  # certified: share of the pairs that integers decided
-    )
+    exact: float | None = None  # certified: share of the pairs that integers decided
     judged: int = 0  # certified: rays about which the oracle was asked
     seen: int = 0  # rays whose certified ray sees a surface
     across: float | None = None  # the second scale of a map's row

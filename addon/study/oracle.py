@@ -44,23 +44,13 @@ AT_ONCE = 1 << 16  # pairs: some hundred MiB of integers
 
 @dataclass(frozen=True, eq=False)
 class Intersections:
-    """Exact intersections of n lines with n triangles, pair by pair.
+    """Exact intersections of n lines with n triangles, pair by pair, (n,) each."""
 
-    Parameters
-    ----------
-    side : (n,) int8
-        Where the stored line passes: INSIDE, at the EDGE, or OUTSIDE, which is also a line that is
-        parallel to the triangle or lies in its plane.
-    hit : (n,) bool
-        Whether the moved line meets the triangle.
-    numerator, denominator : (n,) object
-        Integers: t = `numerator` / `denominator` * 2^`shift`.
-    shift : (n,) int64
-    """
-
+    # Where the stored line passes: INSIDE, at the EDGE, or OUTSIDE, which is also a line that is
+    # parallel to the triangle or lies in its plane.
     side: NDArray[np.int8]
-    hit: NDArray[np.bool_]
-    numerator: NDArray[np.object_]
+    hit: NDArray[np.bool_]  # whether the moved line meets the triangle
+    numerator: NDArray[np.object_]  # integers: t = numerator / denominator * 2^shift
     denominator: NDArray[np.object_]
     shift: NDArray[np.int64]
 
@@ -100,11 +90,9 @@ def intersect_pairs(
         inside = closed & np.all([w > 0 for w in weights], axis=0)
         hit = inside.copy()
         for k in np.flatnonzero(closed & ~inside):
-            column = [[int(x) for x in w[:, k]] for w in (o, d, *points)]
-            origin, direction, [surface] = moved(
-                *column[:2], [Surface(NOWHERE, column[2:])], THE_RULE
-            )
-            hit[k] = crosses(origin, direction, surface)
+            origin, along, *own = ([int(x) for x in w[:, k]] for w in (o, d, *points))
+            origin, along, [surface] = moved(origin, along, [Surface(NOWHERE, own)], THE_RULE)
+            hit[k] = crosses(origin, along, surface)
         side = np.where(inside, INSIDE, np.where(closed, EDGE, OUTSIDE)).astype(np.int8)
         parts.append((side, hit, numerator, det, scale - direction_scale))
     return Intersections(*(np.concatenate(column) for column in zip(*parts, strict=True)))
@@ -132,31 +120,17 @@ class Meeting(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """What one ray sees.
+    """What one ray sees."""
 
-    Parameters
-    ----------
-    origin, direction : (3,) float64
-    seen : Name
-        What the ray that the rule moves sees first, NOWHERE for nothing.
-    t : Fraction or None
-        Where the stored ray meets it.
-    crossings : int
-        How many surfaces the moved ray crosses within the clip range.
-    front : tuple of Surface
-        All that the textbook leaves open: what the closed triangles have nearest, and what they
-        have at their edges before that.
-    covered : bool
-        Whether something is seen however the ray is moved.
-    """
-
-    origin: NDArray[np.float64]
-    direction: NDArray[np.float64]
-    seen: Name
-    t: Fraction | None
-    crossings: int
+    origin: NDArray[np.float64]  # (3,)
+    direction: NDArray[np.float64]  # (3,)
+    seen: Name  # what the ray that the rule moves sees first, NOWHERE for nothing
+    t: Fraction | None  # where the stored ray meets it
+    crossings: int  # how many surfaces the moved ray crosses within the clip range
+    # All that the textbook leaves open: what the closed triangles have nearest, and what they have
+    # at their edges before that.
     front: tuple[Surface, ...]
-    covered: bool
+    covered: bool  # whether something is seen however the ray is moved
 
     @property
     def touched(self) -> frozenset[Name]:
@@ -204,10 +178,8 @@ def scene_sights(scene: Scene, pixels: NDArray[np.integer] | None = None) -> lis
         finite = np.flatnonzero(np.isfinite(own).all(axis=(0, 1)))
         corners.append(own[:, :, finite])
         names += [(i, int(k)) for k in finite]
-    planes = [
-        ((len(scene.instances) + i, NOTHING), plane.point, plane.normal)
-        for i, plane in enumerate(scene.planes)
-    ]
+    numbered = enumerate(scene.planes, len(scene.instances))
+    planes = [((k, NOTHING), plane.point, plane.normal) for k, plane in numbered]
     clip = camera.clip_start, camera.clip_end
     return sights(o, d, np.concatenate(corners, axis=2), names, planes, *clip)
 

@@ -53,9 +53,7 @@ class _Choice:
     settings: Settings
     scene: Scene  # of the row's resolution
     peak_bytes: int = 0
-    wrong_pixels: int = 0
-    t_error: float | None = None
-    coverage_error: float = 0.0
+    errors: tuple[int, float | None, float] = 0, None, 0.0  # wrong pixels, in t, of the coverage
     rounds: list[float] = field(default_factory=list)
 
     @property
@@ -65,19 +63,10 @@ class _Choice:
         return self.settings.samples**2 * (camera.width * camera.height + self.scene.triangle_count)
 
     def row(self) -> Row:
-        s, camera = self.settings, self.scene.camera
+        s, camera, (wrong, t_error, coverage) = self.settings, self.scene.camera, self.errors
         return Row(
-            s.method.value,
-            s.precision.value,
-            s.samples,
-            camera.width,
-            camera.height,
-            median(self.rounds),
-            self.wrong_pixels,
-            self.t_error,
-            self.peak_bytes,
-            self.coverage_error,
-            tuple(self.rounds),
+            *(s.method.value, s.precision.value, s.samples, camera.width, camera.height),
+            *(median(self.rounds), wrong, t_error, self.peak_bytes, coverage, tuple(self.rounds)),
         )
 
 
@@ -107,12 +96,10 @@ def measure(
     """
     choices = choose(scene, min(WIDTH, scene.camera.width) if width is None else width, samples)
     camera = choices[0].scene.camera
-    k = _converged_samples(camera.width * camera.height, samples)
-    costs = (
-        k * k * camera.width * camera.height,
-        *((s * sum(c.cost for c in choices)) for s in (2, 4)),
-    )
-    first, second = costs[0] / sum(costs), costs[1] / sum(costs)
+    pixels, each = camera.width * camera.height, sum(c.cost for c in choices)
+    k = max(2 * samples, min(CONVERGED, int((MANY / pixels) ** 0.5)))
+    rays = k * k * pixels
+    first, second = (cost / (rays + 6 * each) for cost in (rays, 2 * each))
     truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)
     yield from scaled(_look_at_all(choices, truth), first, second)
     yield from scaled(_time_all(choices), first + second, 1 - first - second)
@@ -189,10 +176,6 @@ def largest_t_error(frame: Frame, certified: Frame) -> float | None:
     return float(np.abs(frame.t[same] - certified.t[same]).max()) if same.any() else None
 
 
-def _converged_samples(pixels: int, samples: int) -> int:
-    return max(2 * samples, min(CONVERGED, int((MANY / pixels) ** 0.5)))
-
-
 def _look_at_all(choices: list[_Choice], truth: NDArray[np.float64]) -> Work[None]:
     """Render each once, untimed, for its memory and its errors; only certified frames are kept."""
     total, done, certified = sum(c.cost for c in choices), 0.0, {}
@@ -200,9 +183,9 @@ def _look_at_all(choices: list[_Choice], truth: NDArray[np.float64]) -> Work[Non
         frame = yield from scaled(_look(choice), done / total, choice.cost / total)
         done += choice.cost
         proven = certified.setdefault(choice.scene.camera.width, frame)
-        choice.wrong_pixels = int(frame.wrong_against(proven).sum())
-        choice.t_error = largest_t_error(frame, proven)
-        choice.coverage_error = coverage_error(frame.color, truth)
+        wrong = int(frame.wrong_against(proven).sum())
+        errors = largest_t_error(frame, proven), coverage_error(frame.color, truth)
+        choice.errors = wrong, *errors
 
 
 def _look(choice: _Choice) -> Work[Frame]:

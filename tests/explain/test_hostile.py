@@ -8,14 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.explain import document, html, reproducer, writers
-from reference_tracer.explain.answers import PLAIN
 from reference_tracer.explain.candidates import gather
 from reference_tracer.explain.derivation import derive, derive_pixel
 from reference_tracer.explain.textbook import FLOATS, Arithmetic
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.hits import NOWHERE
 from reference_tracer.tracer.render import trace
-from reference_tracer.tracer.settings import Precision, Settings
+from reference_tracer.tracer.settings import PLAIN_SETTINGS, Precision, Settings
 
 from ..tracer.hostile_scenes import hostile_scene
 
@@ -31,7 +30,7 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
     for number in range(SCENES):
         scene = hostile_scene(make, rng)
         hits, region = trace(scene, Settings("certified")), scene.camera.region
-        plain = {(m, p): trace(scene, Settings(m, precision=p)) for m, p in PLAIN}
+        plain = {(s.method, s.precision): trace(scene, s) for s in PLAIN_SETTINGS}
         for index in rng.choice(len(hits.t), min(6, len(hits.t)), replace=False).tolist():
             y, x = divmod(index, region.width)
             found = derive(scene, x, y, limit=int(rng.integers(1, 9)))
