@@ -137,16 +137,11 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A picture from a file.
+    """A picture from a file."""
 
-    `color` is (h, w, 4) float32, linear RGBA with premultiplied alpha, row 0 at the bottom;
-    `levels` above 0 of sRGB's curve in which it was stored, 0 for floats; `opaque` where the file
-    has no alpha.
-    """
-
-    color: NDArray[np.float32]
-    levels: int
-    opaque: bool
+    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
+    levels: int  # above 0 of sRGB's curve in which it was stored; 0 for floats
+    opaque: bool  # the file has no alpha
 
 
 def load(path: str | Path) -> Picture:

@@ -1,13 +1,15 @@
-"""Ctrl-C: heard wherever it falls, also in code of Blender's that would swallow it.
+"""Ctrl-C, heard wherever it falls, and the bar of long work that it ends.
 
 Python turns Ctrl-C into a KeyboardInterrupt at whatever it runs at that moment. Where that is a
-callback from C, it is printed and forgotten; in the middle of an import it leaves half a module.
+callback from C, as in Blender, it is printed and forgotten; in the middle of an import it leaves
+half a module.
 """
 
 from __future__ import annotations
 
 import signal
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
 _heard = False
@@ -66,3 +68,27 @@ def held() -> Iterator[None]:
         _holding = before
     if not _holding:
         check()
+
+
+@contextmanager
+def progress_bar() -> Iterator[Callable[[float], None]]:
+    """Show a bar on standard error, if it is a terminal and tqdm is there."""
+    check()
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        if sys.stderr.isatty():
+            print(
+                "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
+                file=sys.stderr,
+            )
+        yield lambda share: check()
+        return
+    layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"
+    with tqdm(total=1.0, bar_format=layout, disable=None, leave=False) as bar:
+
+        def show(share: float) -> None:
+            check()
+            bar.update(share - bar.n)
+
+        yield show

@@ -36,20 +36,16 @@ class ObjectEntry:
 
 @dataclass(frozen=True, eq=False)
 class Unmodelled:
-    """A feature of the scene that the tracer does not model.
-
-    `bounds` is the world-space box, (2, 3) float64 metres, inside which the feature can change
-    Blender's picture; None where it changes nothing that is compared, or cannot be placed. What can
-    change it anywhere is `everywhere`. What `recolours` changes shades alone: whose surface a pixel
-    shows stays as it is.
-    """
+    """A feature of the scene that the tracer does not model."""
 
     object: str
     feature: str
     detail: str = ""
+    # The world-space box, (2, 3) metres, inside which the feature can change Blender's picture;
+    # None where it changes nothing that is compared, or cannot be placed.
     bounds: NDArray[np.float64] | None = None
-    everywhere: bool = False
-    recolours: bool = False
+    everywhere: bool = False  # it can change the picture anywhere
+    recolours: bool = False  # it changes shades alone: whose surface a pixel shows stays as it is
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():

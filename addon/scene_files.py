@@ -81,9 +81,7 @@ def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:
     if not diagnoses:
         return None
     return {
-        key: all(d[key] for d in diagnoses)
-        if isinstance(value, bool)
-        else sum(d[key] for d in diagnoses)
+        key: (all if isinstance(value, bool) else sum)(d[key] for d in diagnoses)
         for key, value in diagnoses[0].items()
     }
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from reference_tracer.arguments import INTERRUPTED
 from reference_tracer.commands.parts import Commands, command, write_study
+from reference_tracer.interrupts import progress_bar
 from reference_tracer.report import folders
-from reference_tracer.report.progress_bar import progress_bar
 
 
 def add(commands: Commands) -> None:

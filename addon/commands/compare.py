@@ -15,11 +15,11 @@ from ..arguments import add_camera, add_judge, add_page, add_settings, camera_fr
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
+from ..interrupts import progress_bar
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
 from ..report import comparison as comparison_report
 from ..report import folders, page
-from ..report.progress_bar import progress_bar
 from ..scene import Camera, Scene, SceneError
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, result_of

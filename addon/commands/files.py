@@ -7,9 +7,9 @@ from pathlib import Path
 
 from .. import images
 from ..arguments import add_camera, add_settings, camera_from, settings_from
+from ..interrupts import progress_bar
 from ..opening import SOURCES, load
 from ..report import folders
-from ..report.progress_bar import progress_bar
 from ..scene import SceneError
 from ..scene_files import save_scene
 from ..tracer.render import render

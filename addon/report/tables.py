@@ -14,16 +14,9 @@ def columns(
 ) -> list[str]:
     """Return rows of cells as lines, each column as wide as its widest cell.
 
-    Parameters
-    ----------
-    rows : sequence of (sequence of str, or str)
-        All rows have the same number of cells. A str is a line by itself, such as a title.
-    left : collection of int
-        The columns whose cells are flush left; those of the others are flush right.
-    gap : str
-        What stands between two columns.
-    least : sequence of int
-        The least widths of the first columns.
+    All rows have the same number of cells. A str is a line by itself, such as a title. The cells of
+    the columns `left` are flush left, those of the others flush right. `gap` stands between two
+    columns; `least` has the least widths of the first columns.
     """
     cells = [row for row in rows if not isinstance(row, str)]
     widest = [max(map(len, column)) for column in zip(*cells, strict=True)]

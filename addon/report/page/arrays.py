@@ -54,14 +54,10 @@ def size(value: Any) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """The k surfaces that are seen, and which of them each pixel sees.
+    """The k surfaces that are seen, and which of them each pixel sees."""
 
-    `number` is (h, w) int32, 0 for none, else one more than the index into `instance` and
-    `triangle`, (k,) int32 as in a `Frame`.
-    """
-
-    number: NDArray[np.int32]
-    instance: NDArray[np.int32]
+    number: NDArray[np.int32]  # (h, w): 0 for none, else one more than the index into the others
+    instance: NDArray[np.int32]  # (k,), as in a `Frame`
     triangle: NDArray[np.int32]
 
 
