@@ -332,3 +332,11 @@ def test_the_proof_is_short_enough_to_be_read():
 def test_the_definition_does_without_the_sweep():
     for file in PROOF.glob("*.py"):
         assert not any("sweep" in path.parts for path in needed_by(file)), file
+
+
+MOST_LINES = 20_500  # of Python: a line is a cost, and what comes is paid for by what goes
+
+
+def test_the_add_on_stays_small():
+    lines = sum(len(file.read_text(encoding="utf-8").splitlines()) for file in FILES.values())
+    assert lines <= MOST_LINES, f"{lines} lines: delete before you add"
