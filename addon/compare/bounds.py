@@ -84,9 +84,7 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
     return U * error
 
 
-def _corners(
-    scene: Scene, instance: NDArray, triangle: NDArray, corner: int
-) -> NDArray[np.float64]:
+def _corners(scene: Scene, instance: NDArray, triangle: NDArray, corner: int) -> NDArray:
     """Return one corner of each triangle in its object's space, (3, n)."""
     out = np.empty((3, len(triangle)))
     meshes = scene.instance_meshes[instance]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,10 +63,7 @@ class Case:
 
     def before(self, background: NDArray[np.float32]) -> Case:
         """Return the same with every scene, and the picture, before a background, linear RGBA."""
-
-        def behind(scene: Scene) -> Scene:
-            return replace(scene, background=background)
-
+        behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)
         return replace(self.exported(behind), picture=picture, next_frame=then)

@@ -211,17 +211,17 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
         )
     share = (1 - _CHECKING if case.self_check else 1.0) * _CAUSES
     found = yield from scaled(explain(case, frame), 0.0, share)
-    picture, frame_then = found.case.picture, found.frame
-    measuring = measure(frame_then.color, picture.color)
+    picture, before = found.case.picture, found.frame  # before the picture's own background
+    measuring = measure(before.color, picture.color)
     measured = yield from scaled(measuring, share, share * (1 / _CAUSES - 1))
     identity = None
     if picture.owner is not None:
-        traced = picture.owners[frame_then.instance_index]
+        traced = picture.owners[before.instance_index]
         identity = Identity(picture.names, traced, picture.owner)
-    faults: tuple[FaultRow, ...] = ()
+    counted = count_pixels(found.causes, boundary(before), identity)
+    made = Comparison(found.case, before, found.causes, counted, measured, identity=identity)
+    made.background = found.background
     if case.self_check:
         checking = self_check(case, frame, found.causes)
-        faults = yield from scaled(checking, 1 - _CHECKING, _CHECKING)
-    counted = count_pixels(found.causes, boundary(frame_then), identity)
-    made = Comparison(found.case, frame_then, found.causes, counted, measured)
-    return replace(made, identity=identity, self_check=faults, background=found.background)
+        made.self_check = yield from scaled(checking, 1 - _CHECKING, _CHECKING)
+    return made

@@ -47,13 +47,12 @@ class EngineRow:
 def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
     causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
-    cause = causes.cause
-    differ = np.isin(cause, [c for c in Cause if c.differs])
+    differ = np.isin(causes.cause, [c for c in Cause if c.differs])
     places = np.argwhere(differ)
-    order = np.argsort(cause[differ] != Cause.UNEXPLAINED, kind="stable")
+    order = np.argsort(causes.cause[differ] != Cause.UNEXPLAINED, kind="stable")
     out = []
     for y, x in places[order][:EXAMPLES]:
-        told = Cause(cause[y, x])
+        told = Cause(causes.cause[y, x])
         row = {
             "pixel": [int(x), int(y)],
             "traced": _name(comparison.scene.objects, int(frame.object_index[y, x])),

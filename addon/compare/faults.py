@@ -67,8 +67,6 @@ def _seen(case: Case, frame: Frame) -> list[int]:
 
 def _in(other: Scene, scene: Scene, number: int) -> int | None:
     """Return which instance of another export is a scene's: the same one of its object's."""
-    if other is scene:
-        return number
     index = scene.instances[number].object
     name, of_object = scene.objects[index], [i.object == index for i in scene.instances]
     there = [n for n, i in enumerate(other.instances) if other.objects[i.object] == name]

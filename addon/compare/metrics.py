@@ -73,11 +73,8 @@ def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:
     _same_shape(first, second)
     difference = np.abs(first.astype(np.float64) - second)
     y, x, channel = np.unravel_index(int(difference.argmax()), difference.shape)
-    return {
-        "value": float(difference[y, x, channel]),
-        "pixel": [int(x), int(y)],
-        "channel": int(channel),
-    }
+    value = float(difference[y, x, channel])
+    return {"value": value, "pixel": [int(x), int(y)], "channel": int(channel)}
 
 
 def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:
@@ -97,12 +94,8 @@ def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[d
         yield 0.2 * start / height
     error = float(np.sqrt(squares / height))
     similarity = yield from scaled(ssim(a, b), 0.2, 0.8)
-    return {
-        "rmse": error,
-        "psnr": psnr(error) if error else None,
-        "ssim": similarity,
-        "largest_difference": largest,
-    }
+    told = {"rmse": error, "psnr": psnr(error) if error else None, "ssim": similarity}
+    return told | {"largest_difference": largest}
 
 
 def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]:

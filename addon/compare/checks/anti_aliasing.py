@@ -26,7 +26,6 @@ from .probe import SOUND, OpenPixels, Part, by_parts
 # what is left: a sliver passes between the samples.
 DENSITIES = ((2, 8), (4, 16), (12, 32))
 _PIXELS = [(x, y) for x in (-2, -1, 0, 1, 2) for y in (-2, -1, 0, 1, 2) if x or y]
-
 DISTINCT = 16  # colours of which each three are tried
 ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some an age
 # A mix is stored in half floats after some twenty roundings, and its samples lie between ours.

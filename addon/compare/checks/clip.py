@@ -1,7 +1,7 @@
 """Where float32 decides on which side of a clip plane a surface lies.
 
-Open pixels are settled where Blender shows what the tracer would see
-had it taken, or left out, a surface as near to a clip plane as Blender's arithmetic can tell.
+Open pixels are settled where Blender shows what the tracer would see had it taken, or left out, a
+surface as near to a clip plane as Blender's arithmetic can tell.
 """
 
 from __future__ import annotations

@@ -97,9 +97,7 @@ def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
     return out
 
 
-def nearest_to_origin(
-    a: NDArray, b: NDArray, c: NDArray
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def nearest_to_origin(a: NDArray, b: NDArray, c: NDArray) -> tuple[NDArray, NDArray]:
     """Return the point of each triangle (a, b, c), (2, n) each, that lies nearest to the origin.
 
     Returns

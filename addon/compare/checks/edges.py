@@ -61,16 +61,8 @@ def _behind(part: Part, first: Hits, lost: NDArray[np.bool_]) -> Work[None]:
     """Settle open pixels that show a surface which ties with the first one.
 
     Colours and whose surfaces they are come from two drawings, in which a tie may go either way:
-    each must be found among the surfaces that tie.
-
-    Parameters
-    ----------
-    part : Part
-        Of n pixels.
-    first : Hits
-        Through their centres.
-    lost : (n,) bool
-        Where the picture's own method lost what its centre shows.
+    each must be found among the surfaces that tie. `first` are the hits of the n centres; `lost`
+    (n,) is where the picture's own method lost what its centre shows.
     """
     scene, picture = part.scene, part.picture
     allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)

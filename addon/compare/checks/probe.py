@@ -59,7 +59,6 @@ class OpenPixels:
 
     Parameters
     ----------
-    case : Case
     frame : Frame
         What was traced.
     picture : Picture
