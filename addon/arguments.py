@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 import traceback
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import NoReturn
 
@@ -134,8 +134,7 @@ def check(options: argparse.Namespace) -> None:
         path = getattr(options, name)
         if path and path.suffix.lower() not in endings:
             raise SceneError(f"'{path}' must end in {' or '.join(endings)}")
-    for names, why in _unheard(options):
-        refuse(options, names, why)
+    _refuse_unheard(options)
     if hasattr(options, "pixel"):
         _check_pixel(options)
     # A .blend stores a method, which may be plain; so may the file that is open in Blender.
@@ -143,17 +142,16 @@ def check(options: argparse.Namespace) -> None:
     settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
 
 
-def _unheard(options: argparse.Namespace) -> Iterator[tuple[tuple[str, ...], str]]:
-    """Yield options that the others leave without a meaning, and why."""
-    if hasattr(options, "against"):
-        if options.against is None:
-            yield ("filter", "dither"), "is for a picture of --against"
-        else:
-            why = "is for Blender's picture, not for one of --against"
-            yield ("judge", "identity", "as_is"), why
+def _refuse_unheard(options: argparse.Namespace) -> None:
+    """Refuse options that the others leave without a meaning."""
+    if getattr(options, "against", ""):
+        why = "is for Blender's picture, not for one of --against"
+        refuse(options, ("judge", "identity", "as_is"), why)
+    elif hasattr(options, "against"):
+        refuse(options, ("filter", "dither"), "is for a picture of --against")
     if hasattr(options, "pixel") and _suffix(options) == ".json":
         why = f"is not for '{options.scene}', which is one pixel by itself"
-        yield ("pixel", "limit", *CAMERA_OPTIONS), why
+        refuse(options, ("pixel", "limit", *CAMERA_OPTIONS), why)
 
 
 def _check_pixel(options: argparse.Namespace) -> None:
@@ -272,17 +270,10 @@ def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None,
     if half is None:
         half = np.tan(np.radians(50.0 if options.angle is None else options.angle) / 2)
     matrix, distance = _looking(np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0)))
-    camera = Camera(
-        matrix,
-        ViewWindow(-half * width / height, half * width / height, -half, half),
-        width,
-        height,
-        projection=PERSPECTIVE if options.ortho_scale is None else ORTHOGRAPHIC,
-        clip_start=distance * 1e-3,
-        clip_end=distance * 1e3,
-        name="--eye",
-    )
-    return camera, size
+    window = ViewWindow(-half * width / height, half * width / height, -half, half)
+    projection = PERSPECTIVE if options.ortho_scale is None else ORTHOGRAPHIC
+    clip = distance * 1e-3, distance * 1e3
+    return Camera(matrix, window, width, height, projection, *clip, name="--eye"), size
 
 
 def _looking(eye: NDArray, target: NDArray) -> tuple[NDArray[np.float64], float]:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from .manifest import Manifest
-from .projections import projection_of
+from .projections import PERSPECTIVE, projection_of
 from .scene import (
     Camera,
     Instance,
@@ -210,12 +210,9 @@ def scene_of_meshes(
         Instance(k, k, matrix, np.array([[g, g, g, 1]], np.float32))
         for k, ((_, matrix), g) in enumerate(zip(meshes, greys, strict=True))
     )
-    return Scene(
-        camera or framing_camera(meshes, width, height),
-        tuple(m for m, _ in meshes),
-        instances,
-        objects=tuple(m.name for m, _ in meshes),
-    )
+    shown, names = tuple(m for m, _ in meshes), tuple(m.name for m, _ in meshes)
+    camera = camera or framing_camera(meshes, width, height)
+    return Scene(camera, shown, instances, objects=names)
 
 
 def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: int) -> Camera:
@@ -224,12 +221,8 @@ def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: in
     It looks from the front, the right and above, like the camera of a new Blender scene.
     """
     check_size(width, height)
-    corners = np.concatenate(
-        [
-            m.vertices[np.unique(m.triangles)].astype(float) @ matrix[:3, :3].T + matrix[:3, 3]
-            for m, matrix in meshes
-        ]
-    )
+    used = ((m.vertices[np.unique(m.triangles)].astype(float), matrix) for m, matrix in meshes)
+    corners = np.concatenate([v @ matrix[:3, :3].T + matrix[:3, 3] for v, matrix in used])
     low, high = corners.min(axis=0), corners.max(axis=0)
     center, radius = (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-30)
     backward = np.array([0.66, -0.62, 0.42])
@@ -243,12 +236,6 @@ def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: in
         (right, np.cross(backward, right), backward, center + distance * backward), 1
     )
     x, y = narrow * max(1, width / height), narrow * max(1, height / width)
-    return Camera(
-        matrix,
-        ViewWindow(-x, x, -y, y),
-        width,
-        height,
-        name="framing",
-        clip_start=max(distance - 2 * radius, distance * 1e-3),
-        clip_end=distance + 2 * radius,
-    )
+    window = ViewWindow(-x, x, -y, y)
+    clip = max(distance - 2 * radius, distance * 1e-3), distance + 2 * radius
+    return Camera(matrix, window, width, height, PERSPECTIVE, *clip, name="framing")
