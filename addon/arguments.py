@@ -74,11 +74,9 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
 def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
     """Add which of Blender's pictures, by the names of its judges, to compare with, and how."""
     group = parser.add_argument_group("Blender's picture (by default as the scene says)")
-    group.add_argument(
-        "--judge",
-        choices=["auto", *judges, "all"],
-        help="which of Blender's pictures to compare with; all: a table of every one (and the "
-        "viewport's, in a window)",
+    judge = (
+        "which of Blender's pictures to compare with; all: a table of every one (and the "
+        "viewport's, in a window)"
     )
     as_is = "leave Blender's shading as the scene has it, not like for like"
     identity = "draw once more, a colour an object, to know whose surface each pixel shows"
@@ -86,6 +84,7 @@ def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
         "then make known faults (a pixel off, mirrored, an object left out...) and see that each "
         "is found"
     )
+    group.add_argument("--judge", choices=["auto", *judges, "all"], help=judge)
     group.add_argument("--as-is", action="store_true", help=as_is)
     group.add_argument("--identity", action=argparse.BooleanOptionalAction, help=identity)
     group.add_argument("--self-check", action="store_true", default=None, help=self_check)

@@ -119,11 +119,9 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
         raise _missing("EXR files", "OpenEXR") from None
     channels = {}
     for name, values in passes.items():
-        values = np.asarray(values)
-        if values.ndim < 2:
+        if np.ndim(values) < 2:
             continue
-        if values.ndim == 2:
-            values = values[..., None]
+        values = np.atleast_3d(values)
         letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
         for index, letter in enumerate(letters):
             key = letter if name == "color" else f"{name}.{letter}"

@@ -78,10 +78,8 @@ def progress_bar() -> Iterator[Callable[[float], None]]:
         from tqdm import tqdm
     except ImportError:
         if sys.stderr.isatty():
-            print(
-                "reftrace: no progress bar without tqdm: pip install 'reference_tracer[progress]'",
-                file=sys.stderr,
-            )
+            why = "no progress bar without tqdm: pip install 'reference_tracer[progress]'"
+            print(f"reftrace: {why}", file=sys.stderr)
         yield lambda share: check()
         return
     layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"

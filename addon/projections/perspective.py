@@ -67,8 +67,8 @@ class Perspective:
     def sides(self, across: Floats, depth: Floats, edges: Floats) -> tuple[Floats, Floats]:
         """Return normals (4, 3) and offsets (4,) of the view volume's sides.
 
-        From rows of the inverse of the axes, `across` (4, 3) towards each side and `depth` (3,),
-        and where the window ends on each, `edges` (4,).
+        `across` (4, 3), towards each side, and `depth` (3,) are rows of the inverse of the axes;
+        `edges` (4,) is where the window ends on each side.
         """
         return across - edges[:, None] * depth, np.zeros(4)
 

@@ -173,10 +173,9 @@ def pictures(rows: Sequence[Row]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
         yield "breaking_points", extreme_plots.breaking_picture(rows)
         pages = math.ceil(len(groups) / PANELS)
         each = math.ceil(len(groups) / pages)
-        for page in range(pages):
-            shown = groups[page * each : (page + 1) * each]
-            number, title = page + 1, f"{page + 1} of {pages}"
-            yield f"sweeps_{number}", extreme_plots.sweeps_picture(shown, title)
+        for page in range(1, pages + 1):
+            shown = groups[(page - 1) * each : page * each]
+            yield f"sweeps_{page}", extreme_plots.sweeps_picture(shown, f"{page} of {pages}")
     for some in MAPS:
         if found := [r for r in rows if r.across is not None and r.scenario == some.name]:
             yield f"map_{some.name}", extreme_plots.map_picture(some, found)

@@ -77,10 +77,8 @@ def _text(name: str) -> str:
 
 def _policy(scripts: Sequence[str]) -> str:
     """Return the policy: these scripts, the page's own style and pictures, and no address."""
-    hashes = " ".join(
-        f"'sha256-{base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()}'"
-        for s in scripts
-    )
+    digests = (base64.b64encode(hashlib.sha256(s.encode()).digest()).decode() for s in scripts)
+    hashes = " ".join(f"'sha256-{digest}'" for digest in digests)
     return (
         '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
         f"img-src data: blob:; style-src 'unsafe-inline'; script-src {hashes}; "
