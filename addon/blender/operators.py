@@ -27,7 +27,7 @@ STUDIES = [
     *((m.name, m.title, m.explanation) for m in MAPS),
 ]
 
-*_FIRST, _LAST = (j.label for j in JUDGES.values())
+*_FIRST, _LAST = ("the viewport" if j.needs_window else j.label for j in JUDGES.values())
 _ENGINES = f"{', '.join(_FIRST)} and {_LAST}"
 
 
