@@ -58,14 +58,7 @@ def gather_against(
 
 
 def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:
-    """Return scenes that differ from the exported one in what one flag, or the frame, changes.
-
-    Parameters
-    ----------
-    context : bpy.types.Context
-    scene, manifest
-        What was exported as a render has it.
-    """
+    """Return scenes that differ from one, exported as a render has it, in one flag or the frame."""
     other, viewport = export(context.evaluated_depsgraph_get())
     drawn, seen = _by_name(manifest), _by_name(viewport)
     out = []
@@ -99,14 +92,9 @@ def _frames(context: Any) -> list[Alternative]:
 
 
 def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
-    """Return the scene's own view transform, then the common ones that this Blender has.
+    """Return the view transform of the user's scene, then the common ones that this Blender has.
 
-    Parameters
-    ----------
-    user : bpy.types.Scene
-        The user's, which stays as it is.
-    scene : Scene
-        What was exported of it.
+    They hold for the colours of what was exported of it; the user's scene stays as it is.
     """
     rows = [scene.color_table, [scene.background], *([p.color] for p in scene.planes)]
     table = np.unique(np.concatenate(rows)[:, :3], axis=0)

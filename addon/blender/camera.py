@@ -151,9 +151,9 @@ def export_camera(scene: Any) -> Camera:
             "resolution or its percentage."
         )
     region = None
-    if (r := render).use_border:
-        edges = r.border_min_x, r.border_max_x, r.border_min_y, r.border_max_y
-        region = border_region(width, height, *edges)
+    if render.use_border:
+        names = ("border_min_x", "border_max_x", "border_min_y", "border_max_y")
+        region = border_region(width, height, *(getattr(render, name) for name in names))
     return Camera(
         world_from_camera=camera_axes(obj.matrix_world, obj.name),
         window=window_of(scene),
@@ -168,16 +168,7 @@ def export_camera(scene: Any) -> Camera:
 
 
 def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate:
-    """Return how far apart the exported camera and Blender's own see known points.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    depsgraph : bpy.types.Depsgraph
-        Of that scene.
-    camera : Camera
-        What was exported of it.
-    """
+    """Return how far apart the camera exported of a scene and Blender's own see known points."""
     points = known_points(camera)
     return certify(camera, points, _film(scene, depsgraph, points))
 
@@ -187,11 +178,7 @@ def _film(scene: Any, depsgraph: Any, points: NDArray[np.float64]) -> NDArray[np
     obj, render = scene.camera.evaluated_get(depsgraph), scene.render
     width, height = resolution(render)
     projection = obj.calc_matrix_camera(
-        depsgraph,
-        x=width,
-        y=height,
-        scale_x=render.pixel_aspect_x,
-        scale_y=render.pixel_aspect_y,
+        depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
     )
     world = np.array(obj.matrix_world.normalized(), np.float64)  # as Blender's view matrix has it
     at = np.linalg.solve(world[:3, :3], points - world[:3, 3:])

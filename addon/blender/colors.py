@@ -111,16 +111,8 @@ def _jenkins(key: int) -> int:
     mask = 0xFFFFFFFF
     start = 0xDEADBEEF + (2 << 2) + 13 & mask
     words = [start + key & mask, start, start]  # a, b, c
-    for target, source, bits in (
-        (2, 1, 14),
-        (0, 2, 11),
-        (1, 0, 25),
-        (2, 1, 16),
-        (0, 2, 4),
-        (1, 0, 14),
-        (2, 1, 24),
-    ):
-        value = words[source]
+    for n, bits in enumerate((14, 11, 25, 16, 4, 14, 24)):
+        target, value = (n + 2) % 3, words[(n + 1) % 3]
         rotated = (value << bits | value >> 32 - bits) & mask
         words[target] = (words[target] ^ value) - rotated & mask
     return words[2]

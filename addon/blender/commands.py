@@ -67,9 +67,7 @@ def _parser() -> Parser:
         return sub
 
     sub = command(
-        "compare",
-        _compare,
-        "trace the open scene, compare it with Blender's picture, write files",
+        "compare", _compare, "trace the open scene, compare it with Blender's picture, write files"
     )
     add_settings(sub)
     add_judge(sub, choices())
@@ -129,12 +127,7 @@ def _check_open() -> None:
 
 
 def compare_open_file(options: Any, progress: Any = None) -> int:
-    """Compare the scene of the open file as the options say, print what came of it.
-
-    Returns
-    -------
-    int
-        The exit code.
+    """Compare the scene of the open file as the options say, print it, return the exit code.
 
     Raises
     ------

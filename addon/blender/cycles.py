@@ -111,10 +111,8 @@ def _material_color(tree: Any) -> Any:
             f"material_slots[{index}].material.diffuse_color",
         ):
             found = _where_found(tree, _attribute(tree, "OBJECT", path), found)
-        after = tree.nodes.new("ShaderNodeMath")
-        after.operation, after.inputs[1].default_value = "GREATER_THAN", index + 0.5
-        tree.links.new(slot, after.inputs[0])
-        color = _mix(tree, after.outputs[0], found, color if color is not grey else found)
+        after = _greater(tree, slot, index + 0.5)
+        color = _mix(tree, after, found, color if color is not grey else found)
     return color
 
 
@@ -126,19 +124,20 @@ def _attribute(tree: Any, kind: str, name: str) -> Any:
 
 def _where_found(tree: Any, node: Any, otherwise: Any) -> Any:
     """Return the colour of an attribute node, or the other where its alpha says there is none."""
-    there = tree.nodes.new("ShaderNodeMath")
-    there.operation, there.inputs[1].default_value = "GREATER_THAN", 0.0
-    tree.links.new(node.outputs["Alpha"], there.inputs[0])
-    return _mix(tree, there.outputs[0], otherwise, node.outputs["Color"])
+    there = _greater(tree, node.outputs["Alpha"], 0.0)
+    return _mix(tree, there, otherwise, node.outputs["Color"])
+
+
+def _greater(tree: Any, socket: Any, limit: float) -> Any:
+    node = tree.nodes.new("ShaderNodeMath")
+    node.operation, node.inputs[1].default_value = "GREATER_THAN", limit
+    tree.links.new(socket, node.inputs[0])
+    return node.outputs[0]
 
 
 def _mix(tree: Any, factor: Any, first: Any, second: Any) -> Any:
     node = tree.nodes.new("ShaderNodeMix")
     node.data_type = "RGBA"
-    for socket, value in (
-        (node.inputs[0], factor),
-        (node.inputs[6], first),
-        (node.inputs[7], second),
-    ):
-        tree.links.new(value, socket)
+    for index, value in ((0, factor), (6, first), (7, second)):
+        tree.links.new(value, node.inputs[index])
     return node.outputs[2]

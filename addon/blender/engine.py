@@ -125,12 +125,9 @@ def export_certified(depsgraph: Any) -> Certified:
 
 
 def export_for_render(scene: Any) -> Certified:
-    """Return the *render* evaluation of a Blender scene, which exists only inside an engine.
+    """Return the *render* evaluation of a temporary scene, whose engine is set to this one.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-        A temporary one: its engine is set to this one.
+    Such an evaluation exists only inside an engine.
 
     Raises
     ------

@@ -35,7 +35,6 @@ def derive_here(
 
     Parameters
     ----------
-    context : bpy.types.Context
     x, y : int
         Of the picture; (0, 0) is its lower left.
     source : {'SCENE', 'RENDER', 'COMPARISON'}

@@ -29,10 +29,7 @@ _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE",
 def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     """Return what the tracer is to see of an evaluated depsgraph, and the account of it.
 
-    Parameters
-    ----------
-    depsgraph : bpy.types.Depsgraph
-        Its mode decides on visibility and modifier levels.
+    The depsgraph's mode decides on visibility and modifier levels.
 
     Raises
     ------
@@ -162,15 +159,8 @@ def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
         )
     for obj in scene.objects:
         if obj.name_full not in seen:
-            entries.append(
-                ObjectEntry(
-                    obj.name_full,
-                    obj.type,
-                    False,
-                    _hidden(obj, layer, depsgraph.mode),
-                    hidden=True,
-                )
-            )
+            why = _hidden(obj, layer, depsgraph.mode)
+            entries.append(ObjectEntry(obj.name_full, obj.type, False, why, hidden=True))
     features = [u for e in seen.values() for u in e.features.values()]
     return Manifest(
         file=bpy.path.basename(bpy.data.filepath),

@@ -135,3 +135,9 @@ class LongWork:
             traceback.print_exc()
         self.report({"ERROR"}, words(error))
         return {"CANCELLED"}
+
+
+def say(*lines: str) -> None:
+    """Print lines under the add-on's name."""
+    for line in lines:
+        print(f"Reference Tracer: {line}")

@@ -16,8 +16,11 @@ from ..methods import Method
 from . import results
 from .engine import ENGINE
 from .judges import JUDGES
-from .operators import REFERENCE_TRACER_OT_compare, REFERENCE_TRACER_OT_compare_all
-from .page import REFERENCE_TRACER_OT_open_page
+from .operators import (
+    REFERENCE_TRACER_OT_compare,
+    REFERENCE_TRACER_OT_compare_all,
+    REFERENCE_TRACER_OT_open_page,
+)
 
 NARROW = 0.37  # of a table's width: a short name
 

@@ -34,12 +34,8 @@ def volume_corners(camera: Camera) -> NDArray[np.float64]:
     for depth in (camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]):
         for y in (w.bottom, w.top):
             for x in (w.left, w.right):
-                scale = camera.projection.scale(depth)
-                out.append(
-                    camera.origin
-                    + scale * (x * camera.right + y * camera.up)
-                    + depth * camera.forward
-                )
+                across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
+                out.append(camera.origin + across + depth * camera.forward)
     return np.array(out)
 
 
@@ -116,16 +112,11 @@ def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
     if len(points) < 3:
         return np.zeros((0, 3))
     found = np.array(points)
-    across = found[0] - found.mean(axis=0)
-    along = np.cross(plane.normal, across)
     centered = found - found.mean(axis=0)
-    return found[
-        np.argsort(
-            np.arctan2(
-                centered @ along / np.linalg.norm(along), centered @ across / np.linalg.norm(across)
-            )
-        )
-    ]
+    across = centered[0]
+    along = np.cross(plane.normal, across)
+    y, x = (centered @ axis / np.linalg.norm(axis) for axis in (along, across))
+    return found[np.argsort(np.arctan2(y, x))]
 
 
 @contextmanager
@@ -133,17 +124,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iter
     """Show polygons in a temporary Blender scene in place of its infinite planes.
 
     Gives the exported scene as it is to be compared: random colours come from names, so there the
-    planes take the colours that their polygons have.
-
-    Parameters
-    ----------
-    tmp : bpy.types.Scene
-    layer : str
-        Name of the view layer that is drawn.
-    scene : Scene
-        What was exported from it.
-    owners : sequence of str
-        The object that each plane is.
+    planes take the colours that their polygons have. `owners` names the object that each plane is.
     """
     marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
     objects: list[Any] = []

@@ -40,10 +40,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     """How to trace and compare this scene."""
 
     method: EnumProperty(  # type: ignore[valid-type]
-        name="Method",
-        items=METHODS,
-        default="auto",
-        description="How a ray meets a triangle",
+        name="Method", items=METHODS, default="auto", description="How a ray meets a triangle"
     )
     precision: EnumProperty(  # type: ignore[valid-type]
         name="Precision",

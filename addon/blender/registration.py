@@ -11,19 +11,18 @@ from . import (
     engine,
     explain,
     inspector,
-    inspector_panels,
     operators,
-    page,
     panels,
     properties,
     results,
+    studies,
     study_panels,
 )
 from .long_work import LongWork
 
 MODULES = (
-    *(properties, engine, operators, explain, inspector, page),
-    *(panels, inspector_panels, study_panels, commands),
+    *(properties, engine, operators, studies, explain, inspector),
+    *(panels, study_panels, commands),
 )
 
 

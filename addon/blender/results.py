@@ -6,6 +6,7 @@ Not stored in the .blend: it speaks of one moment.
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +19,7 @@ from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
 from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
+from ..methods import Method
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
@@ -25,7 +27,6 @@ from ..report.comparison import difference
 from ..study.extremes import BreakingPoint, Row, breaking_points
 from ..study.trade import Trade
 from . import images
-from .studies import extremes_sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +69,27 @@ def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
     def plots() -> Iterable[tuple[str, NDArray[np.uint8]]]:
         return ((images.plot_name(n), p) for n, p in extremes_report.pictures(rows))
 
-    lines = [extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
+    lines = [_extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
     return _keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
+
+
+def _extremes_sentence(rows: Sequence[Row]) -> str:
+    """Return in one sentence whether the certified method holds, and which other holds longest."""
+    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
+    points = [p for p in breaking_points(rows) if Method(p.method).is_plain]
+    holds = Counter({(p.method, p.precision): 0 for p in points})
+    holds.update((p.method, p.precision) for p in points if p.never)
+    if holds:
+        [((method, precision), count)] = holds.most_common(1)
+        total = len({p.scenario for p in points})
+        sentence += (
+            f"; of the other methods, {Method(method).words} in {precision} holds in the most "
+            f"sweeps: {count} of {total}"
+            if count
+            else f"; every other method breaks in each of {total} sweeps"
+        )
+    return sentence + "."
 
 
 def keep_derivation(scene: Any, derivation: Derivation, sentence: str) -> Result:
@@ -110,10 +130,7 @@ def _keep(
 def latest(kind: type, scene: Any) -> Result | None:
     """Return the latest result of a kind, if it is of this scene in the file that is open.
 
-    Parameters
-    ----------
-    kind : {Comparison, Derivation, EngineRow, Trade, BreakingPoint}
-    scene : bpy.types.Scene
+    The kinds are Comparison, Derivation, EngineRow, Trade and BreakingPoint.
     """
     found = _latest.get(kind)
     if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):

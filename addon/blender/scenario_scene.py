@@ -34,7 +34,6 @@ def open_scenario(context: Any, name: str, scale: str = "", width: int = 0) -> A
 
     Parameters
     ----------
-    context : bpy.types.Context
     name : str
         Of one of `study.scenarios.SCENARIOS`.
     scale : str

@@ -1,22 +1,33 @@
-"""The trade and the extremes, up to where Blender is no longer needed, and their files."""
+"""The trade and the extremes: their work, their files, and their operators."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import bpy
+from bpy.props import EnumProperty, IntProperty, StringProperty
+
 from ..images import MissingLibraryError
-from ..methods import Method
+from ..report import extremes as extremes_report
+from ..report import trade as trade_report
+from ..scene import SceneError
 from ..study import tradeoff
-from ..study.extremes import Row, breaking_points, measure
-from ..study.scenarios.sweeps import ALL
+from ..study.extremes import Row, measure
+from ..study.scenarios.sweeps import ALL, MAPS
 from ..study.trade import Trade
 from ..tracer.progress import Work
+from . import results, scenario_scene
 from .compare import export_open_file
+from .long_work import LongWork, say
+from .properties import SWEEPS
 
 EVERY = "ALL"  # in place of a scenario's name
+STUDIES = [
+    (EVERY, "All", "Every scenario, and the maps of two scales at once"),
+    *SWEEPS,
+    *((m.name, m.title, m.explanation) for m in MAPS),
+]
 
 
 def trade(context: Any, width: int | None = None, samples: int = tradeoff.SAMPLES) -> Work[Trade]:
@@ -50,20 +61,116 @@ def write(report: Any, folder: Path | None, found: Any) -> None:
         print(f"Reference Tracer: {error}")
 
 
-def extremes_sentence(rows: Sequence[Row]) -> str:
-    """Return in one sentence whether the certified method holds, and which other holds longest."""
-    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
-    sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
-    points = [p for p in breaking_points(rows) if Method(p.method).is_plain]
-    holds = Counter({(p.method, p.precision): 0 for p in points})
-    holds.update((p.method, p.precision) for p in points if p.never)
-    if holds:
-        [((method, precision), count)] = holds.most_common(1)
-        total = len({p.scenario for p in points})
-        sentence += (
-            f"; of the other methods, {Method(method).words} in {precision} holds in the most "
-            f"sweeps: {count} of {total}"
-            if count
-            else f"; every other method breaks in each of {total} sweeps"
-        )
-    return sentence + "."
+class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
+    bl_idname = "reference_tracer.trade"
+    bl_label = "Measure the Trade"
+    bl_description = (
+        "Measure on this scene and camera what every method, precision, number of samples and "
+        "size takes, and what it gets wrong"
+    )
+
+    width: IntProperty(  # type: ignore[valid-type]
+        name="Width",
+        default=tradeoff.WIDTH,
+        min=1,
+        soft_max=1920,
+        description="Of the largest picture that is measured, in pixels; its height follows",
+    )
+    samples: IntProperty(  # type: ignore[valid-type]
+        name="Samples",
+        default=tradeoff.SAMPLES,
+        min=1,
+        max=16,
+        description="Up to this number squared of rays a pixel are measured",
+    )
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Export the scene at once; return the work of measuring."""
+        self._folder = self.folder()
+        return trade(context, self.width, self.samples)
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the table, the plot and the advice."""
+        write(trade_report, self._folder, result)
+        lines = results.keep_trade(context, result).lines
+        print(trade_report.table(result), *lines[1:], sep="\n")
+        return _told(lines)
+
+
+class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
+    bl_idname = "reference_tracer.extremes"
+    bl_label = "Find Where Methods Break"
+    bl_description = (
+        "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every method, and "
+        "find the first scale at which each goes wrong against exact arithmetic"
+    )
+
+    scenario: EnumProperty(name="Scenario", items=STUDIES, default=EVERY)  # type: ignore[valid-type]
+    rays: IntProperty(  # type: ignore[valid-type]
+        name="Rays",
+        default=0,
+        min=0,
+        soft_max=10_000,
+        description="About so many through each scene; 0 for each scene's own number",
+    )
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Return the work."""
+        self._folder = self.folder()
+        return extremes(self.scenario, self.rays or None)
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the breaking points and the maps."""
+        write(extremes_report, self._folder, result)
+        lines = results.keep_extremes(context, result).lines
+        print(extremes_report.breaking_table(result), *lines, sep="\n")
+        return _told(lines)
+
+
+class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
+    bl_idname = "reference_tracer.extreme_scene"
+    bl_label = "Open Scenario as a Scene"
+    bl_description = (
+        "Build a scenario at one of its scales as a new scene with its camera and meshes, as "
+        "closely as Blender's float32 allows, to look at and to trace and compare there"
+    )
+    bl_options = {"UNDO"}
+
+    scenario: EnumProperty(name="Scenario", items=SWEEPS)  # type: ignore[valid-type]
+    scale: StringProperty(  # type: ignore[valid-type]
+        name="Scale", description="A number, such as 1e8; the scenario's last and hardest if empty"
+    )
+    width: IntProperty(  # type: ignore[valid-type]
+        name="Width",
+        default=0,
+        min=0,
+        soft_max=1920,
+        description="Of the picture, in pixels; 0 for that of the study, one ray a pixel",
+    )
+
+    def execute(self, context: Any) -> set[str]:
+        """Build the scene, and go there."""
+        try:
+            scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        changed = scene[scenario_scene.CHANGED].split("\n")
+        say(f"{scene.name}:", *changed)
+        self.report({"INFO"}, f"{scene.name}: {changed[0]}")
+        return {"FINISHED"}
+
+
+def _told(lines: tuple[str, ...]) -> tuple[str, str]:
+    """Return what to report of a study: its sentence, and that its picture can't be had."""
+    if lines[1:]:
+        return "WARNING", f"{lines[0]} (No picture without Matplotlib: the panel says how.)"
+    return "INFO", lines[0]
+
+
+CLASSES = (
+    REFERENCE_TRACER_OT_trade,
+    REFERENCE_TRACER_OT_extremes,
+    REFERENCE_TRACER_OT_extreme_scene,
+)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -33,15 +33,8 @@ def temporary_scene(scene: Any, layer: str | None = None, judge: Any = None) -> 
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
     Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in it. The 'Render
-    Result' that a render of it makes goes, too, if there was none before.
-
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    layer : str, optional
-        Name of the view layer; the scene's first by default.
-    judge : Judge, optional
-        Whose picture it is for.
+    Result' that a render of it makes goes, too, if there was none before. The layer is the scene's
+    first by default; the judge is whose picture it is for.
     """
     images = set(bpy.data.images)
     copy = scene.copy()
@@ -96,15 +89,9 @@ def _leave_out_drawings(parent: Any) -> None:
 
 
 def replace_objects(tmp: Any, layer: str, objects: Mapping[Any, Any]) -> None:
-    """Replace objects in a temporary scene; what was hidden in its view layer stays so.
+    """Replace objects in a temporary scene, each by another or by None for nothing.
 
-    Parameters
-    ----------
-    tmp : bpy.types.Scene
-    layer : str
-        Name of its view layer.
-    objects : mapping of bpy.types.Object
-        To what comes in their place; None for nothing.
+    What was hidden in its view layer stays so.
     """
     view_layer = tmp.view_layers[layer]
     hidden = [new for old, new in objects.items() if new and old.hide_get(view_layer=view_layer)]

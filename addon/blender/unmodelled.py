@@ -50,19 +50,9 @@ def _reaches(obj: Any) -> Iterator[float]:
 def of_object(
     obj: Any, matrix: Any, shading: Any, layer: Any, mode: str, judge: Judge | None
 ) -> Iterator[Unmodelled]:
-    """Yield what is not modelled of one evaluated object as it appears with `matrix`.
+    """Yield what is not modelled of an evaluated object as it appears with a world_from_object.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        Evaluated.
-    matrix : mathutils.Matrix
-        world_from_object.
-    shading : bpy.types.View3DShading
-    layer : bpy.types.ViewLayer
-    mode : {'VIEWPORT', 'RENDER'}
-    judge : Judge or None
-        Whose picture is compared: only what it draws has bounds. None for any.
+    The mode is 'VIEWPORT' or 'RENDER'. Only what the judge draws has bounds; with None, all has.
     """
     bounds = None
 
@@ -82,18 +72,12 @@ def of_object(
         yield found("transparency", f"the object's colour has alpha {obj.color[3]:.3g}")
     if color_type in ("MATERIAL", "TEXTURE"):
         for material in {m.name: m for m in slot_materials(obj) if m}.values():
-            if material.diffuse_color[3] < 1:
-                yield found(
-                    "transparency",
-                    f"material '{material.name}' has a viewport alpha of "
-                    f"{material.diffuse_color[3]:.3g}",
-                )
-            if (
-                color_type == "TEXTURE"
-                and material.node_tree
-                and any(node.type == "TEX_IMAGE" for node in material.node_tree.nodes)
-            ):
-                yield found("texture", f"material '{material.name}'")
+            name, alpha = f"material '{material.name}'", material.diffuse_color[3]
+            if alpha < 1:
+                yield found("transparency", f"{name} has a viewport alpha of {alpha:.3g}")
+            nodes = material.node_tree.nodes if material.node_tree else ()
+            if color_type == "TEXTURE" and any(node.type == "TEX_IMAGE" for node in nodes):
+                yield found("texture", name)
     attributes = obj.data.color_attributes
     if color_type == "VERTEX" and len(attributes) and attributes.active_color is None:
         yield found("colour attribute", "it has some, but none is the active one")
@@ -121,6 +105,8 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
     new = hasattr(scene, "compositing_node_group")  # from 5.0 on
     composited = scene.compositing_node_group if new else scene.use_nodes
     aside = "not part of what is traced"
+    colors = "surfaces show their material's viewport colour"
+    sides = "both sides of a surface are traced"
     name = f"scene '{scene.name}'"
     for of, feature, detail, has in (
         (camera.name, "depth of field", "", camera.data.dof.use_dof),
@@ -129,19 +115,9 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
         (name, "sequencer", aside, render.use_sequencer and strips),
         (name, "compositor", aside, render.use_compositing and composited),
         (name, "freestyle lines", "", render.use_freestyle),
-        (
-            name,
-            "texture colours",
-            "surfaces show their material's viewport colour",
-            shading.color_type == "TEXTURE",
-        ),
+        (name, "texture colours", colors, shading.color_type == "TEXTURE"),
         (name, "x-ray shading", "", shading.show_xray),
-        (
-            name,
-            "backface culling",
-            "both sides of a surface are traced",
-            shading.show_backface_culling,
-        ),
+        (name, "backface culling", sides, shading.show_backface_culling),
         (name, "mist", "", scene.world and scene.world.mist_settings.use_mist),
     ):
         if has:
@@ -158,13 +134,10 @@ def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodel
         yield Unmodelled(name, "materials and light", f"of {judge.label}", None, True, True)
         return
     detail, found = "Blender's picture is made with it", False
+    studio = shading.light == "STUDIO"
     for feature, shown, recolours in (
         (f"{shading.light.lower()} light", shading.light != "FLAT", True),
-        (
-            "specular highlights",
-            shading.light == "STUDIO" and shading.show_specular_highlight,
-            True,
-        ),
+        ("specular highlights", studio and shading.show_specular_highlight, True),
         ("shadows", shading.show_shadows, True),
         ("cavity", shading.show_cavity, True),
         ("object outline", shading.show_object_outline, True),

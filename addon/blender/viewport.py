@@ -108,22 +108,10 @@ def use_view_shading(scene: Any, shading: Any) -> None:
 def picture(
     scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool
 ) -> NDArray[np.float32]:
-    """Return Blender's picture of a prepared temporary scene.
+    """Return Blender's picture of a prepared temporary scene, (h, w, 4).
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    layer : str
-        Name of the view layer.
-    judge : Judge
-    camera : Camera
-        Says which pixels are the picture's: the viewport ignores the render border.
-    like_for_like : bool
-
-    Returns
-    -------
-    (h, w, 4) float32
-        Linear RGBA of the camera's region, row 0 at the bottom, alpha premultiplied.
+    Linear RGBA of the camera's region, row 0 at the bottom, alpha premultiplied. The camera says
+    which pixels are the picture's: the viewport ignores the render border.
 
     Raises
     ------
@@ -185,26 +173,9 @@ def draw_identity(
 ) -> tuple[tuple[str, ...], NDArray[np.int32]] | None:
     """Return the names of what may be shown, and which of them each pixel shows, (h, w).
 
-    The temporary scene is not as it was afterwards: it is to be the last drawing.
-
-    Parameters
-    ----------
-    tmp : bpy.types.Scene
-        Prepared, with the stand-ins of infinite planes.
-    layer : str
-        Name of the view layer.
-    judge : Judge
-    camera : Camera
-
-    Returns
-    -------
-    tuple, or None
-        None where there are more objects than colours tell apart.
-
-    Raises
-    ------
-    RuntimeError, SizeError
-        As :func:`viewport.picture` does.
+    None where there are more objects than colours tell apart. The temporary scene is a prepared
+    one, with the stand-ins of infinite planes; it is not as it was afterwards: it is to be the last
+    drawing. Raises what :func:`picture` does.
     """
     objects = drawn(tmp, layer)
     owners = [o.get(STANDS_FOR) or o.name_full for o in objects]

@@ -133,23 +133,11 @@ def read_vertices(mesh: Any) -> NDArray[np.float32]:
 def export_mesh(
     mesh: Any, vertices: NDArray[np.float32], name: str, with_colors: bool
 ) -> tuple[Mesh, int]:
-    """Return the loop triangles of an evaluated `bpy.types.Mesh`.
+    """Return the loop triangles of an evaluated `bpy.types.Mesh`, and how many were left out.
 
-    Parameters
-    ----------
-    mesh : bpy.types.Mesh
-    vertices : (v, 3) float32
-        Its own, as :func:`read_vertices` gives them.
-    name : str
-    with_colors : bool
-        Whether the active colour attribute is what will be shown.
-
-    Returns
-    -------
-    Mesh
-        Its triangles are numbered as `mesh.loop_triangles`, but for those that were left out.
-    left_out : int
-        How many triangles touched a vertex that is not finite.
+    They are numbered as `mesh.loop_triangles`, but for those that touch a vertex that is not
+    finite, which are left out. The vertices (v, 3) are its own, as :func:`read_vertices` gives
+    them; `with_colors` says whether its active colour attribute is what will be shown.
     """
     loops = _read(mesh.loop_triangles, "loops", 3, np.int32)
     if mesh.is_editmode:
