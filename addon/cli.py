@@ -7,7 +7,7 @@ from importlib.metadata import entry_points
 
 from . import __version__, interrupts
 from .arguments import EXIT_CODES, INTERRUPTED, Parser, failed
-from .commands import compare, explain, files, studies
+from .commands import compare, files, studies
 from .commands.parts import Commands
 from .scene import SceneError
 
@@ -15,7 +15,7 @@ from .scene import SceneError
 COMMANDS = {
     "compare": compare.add,
     "trace": files.add_trace,
-    "explain": explain.add,
+    "explain": files.add_explain,
     "judge": None,
     "trade": studies.add_trade,
     "extremes": studies.add_extremes,

@@ -21,14 +21,14 @@ from ..compare.case import Alternative, Case
 from ..compare.checks.hidden import with_object, without
 from ..compare.picture import Curve, Picture
 from ..images import curve_undone
-from ..manifest import Manifest, ObjectEntry
+from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.settings import Settings
-from . import images
 from .compare import export_open_file
 from .engine import export_for_render
 from .export import export
 from .temporary import temporary_scene, values_kept
+from .viewport import read, set_format
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
 MOST = 16  # alternatives: each is traced where pixels are left open
@@ -60,7 +60,7 @@ def gather_against(
 def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:
     """Return scenes that differ from one, exported as a render has it, in one flag or the frame."""
     other, viewport = export(context.evaluated_depsgraph_get())
-    drawn, seen = _by_name(manifest), _by_name(viewport)
+    drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
     out = []
     for name in seen.keys() & drawn.keys():
         if drawn[name].hidden and seen[name].exported:
@@ -69,10 +69,6 @@ def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Altern
             out.append(Alternative(name, seen[name].reason, without(scene, name)))
     out.sort(key=lambda a: a.object)
     return (*out[:MOST], *_frames(context))
-
-
-def _by_name(manifest: Manifest) -> dict[str, ObjectEntry]:
-    return {entry.name: entry for entry in manifest.objects}
 
 
 def _frames(context: Any) -> list[Alternative]:
@@ -131,11 +127,11 @@ def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
         opaque = np.ones((len(table), 1), np.float32)
         image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
         tmp.render.dither_intensity = 0.0
-        images.set_format(tmp.render, "PNG", "RGB", "16")
+        set_format(tmp.render, "PNG", "RGB", "16")
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "colours.png"
             image.save_render(str(path), scene=tmp)
-            return curve_undone(images.read(path, "Non-Color")[0, :, :3].astype(np.float64))
+            return curve_undone(read(path, "Non-Color")[0, :, :3].astype(np.float64))
     finally:
         bpy.data.images.remove(image)
 

@@ -27,18 +27,10 @@ def instance_colors(
 ) -> NDArray[np.float32]:
     """Return (k, 4) float32: the colour of each material slot, at least one.
 
-    Parameters
-    ----------
-    obj : bpy.types.Object
-        Evaluated, as the depsgraph gives it: an instance of a collection already carries the
-        colour of the instancing empty.
-    color_type : str
-        `View3DShading.color_type`. 'VERTEX' means a mesh without a colour attribute; 'TEXTURE' is
-        not modelled, and shows the material's colour.
-    single : (3,) float
-        The colour under 'SINGLE'.
-    materials : list of bpy.types.Material or None
-        By slot.
+    The object is evaluated: an instance of a collection already carries the instancing empty's
+    colour. Of `View3DShading.color_type`, 'VERTEX' means a mesh without a colour attribute;
+    'TEXTURE' is not modelled, and shows the material's colour. `single` (3,) is the colour under
+    'SINGLE'; the materials are by slot, None where it is empty.
     """
     if color_type == "SINGLE":
         return np.array([(*single, 1.0)], np.float32)

@@ -8,19 +8,8 @@ from typing import Any
 
 import bpy
 
-from ..arguments import (
-    AGREE,
-    EXIT_CODES,
-    Parser,
-    add_judge,
-    add_page,
-    add_pixel,
-    add_settings,
-    check,
-    failed,
-    printable,
-    settings_from,
-)
+from .. import arguments
+from ..arguments import AGREE, EXIT_CODES, Parser, settings_from
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES as VERDICT_CODES
 from ..explain.candidates import LIMIT, gather
@@ -50,10 +39,10 @@ def run(argv: list[str]) -> int:
     except SystemExit as stop:
         return int(stop.code or 0)
     try:
-        check(options)
+        arguments.check(options)
         return options.run(options)
     except Exception as error:
-        return failed(error, "reference_tracer")
+        return arguments.failed(error, "reference_tracer")
 
 
 def _parser() -> Parser:
@@ -69,13 +58,13 @@ def _parser() -> Parser:
     sub = command(
         "compare", _compare, "trace the open scene, compare it with Blender's picture, write files"
     )
-    add_settings(sub)
-    add_judge(sub, choices())
-    add_page(sub)
+    arguments.add_settings(sub)
+    arguments.add_judge(sub, choices())
+    arguments.add_page(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
     sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES)
     sub.set_defaults(run=_explain)
-    add_pixel(sub)
+    arguments.add_pixel(sub)
     sub = command(
         "trade",
         _trade,
@@ -99,7 +88,8 @@ def _explain(options: Any) -> int:
     scene, _, _ = export_open_file(bpy.context)
     source = bpy.path.basename(bpy.data.filepath)
     found = gather(scene, *options.pixel, options.limit or LIMIT, source)
-    print(printable(pixel.write(found, options.out, options.reproducer)), end="")
+    text = pixel.write(found, options.out, options.reproducer)
+    print(arguments.printable(text), end="")
     return AGREE
 
 
@@ -143,12 +133,8 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
     if options.judge == "all":
         rows = result_of(compare_all(bpy.context, options.out, **chosen), progress)
         verdict = engines.worst(rows)
-        print(
-            *engines_report.lines(rows),
-            f"verdict: {verdict}",
-            f"written to {options.out}",
-            sep="\n",
-        )
+        print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
+        print(f"written to {options.out}")
         pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
         print("open", *pages, "in a browser")
         return VERDICT_CODES[verdict]

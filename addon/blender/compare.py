@@ -57,10 +57,7 @@ def gather(
 ) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
 
-    Parameters
-    ----------
-    settings, judge, as_is, identity, self_check : optional
-        In place of what the scene stores.
+    What is not given is as the scene stores it.
 
     Raises
     ------

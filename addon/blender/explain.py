@@ -20,7 +20,6 @@ from ..scene import Scene, SceneError
 from . import ray_objects, results
 from .camera import export_camera
 from .engine import export_for_judge
-from .images import redraw, show_text
 from .judges import JUDGES, find
 from .temporary import temporary_scene
 from .viewport import prepare
@@ -104,15 +103,15 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
             writer = _writer(self.filepath)
             found = derive_here(context, self.x, self.y, self.source, self.limit)
             if writer:
-                _write(self.filepath, writer(found))
+                folders.write_text(Path(bpy.path.abspath(self.filepath)), writer(found))
         except (SceneError, OSError, MemoryError, RuntimeError) as error:
             self.report({"ERROR"}, words(error))
             return {"CANCELLED"}
         said = results.keep_derivation(context.scene, found, answer_sentence(found)).lines[0]
-        show_text(context, TEXT, document.markdown(found))
+        results.show_text(context, TEXT, document.markdown(found))
         if self.draw_ray:
             ray_objects.draw(context.scene, found)
-        redraw(context)
+        results.redraw(context)
         self.report({"INFO"}, f"({self.x}, {self.y}): {said}")
         return {"FINISHED"}
 
@@ -122,10 +121,6 @@ def _writer(filepath: str) -> Any:
     if filepath and suffix not in WRITERS:
         raise SceneError(f"'{filepath}' must end in {' or '.join(WRITERS)}")
     return WRITERS.get(suffix)
-
-
-def _write(filepath: str, text: str) -> None:
-    folders.write_text(Path(bpy.path.abspath(filepath)), text)
 
 
 class _OfLatest:
@@ -194,7 +189,8 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
         try:
             writer = _writer(self.filepath)
             is_json = Path(self.filepath).suffix.lower() == ".json"
-            _write(self.filepath, reproducer.text(found.pixel) if is_json else writer(found))
+            text = reproducer.text(found.pixel) if is_json else writer(found)
+            folders.write_text(Path(bpy.path.abspath(self.filepath)), text)
         except (SceneError, OSError) as error:
             self.report({"ERROR"}, words(error))
             return {"CANCELLED"}

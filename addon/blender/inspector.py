@@ -14,11 +14,11 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 from ..arguments import words
 from ..scene import Camera, SceneError
-from . import images
+from . import results
 from .camera import export_camera
 from .long_work import LongWork
 
-_OURS = {images.TRACED, images.BLENDER, images.DIFFERENCE}
+_OURS = {results.TRACED, results.BLENDER, results.DIFFERENCE}
 _HINT = (
     "Pixel Inspector: click a pixel in the render, in an image of the comparison, or in the "
     "camera's view  (Esc: end)"
@@ -147,7 +147,7 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
             f"The image '{image.name}' has {width} x {height} pixels, the picture {own[0]} x "
             f"{own[1]}: it is of something else, or the resolution has changed since"
         )
-    source = "COMPARISON" if image.get(images.MARK) in _OURS else "SCENE"
+    source = "COMPARISON" if image.get(results.MARK) in _OURS else "SCENE"
     return Pick(int(u * width), int(v * height), source)
 
 

@@ -18,7 +18,7 @@ from bpy.props import StringProperty
 from ..arguments import EXPECTED, words
 from ..tracer.progress import Work, result_of
 from .compare import made
-from .images import redraw
+from .results import redraw
 
 STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between

@@ -13,15 +13,11 @@ from ..compare.cause import Cause
 from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
 from ..methods import Method
-from . import results
+from . import operators, results
 from .engine import ENGINE
 from .judges import JUDGES
-from .operators import (
-    REFERENCE_TRACER_OT_compare,
-    REFERENCE_TRACER_OT_compare_all,
-    REFERENCE_TRACER_OT_open_page,
-)
 
+_PARTS = "interior", "boundary"
 NARROW = 0.37  # of a table's width: a short name
 
 _LETTER = 6.5  # mean width in pixels at a scale of 1: what Blender's own font has
@@ -35,7 +31,6 @@ _NOT_OURS = {
 }
 # Those of Workbench that say which colours are shown.
 _WORKBENCHS = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film"}
-_PARTS = "interior", "boundary"
 
 
 class Properties:
@@ -98,7 +93,7 @@ class _Main:
     def draw(self, context: Any) -> None:
         """Draw the button and what it will do."""
         layout, stored = self.layout, context.scene.reference_tracer
-        layout.operator(REFERENCE_TRACER_OT_compare.bl_idname, icon="RENDER_RESULT")
+        layout.operator(operators.REFERENCE_TRACER_OT_compare.bl_idname, icon="RENDER_RESULT")
         layout.use_property_split = True
         layout.use_property_decorate = False
         column = layout.column()
@@ -112,7 +107,7 @@ class _Main:
         column.prop(stored, "shading")
         column.prop(stored, "identity")
         column.prop(stored, "self_check")
-        layout.operator(REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
+        layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
         if found := results.latest(EngineRow, context.scene):
             rows = [("Engine", "Differ", "Wrong", "Open")]
             for row in found.content:
@@ -164,7 +159,7 @@ class _Result:
         table(self.layout.box(), rows, NARROW)
         for line in (*comparison.required, *self_check.table(comparison.self_check)[:1]):
             wrapped(self.layout, context, line)
-        self.layout.operator(REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
+        self.layout.operator(operators.REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")
 
 
 class _Export:
@@ -206,24 +201,13 @@ CLASSES = (
 _register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
-def _shared_panels() -> list[Any]:
-    """Return Blender's own panels that also speak of this engine: format, camera, colours."""
-    return [
-        panel
-        for panel in bpy.types.Panel.__subclasses__()
-        if panel.__name__ in _WORKBENCHS
-        or (
-            "BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ())
-            and panel.__name__ not in _NOT_OURS
-        )
-    ]
-
-
 def register() -> None:
-    """Register the panels."""
+    """Register the panels; Blender's own show for this engine, too: format, camera, colours."""
     _register()
-    for panel in _shared_panels():
-        panel.COMPAT_ENGINES.add(ENGINE)
+    for panel in bpy.types.Panel.__subclasses__():
+        name, shown_for = panel.__name__, getattr(panel, "COMPAT_ENGINES", ())
+        if name in _WORKBENCHS or ("BLENDER_RENDER" in shown_for and name not in _NOT_OURS):
+            panel.COMPAT_ENGINES.add(ENGINE)
 
 
 def unregister() -> None:

@@ -21,8 +21,7 @@ from . import (
 from .long_work import LongWork
 
 MODULES = (
-    *(properties, engine, operators, studies, explain, inspector),
-    *(panels, study_panels, commands),
+    *(properties, engine, operators, studies, explain, inspector, panels, study_panels, commands),
 )
 
 

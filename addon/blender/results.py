@@ -1,13 +1,13 @@
-"""The latest of each kind of result, for the panels, and the images that show it.
+"""The latest of each kind of result, for the panels; the images and texts that show it.
 
-Not stored in the .blend: it speaks of one moment.
+What the panels show is not stored in the .blend: it speaks of one moment.
 """
 
 from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,7 +26,10 @@ from ..report import trade as trade_report
 from ..report.comparison import difference
 from ..study.extremes import BreakingPoint, Row, breaking_points
 from ..study.trade import Trade
-from . import images
+
+TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
+TRADE = "Reference Tracer Trade"
+MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +48,10 @@ _latest: dict[type, Result] = {}
 
 def keep_comparison(context: Any, comparison: Comparison) -> Result:
     """Remember a comparison, and put its three pictures into images of Blender's."""
-    images.show(images.TRACED, comparison.frame.color)
-    images.show(images.BLENDER, comparison.picture)
-    shown = images.show(images.DIFFERENCE, difference(comparison))
-    images.show_in_editor(context, shown)
+    show(TRACED, comparison.frame.color)
+    show(BLENDER, comparison.picture)
+    shown = show(DIFFERENCE, difference(comparison))
+    show_in_editor(context, shown)
     return _keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
 
 
@@ -59,7 +62,7 @@ def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
 
 def keep_trade(context: Any, trade: Trade) -> Result:
     """Remember a trade, and show its plot if there can be one."""
-    why = _show_plots(context, lambda: [(images.TRADE, trade_report.picture(trade))], "trade")
+    why = _show_plots(context, lambda: [(TRADE, trade_report.picture(trade))], "trade")
     return _keep(Trade, trade, [trade.advice, *why], trade.scene)
 
 
@@ -67,7 +70,7 @@ def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
     """Remember where each method breaks, and show the pictures of it if there can be any."""
 
     def plots() -> Iterable[tuple[str, NDArray[np.uint8]]]:
-        return ((images.plot_name(n), p) for n, p in extremes_report.pictures(rows))
+        return ((plot_name(n), p) for n, p in extremes_report.pictures(rows))
 
     lines = [_extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
     return _keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
@@ -104,9 +107,9 @@ def _show_plots(
     try:
         shown = None
         for name, picture in plots():
-            shown = images.show(name, picture)
+            shown = show(name, picture)
         if shown:
-            images.show_in_editor(context, shown)
+            show_in_editor(context, shown)
         return []
     except MissingLibraryError:
         return [
@@ -141,3 +144,70 @@ def latest(kind: type, scene: Any) -> Result | None:
 def forget() -> None:
     """Drop all results, as when another file is opened."""
     _latest.clear()
+
+
+def plot_name(name: str) -> str:
+    """Return what the image of a study's picture is named: 'map_this_and_that' by its words."""
+    return f"Reference Tracer {name.replace('_', ' ').title()}"
+
+
+def show(name: str, color: NDArray) -> Any:
+    """Put a picture into our image of this name, made where it is not there.
+
+    Linear RGBA (h, w, 4) floats are seen through the scene's view transform; uint8 are sRGB, and
+    seen as they are.
+    """
+    height, width = color.shape[:2]
+    plot = color.dtype == np.uint8
+    image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
+    if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
+        del image[MARK]
+        image = None
+    if image is None:
+        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=not plot)
+        image[MARK] = name
+    elif tuple(image.size) != (width, height):
+        image.scale(width, height)
+    values = np.ascontiguousarray(color, dtype=np.float32)
+    image.pixels.foreach_set((values / 255 if plot else values).ravel())
+    image.update()
+    return image
+
+
+def show_in_editor(context: Any, image: Any) -> None:
+    """Show an image in the window's first image editor, if there is one."""
+    spaces = (area.spaces.active for area in areas(context, "IMAGE_EDITOR"))
+    if space := next((s for s in spaces if s.mode == "VIEW"), None):
+        space.image = image
+
+
+def show_text(context: Any, name: str, content: str) -> Any:
+    """Put a text into ours of this name, made where it is not there, and show it if it can be.
+
+    One that the user has saved to a file is theirs, and is left as it is.
+    """
+    text = next((t for t in bpy.data.texts if t.get(MARK) == name), None)
+    if text and text.filepath:
+        del text[MARK]
+        text = None
+    if text is None:
+        text = bpy.data.texts.new(name)
+        text[MARK] = name
+    text.from_string(content)
+    if area := next(areas(context, "TEXT_EDITOR"), None):
+        area.spaces.active.text = text
+        area.spaces.active.top = 0
+    return text
+
+
+def areas(context: Any, kind: str) -> Iterator[Any]:
+    """Yield the areas of a type that the context's window shows; without a window, none."""
+    for area in context.window.screen.areas if context.window else ():
+        if area.type == kind:
+            yield area
+
+
+def redraw(context: Any) -> None:
+    """Have the context's window drawn again, where there is one."""
+    for area in context.window.screen.areas if context.window else ():
+        area.tag_redraw()

@@ -19,7 +19,7 @@ from ..study.scenarios.sweeps import SCENARIOS, Scenario
 from ..tracer.vector import transform_points
 from .camera import window_of
 from .engine import ENGINE
-from .images import areas
+from .results import areas
 
 CHANGED = "reference_tracer_float32"  # the custom property: lines of text
 
@@ -32,14 +32,8 @@ _ROUNDING = 2.0**-22  # relative: what storing a view window in float32 does to 
 def open_scenario(context: Any, name: str, scale: str = "", width: int = 0) -> Any:
     """Build a scenario as a new scene, and go there; returns it.
 
-    Parameters
-    ----------
-    name : str
-        Of one of `study.scenarios.SCENARIOS`.
-    scale : str
-        A number; empty for the scenario's last scale.
-    width : int
-        Of the picture, in pixels; 0 for the study's own.
+    The scale is a number; empty for the scenario's last. The width is that of the picture, in
+    pixels; 0 for the study's own.
 
     Raises
     ------

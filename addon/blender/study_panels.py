@@ -17,21 +17,10 @@ from ..methods import MEASURED, PLAIN, Method
 from ..study.extremes import BreakingPoint, written
 from ..study.scenarios.sweeps import SCENARIOS
 from ..study.trade import Row, Trade
-from . import results
-from .explain import (
-    TEXT,
-    REFERENCE_TRACER_OT_draw_ray,
-    REFERENCE_TRACER_OT_remove_ray,
-    REFERENCE_TRACER_OT_save_pixel,
-)
+from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
 from .panels import NARROW, both, short_name, table, wrapped
 from .scenario_scene import CHANGED
-from .studies import (
-    REFERENCE_TRACER_OT_extreme_scene,
-    REFERENCE_TRACER_OT_extremes,
-    REFERENCE_TRACER_OT_trade,
-)
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
@@ -54,9 +43,11 @@ class _Inspector:
         )
         layout.prop(context.window_manager.reference_tracer_inspector, "draw_ray")
         row = layout.row(align=True)
-        row.operator(REFERENCE_TRACER_OT_draw_ray.bl_idname, text="Draw", icon="LIGHT_SPOT")
-        row.operator(REFERENCE_TRACER_OT_remove_ray.bl_idname, text="Remove", icon="TRASH")
-        row.operator(REFERENCE_TRACER_OT_save_pixel.bl_idname, text="Save", icon="FILE_TICK")
+        row.operator(explain.REFERENCE_TRACER_OT_draw_ray.bl_idname, text="Draw", icon="LIGHT_SPOT")
+        row.operator(explain.REFERENCE_TRACER_OT_remove_ray.bl_idname, text="Remove", icon="TRASH")
+        row.operator(
+            explain.REFERENCE_TRACER_OT_save_pixel.bl_idname, text="Save", icon="FILE_TICK"
+        )
         found = results.latest(Derivation, context.scene)
         if found:
             _draw(layout, context, found.content, found.lines[0])
@@ -79,7 +70,7 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:
             wrapped(box, context, reason.sentence, "BLANK1")
-    wrapped(layout, context, f"All of it is in the text '{TEXT}'.", "TEXT")
+    wrapped(layout, context, f"All of it is in the text '{explain.TEXT}'.", "TEXT")
 
 
 def _t(test: Test) -> str:
@@ -110,16 +101,12 @@ def _numbers(layout: Any, test: Test) -> None:
 
 def _number(layout: Any, name: str, value: str, off: str) -> None:
     """Draw a number with its error; an exact one may be longer than there is room."""
-    if not value:  # a head
-        split = layout.split(factor=0.83)
-        split.label(text=name)
-        split.label(text=off)
-        return
-    split = layout.split(factor=0.17)
+    split = layout.split(factor=0.17 if value else 0.83)  # without a value: a head
     split.label(text=name)
-    if off:
+    if value and off:
         split = split.split(factor=0.78)
-    split.label(text=value)
+    if value:
+        split.label(text=value)
     if off:
         split.label(text=off)
 
@@ -135,7 +122,7 @@ class _Trade:
     def draw(self, context: Any) -> None:
         """Draw the button, and what was measured: the methods, then what no other row beats."""
         layout = self.layout
-        layout.operator(REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
+        layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
         found = results.latest(Trade, context.scene)
         if not found:
             return
@@ -178,7 +165,7 @@ class _Extremes:
     def draw(self, context: Any) -> None:
         """Draw the button, the breaking points, and the way to each scene."""
         layout, shown = self.layout, context.window_manager.reference_tracer
-        layout.operator(REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
+        layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
         found = results.latest(BreakingPoint, context.scene)
         if found:
             wrapped(layout, context, found.lines[0], "INFO")
@@ -193,9 +180,10 @@ class _Extremes:
         wrapped(box, context, scenario.explanation)
         unit = f", {scenario.unit}" if scenario.unit else ""
         box.label(text=f"Open as a Scene ({scenario.scale_name}{unit}):")
+        operator = studies.REFERENCE_TRACER_OT_extreme_scene
         grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
         for scale in scenario.scales:
-            button = grid.operator(REFERENCE_TRACER_OT_extreme_scene.bl_idname, text=written(scale))
+            button = grid.operator(operator.bl_idname, text=written(scale))
             button.scenario, button.scale = scenario.name, repr(float(scale))
         if changed := context.scene.get(CHANGED):
             wrapped(layout, context, "This scene is one of the study's, stored in float32:", "INFO")

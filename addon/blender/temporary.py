@@ -24,8 +24,8 @@ DRAWN, STANDS_FOR = "reference_tracer_drawn", "reference_tracer_stands_for"
 
 _NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
-_copies: dict[str, tuple[str, Any]] = {}  # name of a temporary scene: the user's, judge
-_collections: dict[str, list[Any]] = {}  # name of a temporary scene: copies of collections in it
+# By the name of a temporary scene: the user's, the judge, copies of collections that are in it.
+_copies: dict[str, tuple[str, Any, list[Any]]] = {}
 
 
 @contextmanager
@@ -38,13 +38,13 @@ def temporary_scene(scene: Any, layer: str | None = None, judge: Any = None) -> 
     """
     images = set(bpy.data.images)
     copy = scene.copy()
-    _copies[copy.name_full] = scene.name_full, judge
-    own = _collections[copy.name_full] = []
+    own: list[Any] = []
+    _copies[copy.name_full] = scene.name_full, judge, own
     try:
         _isolate(copy, layer or scene.view_layers[0].name)
         yield copy
     finally:
-        del _copies[copy.name_full], _collections[copy.name_full]
+        del _copies[copy.name_full]
         # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
         bpy.data.batch_remove([copy, *own])
         for image in set(bpy.data.images) - images:
@@ -54,7 +54,7 @@ def temporary_scene(scene: Any, layer: str | None = None, judge: Any = None) -> 
 
 def user_scene(scene: Any) -> Any:
     """Return the scene of the user's that a temporary one is a copy of; another is the user's."""
-    name, _ = _copies.get(scene.name_full, (scene.name_full, None))
+    name = _copies[scene.name_full][0] if is_temporary(scene) else scene.name_full
     return next(s for s in bpy.data.scenes if s.name_full == name)
 
 
@@ -65,7 +65,7 @@ def is_temporary(scene: Any) -> bool:
 
 def judge_of(scene: Any) -> Any:
     """Return whose picture a temporary scene is for; None for a scene of the user's."""
-    return _copies.get(scene.name_full, (None, None))[1]
+    return _copies[scene.name_full][1] if is_temporary(scene) else None
 
 
 def _isolate(scene: Any, layer: str) -> None:
@@ -95,7 +95,7 @@ def replace_objects(tmp: Any, layer: str, objects: Mapping[Any, Any]) -> None:
     """
     view_layer = tmp.view_layers[layer]
     hidden = [new for old, new in objects.items() if new and old.hide_get(view_layer=view_layer)]
-    _replace(tmp.collection, view_layer.layer_collection, objects, _collections[tmp.name_full])
+    _replace(tmp.collection, view_layer.layer_collection, objects, _copies[tmp.name_full][2])
     for obj in hidden:
         obj.hide_set(True, view_layer=view_layer)
 

@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from ..compare.comparison import SizeError
 from ..compare.identity import MOST_OBJECTS, colors_of, decode
 from ..scene import Camera
-from . import images
 from .judges import Judge
 from .temporary import STANDS_FOR, colored_copies, drawn, values_kept
 
@@ -63,7 +62,7 @@ def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
         owner, _, name = path.rpartition(".")
         setattr(scene.path_resolve(owner), name, value)
     render, shading = scene.render, scene.display.shading
-    images.set_format(render, "OPEN_EXR", "RGBA", "32")
+    set_format(render, "OPEN_EXR", "RGBA", "32")
     return {
         "like_for_like": like_for_like,
         "light": shading.light,
@@ -130,7 +129,7 @@ def picture(
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
-        pixels = images.read(found[0])
+        pixels = read(found[0])
     r = camera.region
     if judge.needs_window and pixels.shape[:2] == (camera.height, camera.width):
         pixels = pixels[r.y0 : r.y1, r.x0 : r.x1]
@@ -189,3 +188,26 @@ def draw_identity(
     with colored_copies(tmp, layer, objects, colors_of(len(names))[numbers]):
         found = decode(picture(tmp, layer, judge, camera, True), len(names))
     return names, found
+
+
+def read(path: Path, colorspace: str = "") -> NDArray[np.float32]:
+    """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below."""
+    image = bpy.data.images.load(str(path))
+    try:
+        if colorspace:
+            image.colorspace_settings.name = colorspace
+        width, height = image.size
+        pixels = np.empty(width * height * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        return pixels.reshape(height, width, 4)
+    finally:
+        bpy.data.images.remove(image)
+
+
+def set_format(render: Any, file_format: str, color_mode: str, color_depth: str) -> None:
+    """Set what files a `bpy.types.RenderSettings` writes."""
+    settings = render.image_settings
+    if hasattr(settings, "media_type"):  # from 5.0 on
+        settings.media_type = "IMAGE"
+    settings.file_format, settings.color_mode = file_format, color_mode
+    settings.color_depth = color_depth

@@ -98,10 +98,8 @@ def _against(options: argparse.Namespace) -> int:
     """Compare with a picture of unknown make."""
     picture = images.load(options.against)
     with progress_bar() as progress:
-        if options.scene.suffix.lower() == ".blend":
-            comparison = result_of(_blend(options, picture), progress)
-        else:
-            comparison = result_of(_file(options, picture), progress)
+        of = _blend if options.scene.suffix.lower() == ".blend" else _file
+        comparison = result_of(of(options, picture), progress)
         finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
     comparison_report.write(options.out, comparison, extras)
@@ -128,12 +126,8 @@ def _file(options: argparse.Namespace, picture: images.Picture) -> Work[Comparis
     scene, stored = load(options.scene, *camera_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     settings, shown = settings_from(options, stored), _shown(options, picture, scene.camera)
-    checked = bool(options.self_check)
-    return (
-        yield from trace_and_compare(
-            Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-        )
-    )
+    case = Case(scene, manifest, settings, shown, curves=(), self_check=bool(options.self_check))
+    return (yield from trace_and_compare(case))
 
 
 def _shown(

@@ -1,15 +1,21 @@
-"""`reftrace trace` and `reftrace export`: a scene -> one file, a picture or a scene."""
+"""`reftrace trace`, `export` and `explain`: a scene -> a picture, a scene, or a pixel's maths."""
 
 from __future__ import annotations
 
 import argparse
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
 from .. import images
-from ..arguments import add_camera, add_settings, camera_from, settings_from
+from ..arguments import add_camera, add_pixel, add_settings, camera_from, printable, settings_from
+from ..explain import reproducer
+from ..explain.candidates import LIMIT, gather
 from ..interrupts import progress_bar
 from ..opening import SOURCES, load
-from ..report import folders
+from ..report import folders, pixel
 from ..scene import SceneError
 from ..scene_files import save_scene
 from ..tracer.render import render
@@ -81,3 +87,47 @@ def export(options: argparse.Namespace) -> int:
             save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
     return 0
+
+
+def add_explain(commands: Commands) -> None:
+    """Add the command."""
+    parser = command(
+        commands,
+        "explain",
+        explain,
+        "show the maths of one pixel's ray: every step, in float32, float64 and exactly",
+        "reftrace explain scene.blend --pixel 480 270 --out pixel.html",
+        f"{SOURCES}, or a pixel.json that --reproducer wrote",
+    )
+    add_pixel(parser)
+    add_camera(parser)
+
+
+def explain(options: argparse.Namespace) -> int:
+    """Derive, and print or write it."""
+    path = options.scene
+    if path.suffix.lower() == ".json":
+        found = reproducer.read(path)
+    else:
+        with _told_aside():
+            scene, _ = load(path, *camera_from(options, path))
+        found = gather(scene, *options.pixel, options.limit or LIMIT, path.name)
+    print(printable(pixel.write(found, options.out, options.reproducer)), end="")
+    return 0
+
+
+@contextmanager
+def _told_aside() -> Iterator[None]:
+    """Send what is said meanwhile, by Blender too, to stderr: it is no part of the Markdown."""
+    if sys.stdout is None:  # closed by who has started this
+        yield
+        return
+    sys.stdout.flush()
+    own = os.dup(1)
+    os.dup2(2, 1)
+    try:
+        with redirect_stdout(sys.stderr):
+            yield
+    finally:
+        os.dup2(own, 1)
+        os.close(own)

@@ -26,18 +26,9 @@ def command(
 ) -> Parser:
     """Add a command, which checks its options first, and return its parser.
 
-    Parameters
-    ----------
-    commands
-        The parser's, from `add_subparsers`.
-    name, text, example : str
-        The last two are for its help.
-    run
-        Does the work, and returns the exit code.
-    source : str, optional
-        What its SCENE may be; without it, the command takes none.
-    around
-        Gives what lasts as long as the command, its check included.
+    `run` does the work, and returns the exit code; `around` gives what lasts as long as the
+    command, its check included. The text and the example are for its help. `source` says what its
+    SCENE may be; without it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:

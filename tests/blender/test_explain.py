@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import ray_objects, results
 from reference_tracer.blender.compare import export_open_file
-from reference_tracer.blender.images import MARK
+from reference_tracer.blender.results import MARK
 from reference_tracer.compare.comparison import Comparison
 from reference_tracer.explain import document, reproducer
 from reference_tracer.explain.candidates import gather

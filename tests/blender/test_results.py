@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from reference_tracer.blender import images, results
+from reference_tracer.blender import results
 from reference_tracer.compare.comparison import Comparison
 
 PICTURE = np.ones((4, 6, 4), np.float32)
@@ -15,27 +15,27 @@ def named():
 
 
 def test_an_image_of_ours_is_written_again():
-    first = images.show(images.TRACED, PICTURE)
-    again = images.show(images.TRACED, 0.5 * np.ones((8, 3, 4), np.float32))
-    assert again == first and tuple(again.size) == (3, 8) and named() == [images.TRACED]
+    first = results.show(results.TRACED, PICTURE)
+    again = results.show(results.TRACED, 0.5 * np.ones((8, 3, 4), np.float32))
+    assert again == first and tuple(again.size) == (3, 8) and named() == [results.TRACED]
     assert again.pixels[0] == 0.5
 
 
 def test_an_image_of_the_users_is_left_alone(tmp_path):
-    own = bpy.data.images.new(images.TRACED, 2, 2, float_buffer=True)
+    own = bpy.data.images.new(results.TRACED, 2, 2, float_buffer=True)
     own.pixels.foreach_set(np.full(16, 0.25, np.float32))
     for _ in range(3):
-        images.show(images.TRACED, PICTURE)
+        results.show(results.TRACED, PICTURE)
     assert len(named()) == 2 and own.pixels[0] == 0.25
 
 
 def test_an_image_that_the_user_saved_is_the_users(tmp_path):
-    saved = images.show(images.TRACED, PICTURE)
+    saved = results.show(results.TRACED, PICTURE)
     saved.filepath_raw, saved.file_format = str(tmp_path / "kept.exr"), "OPEN_EXR"
     saved.save()
     saved.source = "FILE"
     for _ in range(3):
-        assert images.show(images.TRACED, 0 * PICTURE) != saved
+        assert results.show(results.TRACED, 0 * PICTURE) != saved
     assert len(named()) == 2 and saved.pixels[0] > 0.99
 
 

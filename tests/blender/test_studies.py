@@ -8,7 +8,7 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import commands, images, results
+from reference_tracer.blender import commands, results
 from reference_tracer.study.extremes import BreakingPoint
 from reference_tracer.study.trade import Trade
 
@@ -54,12 +54,12 @@ def test_trade_shows_its_table_and_plot_and_changes_nothing(solids):
     assert len(found.content.whole) == 9
     assert found.content.whole[0].width == 16
     assert found.lines == (found.content.advice,)
-    assert names() == {images.TRADE}
-    plot = pixels(images.TRADE)
+    assert names() == {results.TRADE}
+    plot = pixels(results.TRADE)
     assert plot.shape == (1080, 1920, 4)
-    assert not bpy.data.images[images.TRADE].is_float  # so that no view transform changes it
+    assert not bpy.data.images[results.TRADE].is_float  # so that no view transform changes it
     assert plot[0, 0].tolist() == [1, 1, 1, 1] and plot.std() > 0.05
-    bpy.data.images.remove(bpy.data.images[images.TRADE])
+    bpy.data.images.remove(bpy.data.images[results.TRADE])
     assert differences(before, state()) == []
 
 
