@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.methods import Method
 from reference_tracer.scene import Scene, SceneError
-from reference_tracer.tracer.camera import Rays, camera_rays, film_positions_of
+from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.certified.bounds import U, plane_fractions
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -119,7 +119,7 @@ def prepare(
     first = stride // 2
     grid = np.arange(total).reshape(region.height, region.width)[first::stride, first::stride]
     chosen = grid.ravel()
-    rays = camera_rays(scene.camera, *film_positions_of(region, chosen))
+    rays = camera_rays(scene.camera, *film_positions(region, pixel=chosen))
     planes = Hits.none(len(chosen))
     test_planes(scene, rays, planes)
     subject = Subject(

@@ -13,12 +13,11 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from .camera import Rays
-from .candidates import Pairs
+from .candidates import PAIRS, Pairs
 from .certified import exact
 from .certified.bounds import FromPoint
 from .certified.contest import Contest, in_range, sides
 from .certified.surfaces import SURE
-from .culling import PAIRS
 from .hits import Hits, Statistics
 from .nearest import test_pairs, test_planes
 from .progress import Work, result_of
@@ -40,7 +39,9 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
         test_planes(scene, rays, hits)
     else:
         contest = Contest(rays, [(p.point, p.normal) for p in scene.planes], first, *clip)
-    for triangles in _all_triangles(scene, dtype):
+    for batch in batches(scene):
+        triangles = world_triangles(scene, batch, dtype)
+        triangles = triangles.take(np.flatnonzero(triangles.finite))
         for some in _pairs(triangles, count):
             statistics.pairs_tested += len(some.pixel)
             if contest:
@@ -49,13 +50,6 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
                 test_pairs(scene, settings, rays, some, hits)
             yield 0.0
     return (yield from contest.hits(statistics)) if contest else hits
-
-
-def _all_triangles(scene: Scene, dtype: np.dtype) -> Iterator[WorldTriangles]:
-    for batch in batches(scene):
-        triangles = world_triangles(scene, batch, dtype)
-        finite = np.isfinite(triangles.corners).all(axis=(0, 1))
-        yield triangles.take(np.flatnonzero(finite))
 
 
 def _pairs(triangles: WorldTriangles, count: int) -> Iterator[Pairs]:

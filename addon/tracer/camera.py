@@ -34,12 +34,8 @@ class Rays:
 
     def take(self, index: NDArray[np.integer]) -> Rays:
         """Return the rays at `index`; what all share stays shared."""
-        return Rays(
-            *(
-                v if v.shape[1] == 1 else v.take(index, axis=1)
-                for v in (self.origins, self.directions)
-            )
-        )
+        vectors = self.origins, self.directions
+        return Rays(*(v if v.shape[1] == 1 else v.take(index, axis=1) for v in vectors))
 
     def at(self, t: NDArray[np.floating]) -> Vectors:
         """Return the points o + t d, (3, n)."""
@@ -53,22 +49,18 @@ def pixel_size(camera: Camera) -> tuple[float, float]:
 
 
 def film_positions(
-    tile: Region, dx: NDArray[np.floating] | float, dy: NDArray[np.floating] | float
+    tile: Region,
+    dx: NDArray[np.floating] | float = 0.0,
+    dy: NDArray[np.floating] | float = 0.0,
+    pixel: NDArray[np.integer] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
 
-    In pixels of the whole picture, row by row from the tile's lowest.
+    In pixels of the whole picture. The rays are those of the tile's pixels, row by row from the
+    lowest, or of some, by their numbers `pixel` (n,).
     """
-    return film_positions_of(tile, np.arange(tile.width * tile.height), dx, dy)
-
-
-def film_positions_of(
-    tile: Region,
-    pixel: NDArray[np.integer],
-    dx: NDArray[np.floating] | float = 0.0,
-    dy: NDArray[np.floating] | float = 0.0,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the same of some of the tile's pixels, by their numbers (n,)."""
+    if pixel is None:
+        pixel = np.arange(tile.width * tile.height)
     y, x = np.divmod(pixel.astype(np.int32), np.int32(tile.width))
     return (x + tile.x0) + 0.5 + dx, (y + tile.y0) + 0.5 + dy
 
@@ -100,6 +92,13 @@ def camera_rays(
             cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
         )
         return Rays(*camera.projection.ray(origin, x * right + y * up, forward))
+
+
+def dual_axes(camera: Camera) -> NDArray[np.float64]:
+    """Return the rows of the inverse of the axes right, up, forward, (3, 3)."""
+    axes = np.stack((camera.right, camera.up, camera.forward))
+    dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
+    return dual / (axes[0] * dual[0]).sum()
 
 
 def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:
@@ -141,9 +140,7 @@ def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:
         Sum of the absolute values of the terms of each coordinate: times a few ulp it bounds the
         error of `xyz`, and of rays that were computed from the same camera.
     """
-    axes = np.stack((camera.right, camera.up, camera.forward))
-    dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
-    dual = dual / (axes[0] * dual[0]).sum()
+    dual = dual_axes(camera)
     origin = camera.origin[:, None]
     q, size = points - origin, np.abs(points) + np.abs(origin)
     weight = np.abs(dual)

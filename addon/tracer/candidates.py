@@ -1,7 +1,8 @@
 """Which triangles can cover which pixels: culling only, never deciding.
 
-In come a scene and a camera; out go (pixel, triangle) pairs, which the ray/triangle test decides.
-A pair may be proposed in vain, but one whose ray truly hits is never left out: the box of pixels
+In come a scene and how far from their pixel's centre rays may pass; out go, batch by batch, so
+that memory is bounded, `Pairs` of a pixel and a triangle, which the ray/triangle test decides. A
+pair may be proposed in vain, but one whose ray truly hits is never left out: the box of pixels
 around a projected triangle is widened by a bound on every rounding error that could move it
 (`SAFETY`). What a test in float32 says to hit far beside an edge-on sliver, by noise, may be.
 """
@@ -10,18 +11,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .camera import pixel_size, project
-from .vector import spread
-from .world import WorldTriangles
+from .progress import Work
+from .vector import groups, spread
+from .world import Batch, Pairs, batches, world_triangles
 
 if TYPE_CHECKING:
-    from ..scene import Camera, Region
+    from ..scene import Camera, Region, Scene
 
 # Camera-space coordinates and rays are off by at most a few roundings, of half an eps each, of all
 # their terms: one for v - o, five for each dot product, three for a ray's direction, two for its
@@ -32,37 +33,25 @@ if TYPE_CHECKING:
 SAFETY = 64
 MIN_DETERMINANT, LENGTHS = 1 / 8, (0.5, 2.0)
 _TINY = 2.0**-1000
+PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
+_BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
 
 
 @dataclass(frozen=True, eq=False)
-class Pairs:
-    """p pairs of a pixel and a triangle that may cover it.
+class Culled:
+    """Batches of a scene with the rows that each may cover.
 
-    `pixel` (p,) indexes the rays; `row` (p,) the batch's `triangles`.
+    For rays within `reach` pixels of their pixel's centre, and vertices rounded to `dtype`; pairs
+    may take some `memory`, in bytes.
     """
 
-    pixel: NDArray[np.integer]
-    row: NDArray[np.integer]
-    triangles: WorldTriangles
-
-    @cached_property
-    def corners(self) -> NDArray[np.floating]:
-        """Corner, component, pair: (3, 3, p), world space."""
-        return np.stack([corner.take(self.row, axis=1) for corner in self.triangles.corners])
-
-    @property
-    def instance(self) -> NDArray[np.int32]:
-        """Whose each triangle is, (p,)."""
-        return self.triangles.instance[self.row]
-
-    @property
-    def triangle(self) -> NDArray[np.int32]:
-        """Which of its mesh each triangle is, (p,)."""
-        return self.triangles.triangle[self.row]
-
-    def take(self, index: NDArray) -> Pairs:
-        """Return the pairs at `index`."""
-        return Pairs(self.pixel[index], self.row[index], self.triangles)
+    scene: Scene
+    dtype: np.dtype
+    memory: int
+    reach: float
+    batches: list[Batch]
+    rows: list[tuple[int, int]]
+    refused: int  # triangles that are not finite in world space
 
 
 def has_sound_axes(camera: Camera) -> bool:
@@ -95,7 +84,8 @@ def pixel_bounds(
     """
     region, count = camera.region, corners.shape[2]
     if not has_sound_axes(camera):
-        return _everywhere(region, count)
+        everywhere = np.array([region.x0, region.x1, region.y0, region.y1], np.int32)
+        return np.repeat(everywhere[:, None], count, axis=1)
     flat = np.concatenate(list(corners), axis=1).astype(np.float64)
     xyz, magnitude = project(camera, flat)
     error = SAFETY * np.finfo(corners.dtype).eps * magnitude.sum(axis=0) + _TINY
@@ -116,17 +106,14 @@ def pixel_bounds(
         smallest, largest = camera.projection.window_range(
             value, depth, error, front, camera.clip_start
         )
-        with np.errstate(invalid="ignore", over="ignore"):
-            # A film position near `start` comes from cancelling against it.
-            slack = reach + SAFETY * np.finfo(corners.dtype).eps * (
-                abs(start / size) + camera.width + camera.height
-            )
-            bounds[2 * axis] = _pixel(
-                np.ceil((smallest - start) / size - 0.5 - slack), low, high, low
-            )
-            bounds[2 * axis + 1] = _pixel(
-                np.floor((largest - start) / size - 0.5 + slack) + 1, low, high, high
-            )
+        # A film position near `start` comes from cancelling against it.
+        slack = reach + SAFETY * np.finfo(corners.dtype).eps * (
+            abs(start / size) + camera.width + camera.height
+        )
+        first = np.ceil((smallest - start) / size - 0.5 - slack)
+        end = np.floor((largest - start) / size - 0.5 + slack) + 1
+        bounds[2 * axis] = _pixel(first, low, high, low)
+        bounds[2 * axis + 1] = _pixel(end, low, high, high)
     unseen = (farthest < camera.clip_start) | (nearest > camera.clip_end)
     bounds[1, unseen] = bounds[0, unseen]
     return bounds
@@ -136,41 +123,70 @@ def _pixel(value: NDArray, low: int, high: int, unknown: int) -> NDArray[np.int3
     return np.where(np.isnan(value), unknown, np.clip(value, low, high)).astype(np.int32)
 
 
-def _everywhere(region: Region, count: int) -> NDArray[np.int32]:
-    box = np.array([region.x0, region.x1, region.y0, region.y1], np.int32)
-    return np.repeat(box[:, None], count, axis=1)
-
-
 def within(bounds: NDArray[np.int32], tile: Region) -> NDArray[np.int32]:
     """Return the parts of boxes, (4, m) as of :func:`pixel_bounds`, that lie in a tile."""
     x0, x1, y0, y1 = bounds
-    return np.stack(
-        (
-            np.maximum(x0, tile.x0),
-            np.minimum(x1, tile.x1),
-            np.maximum(y0, tile.y0),
-            np.minimum(y1, tile.y1),
-        )
-    )
+    x0, x1 = np.maximum(x0, tile.x0), np.minimum(x1, tile.x1)
+    return np.stack((x0, x1, np.maximum(y0, tile.y0), np.minimum(y1, tile.y1)))
+
+
+def cull(scene: Scene, dtype: np.dtype, memory: int, reach: float) -> Work[Culled]:
+    """Look at every batch once; yields 0, as nothing is traced yet."""
+    found, rows, refused = [], [], 0
+    for batch in batches(scene):
+        _, (x0, x1, y0, y1), left_out = _bounds(scene, dtype, reach, batch)
+        refused += left_out
+        seen = (x0 < x1) & (y0 < y1)
+        if seen.any():
+            found.append(batch)
+            rows.append((int(y0[seen].min()), int(y1[seen].max())))
+        yield 0.0
+    return Culled(scene, dtype, memory, reach, found, rows, refused)
+
+
+def _bounds(scene: Scene, dtype: np.dtype, reach: float, batch: Batch):
+    """Return a batch's triangles but those that are not finite, their bounds, and how many are."""
+    triangles = world_triangles(scene, batch, dtype)
+    finite = triangles.finite
+    refused = len(finite) - int(finite.sum())
+    if refused:
+        triangles = triangles.take(np.flatnonzero(finite))
+    return triangles, pixel_bounds(scene.camera, triangles.corners, reach), refused
+
+
+def candidates(
+    culled: Culled, tile: Region, wanted: NDArray[np.bool_] | None = None
+) -> Iterator[tuple[float, Pairs | None]]:
+    """Yield the share of the work that is done, and the next pairs of a tile (None: none yet).
+
+    They index the tile's n pixels row by row from the lowest. Of those only the `wanted` (n,) are
+    proposed.
+    """
+    limit = max(1, min(PAIRS, culled.memory // (4 * _BYTES_PER_PAIR)))
+    work = [
+        b
+        for b, (y0, y1) in zip(culled.batches, culled.rows, strict=True)
+        if y0 < tile.y1 and y1 > tile.y0
+    ]
+    for done, batch in enumerate(work):
+        triangles, bounds, _ = _bounds(culled.scene, culled.dtype, culled.reach, batch)
+        bounds = within(bounds, tile)
+        inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
+        triangles = triangles.take(inside)
+        yield done / len(work), None
+        for pixel, row in pairs(bounds[:, inside], tile, limit):
+            if wanted is not None:
+                keep = np.flatnonzero(wanted[pixel])
+                pixel, row = pixel[keep], row[keep]
+            yield done / len(work), Pairs(pixel, row, triangles)
 
 
 def pairs(
     bounds: NDArray[np.int32], tile: Region, limit: int
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Spell out boxes as (pixel, triangle) pairs, at most about `limit` at a time.
+    """Spell out boxes, within the tile, as pairs, at most about `limit` at a time.
 
-    Parameters
-    ----------
-    bounds : (4, m) int32
-        As of :func:`pixel_bounds`, :func:`within` the tile.
-    tile : Region
-
-    Yields
-    ------
-    pixel : (p,) int
-        Index into the tile, row by row from its lowest.
-    triangle : (p,) int
-        Column of `bounds`.
+    Yields pixels, as they are numbered in the tile, and columns of `bounds`, (p,) each.
     """
     x0, x1, y0, y1 = bounds
     some = np.flatnonzero((x0 < x1) & (y0 < y1))
@@ -181,11 +197,6 @@ def pairs(
     row += y0[triangle]
     start = (row - tile.y0) * tile.width + (x0[triangle] - tile.x0)
     length = (x1 - x0)[triangle]
-    ends = np.cumsum(length)
-    first = 0
-    while first < len(length):
-        done = ends[first - 1] if first else 0
-        last = max(first + 1, int(np.searchsorted(ends, done + limit, side="right")))
+    for first, last in groups(length, limit):
         run, step = spread(np.arange(first, last), length[first:last])
         yield start[run] + step, triangle[run]
-        first = last

@@ -21,8 +21,6 @@ from .memory import check_memory
 
 BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 8 + 2 * 4 + 1  # of a frame's arrays
 _PIXELS = 1 << 15  # of which something is computed together
-
-
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
 
@@ -79,7 +77,7 @@ class Frame:
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
     certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
     rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
-    ties: Ties = field(default_factory=Ties.none)  # by the pixel's index, row by row
+    ties: Ties = field(default_factory=Ties.room)  # by the pixel's index, row by row
     cancelled: bool = False
     statistics: Statistics = field(default_factory=Statistics)
 

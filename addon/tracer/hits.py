@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +16,7 @@ from .vector import spread
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Name = tuple[int, int]  # instance and triangle
 NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
+_ARRAYS = ("t", "instance", "triangle", "s", "certainty")  # of `Hits`
 
 
 @dataclass
@@ -35,13 +34,6 @@ class Statistics:
     # Of the sweep: triangles with a pixel in their box (boxed), not dropped as a whole (reached);
     # pixels in which they were evaluated (computed), and that it did not decide (left).
     culling: Counter[str] = field(default_factory=Counter)
-
-    @contextmanager
-    def stage(self, name: str) -> Iterator[None]:
-        """Count the time of what happens inside as one of the stages."""
-        began = time.perf_counter()
-        yield
-        self.stages[name] += time.perf_counter() - began
 
     @property
     def pairs_exact(self) -> int:
@@ -73,13 +65,8 @@ class Ties(Mapping[int, frozenset[Name]]):
     triangle: NDArray[np.int32]
 
     @classmethod
-    def none(cls) -> Ties:
-        """Return no ties."""
-        return cls.room(0)
-
-    @classmethod
-    def room(cls, count: int) -> Ties:
-        """Return room for so many rows."""
+    def room(cls, count: int = 0) -> Ties:
+        """Return room for so many rows; by default no ties."""
         return cls(np.empty(count, np.int64), *np.empty((2, count), np.int32))
 
     @classmethod
@@ -87,7 +74,7 @@ class Ties(Mapping[int, frozenset[Name]]):
         """Return the ties of several sets of rays, one after the other or mixed, as one."""
         parts = [part for part in parts if len(part.ray)]
         if len(parts) < 2:
-            return parts[0] if parts else cls.none()
+            return parts[0] if parts else cls.room()
         ray, *name = map(np.concatenate, zip(*(vars(p).values() for p in parts), strict=True))
         if (ray[1:] < ray[:-1]).any():
             order = np.argsort(ray, kind="stable")
@@ -144,7 +131,7 @@ class Hits:
     triangle: NDArray[np.int32]
     s: NDArray[np.float64]
     certainty: NDArray[np.uint8] = None  # type: ignore[assignment]  # by default NOT_CERTIFIED
-    ties: Ties = field(default_factory=Ties.none)
+    ties: Ties = field(default_factory=Ties.room)
 
     def __post_init__(self) -> None:
         if self.certainty is None:
@@ -153,36 +140,36 @@ class Hits:
     @classmethod
     def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:
         """Return hits of `count` rays that have met nothing yet."""
-        return cls(
-            np.full(count, np.inf),
-            np.full(count, NOTHING, np.int32),
-            np.full(count, NOTHING, np.int32),
-            np.zeros((3, count)),
-            np.full(count, certainty, np.uint8),
-        )
+        hits = cls.room(count)
+        hits.clear(slice(None), certainty)
+        return hits
+
+    @classmethod
+    def room(cls, count: int) -> Hits:
+        """Return room for the hits of so many rays."""
+        names = np.empty((2, count), np.int32)
+        return cls(np.empty(count), *names, np.empty((3, count)), np.empty(count, np.uint8))
+
+    def clear(self, part: slice, certainty: Certainty) -> None:
+        """Say of a part of the rays that they have met nothing yet."""
+        for name, value in zip(_ARRAYS, (np.inf, NOTHING, NOTHING, 0.0, certainty), strict=True):
+            getattr(self, name)[..., part] = value
 
     @classmethod
     def joined(cls, parts: Sequence[Hits]) -> Hits:
         """Return the hits of several sets of rays, one after the other, as those of one."""
         if len(parts) == 1:
             return parts[0]
-        names = ("t", "instance", "triangle", "s", "certainty")
-        out = cls(*(np.concatenate([getattr(p, n) for p in parts], axis=-1) for n in names))
+        out = cls(*(np.concatenate([getattr(p, n) for p in parts], axis=-1) for n in _ARRAYS))
         starts = np.cumsum([0, *(len(part.t) for part in parts)]).tolist()
         out.ties = Ties.joined([p.ties.numbered(s) for p, s in zip(parts, starts, strict=False)])
         return out
 
     def enter(self, index: NDArray | slice, other: Hits) -> None:
         """Write others in the place of the hits of the rays at `index`, but for their ties."""
-        for name in ("t", "instance", "triangle", "s", "certainty"):
+        for name in _ARRAYS:
             getattr(self, name)[..., index] = getattr(other, name)
 
     def take(self, index: NDArray | slice) -> Hits:
         """Return the hits of the rays at `index`, without their ties."""
-        return Hits(
-            self.t[index],
-            self.instance[index],
-            self.triangle[index],
-            self.s[:, index],
-            self.certainty[index],
-        )
+        return Hits(*(getattr(self, name)[..., index] for name in _ARRAYS))

@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import Pairs
-from .culling import Culled, candidates, cull
+from .candidates import Culled, Pairs, candidates, cull
 from .hits import NOTHING, Hits, Statistics
 from .progress import Work
 from .settings import Settings
-from .vector import Vectors
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,20 +39,8 @@ def trace_tile(
 ) -> Work[Hits]:
     """Find the nearest hits of the rays of a tile, in small steps.
 
-    Parameters
-    ----------
-    plan : Plan
-    tile : Region
-        Of n pixels.
-    dx, dy : float
-        Where each ray passes its pixel's centre, in pixels; at most `plan.reach`.
-    statistics : Statistics, optional
-        To count the pairs in.
-
-    Returns
-    -------
-    Hits
-        Of the n rays, row by row from the lowest.
+    Each ray passes its pixel's centre at (dx, dy), in pixels, at most `plan.reach`. The hits are
+    those of the tile, row by row from the lowest; the pairs are counted in the statistics.
     """
     scene, settings = plan.scene, plan.settings
     statistics = statistics or Statistics()
@@ -78,16 +64,9 @@ def test_pairs(
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
     """
     hit, t, s = settings.method.function(rays.take(some.pixel), *some.corners)
-    found = np.flatnonzero(hit & within_clip(scene.camera, t))
-    _keep_nearest(
-        hits,
-        after,
-        some.pixel[found],
-        t[found],
-        some.instance[found],
-        some.triangle[found],
-        s[:, found],
-    )
+    seen = np.flatnonzero(hit & within_clip(scene.camera, t))
+    found = Hits(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
+    _keep_nearest(hits, after, some.pixel[seen], found)
 
 
 def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None) -> None:
@@ -98,16 +77,10 @@ def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None)
             rays, infinite.point[:, None].astype(dtype), infinite.normal[:, None].astype(dtype)
         )
         t = np.broadcast_to(t, hits.t.shape)
-        found = np.flatnonzero(within_clip(scene.camera, t))
-        _keep_nearest(
-            hits,
-            after,
-            found,
-            t[found],
-            np.full(len(found), len(scene.instances) + index, np.int32),
-            np.full(len(found), NOTHING, np.int32),
-            np.zeros((3, len(found))),
-        )
+        seen = np.flatnonzero(within_clip(scene.camera, t))
+        found = Hits.none(len(seen))
+        found.t, found.instance[:] = t[seen], len(scene.instances) + index
+        _keep_nearest(hits, after, seen, found)
 
 
 def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
@@ -116,31 +89,21 @@ def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
         return (t >= camera.clip_start) & (t <= camera.clip_end)
 
 
-def _keep_nearest(hits: Hits, after: Hits | None, pixel, t, instance, triangle, s: Vectors) -> None:
+def _keep_nearest(hits: Hits, after: Hits | None, pixel: NDArray[np.intp], found: Hits) -> None:
     """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
     if after is not None:
-        behind = np.flatnonzero(_behind(pixel, t, instance, triangle, after))
-        pixel, t, instance, triangle, s = (
-            v.take(behind, axis=-1) for v in (pixel, t, instance, triangle, s)
-        )
+        behind = np.flatnonzero(_before(after.take(pixel), found))
+        pixel, found = pixel[behind], found.take(behind)
     # Of several writes to one pixel the last one stays: so those that are nearer come again, the
     # other way round, as many may be sorted.
     while len(pixel):
-        nearer = np.flatnonzero(_before(pixel, t, instance, triangle, hits))[::-1]
-        pixel, t, instance, triangle, s = (
-            v.take(nearer, axis=-1) for v in (pixel, t, instance, triangle, s)
-        )
-        hits.t[pixel], hits.instance[pixel], hits.triangle[pixel] = t, instance, triangle
-        hits.s[:, pixel] = s
+        nearer = np.flatnonzero(_before(found, hits.take(pixel)))[::-1]
+        pixel, found = pixel[nearer], found.take(nearer)
+        hits.enter(pixel, found)
 
 
-def _before(pixel, t, instance, triangle, hits: Hits) -> NDArray[np.bool_]:
-    """Whether each hit comes before what its pixel has, in the order of t, instance, triangle."""
-    t0, i0, k0 = hits.t[pixel], hits.instance[pixel], hits.triangle[pixel]
-    return (t < t0) | ((t == t0) & ((instance < i0) | ((instance == i0) & (triangle < k0))))
-
-
-def _behind(pixel, t, instance, triangle, hits: Hits) -> NDArray[np.bool_]:
-    """Whether each comes after what its pixel has."""
-    t0, i0, k0 = hits.t[pixel], hits.instance[pixel], hits.triangle[pixel]
-    return (t > t0) | ((t == t0) & ((instance > i0) | ((instance == i0) & (triangle > k0))))
+def _before(first: Hits, second: Hits) -> NDArray[np.bool_]:
+    """Return where the first come before the second, in the order of t, instance, triangle."""
+    lower = first.triangle < second.triangle
+    lower = (first.instance < second.instance) | ((first.instance == second.instance) & lower)
+    return (first.t < second.t) | ((first.t == second.t) & lower)

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-T = TypeVar("T")
+A, B, T = TypeVar("A"), TypeVar("B"), TypeVar("T")
 Work = Generator[float, None, T]
 Steps = Generator[str, None, T]  # of which each says which stage of the work it was
 
@@ -28,24 +28,19 @@ def result_of(work: Work[T], progress: Callable[[float], None] | None = None) ->
             progress(share)
 
 
-def scaled(work: Work[T], start: float, size: float) -> Work[T]:
-    """Run work as the part of a larger one that begins at `start` and has this size."""
+def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:
+    """Run work whose steps yield what a function makes of what they are."""
     while True:
         try:
             share = next(work)
         except StopIteration as stop:
             return stop.value
-        yield start + size * share
+        yield of(share)
 
 
-def named(work: Work[T], stage: str) -> Steps[T]:
-    """Run work as steps of one stage."""
-    while True:
-        try:
-            next(work)
-        except StopIteration as stop:
-            return stop.value
-        yield stage
+def scaled(work: Work[T], start: float, size: float) -> Work[T]:
+    """Run work as the part of a larger one that begins at `start` and has this size."""
+    return mapped(work, lambda share: start + size * share)
 
 
 def timed(steps: Steps[T], stages: Counter[str], share: float = 0.0) -> Work[T]:

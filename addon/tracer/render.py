@@ -22,13 +22,18 @@ from .certified.certainty import AssumptionError, check_assumptions
 from .frame import Frame
 from .hits import Hits, Statistics, Ties
 from .nearest import plan, trace_tile
-from .progress import Work, result_of, scaled
+from .progress import Steps, Work, result_of, scaled, timed
 from .settings import Precision, Settings
+from .vector import parts
 from .world import refused
 
 try:
     from .certified.sweep.sweep import sweep as certified
-except ModuleNotFoundError:  # `sweep/` is deleted: the definition finds the same, later
+except ModuleNotFoundError as missing:
+    # Where `sweep/` is deleted, but for what else may be in its folder, the definition finds the
+    # same, later. Whatever else is missing is an error.
+    if missing.name not in {f"{__package__}.certified.sweep{end}" for end in ("", ".sweep")}:
+        raise
     from .certified.plain import plain as certified
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
@@ -49,17 +54,11 @@ def render(
 
     Parameters
     ----------
-    scene : Scene
-    settings : Settings, optional
     progress : callable, optional
         Called with the share of the work that is done, 0 to 1; 1 only at the end.
     cancelled : callable, optional
         Asked after every step; once it says True, the frame is returned with the rows that are
         done, and marked `cancelled`.
-
-    Returns
-    -------
-    Frame
 
     Raises
     ------
@@ -93,16 +92,14 @@ def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
 
 
 def trace(
-    scene: Scene,
-    settings: Settings,
-    statistics: Statistics | None = None,
-    rays: Rays | None = None,
+    scene: Scene, settings: Settings, statistics: Statistics | None = None, rays: Rays | None = None
 ) -> Hits:
     """Return what the rays through the centres of the region's pixels meet, and nothing else.
 
+    Row by row from the lowest.
+
     Parameters
     ----------
-    scene : Scene
     settings : Settings
         Of which the samples do not count.
     statistics : Statistics, optional
@@ -110,28 +107,23 @@ def trace(
     rays : Rays, optional
         Any rays, in their place; t counts in the camera's clip range, in lengths of a direction.
         They are tested with every triangle, which takes as long as it sounds.
-
-    Returns
-    -------
-    Hits
-        Of the region's pixels, row by row from the lowest; or of the rays.
     """
     statistics = statistics or Statistics()
     settings = resolved(settings, statistics)
     if rays:
         return result_of(trace_rays(scene, rays, settings, statistics))
     tracer = result_of(_tracer(scene, settings, 0.0, statistics))
-    parts = bands(scene.camera, settings)
-    return Hits.joined([result_of(tracer(band, 0.0, 0.0)) for band in parts])
+    found = [result_of(tracer(band, 0.0, 0.0)) for band in bands(scene.camera, settings)]
+    return Hits.joined(found)
 
 
 def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     settings = resolved(settings, frame.statistics)
     frame.statistics.triangles = scene.triangle_count
     band_tracer = yield from prepare(scene, settings, frame)
-    parts = bands(scene.camera, settings)
-    for number, band in enumerate(parts):
-        yield from scaled(band_tracer(band), WHOLE * number / len(parts), WHOLE / len(parts))
+    every = bands(scene.camera, settings)
+    for number, band in enumerate(every):
+        yield from scaled(band_tracer(band), WHOLE * number / len(every), WHOLE / len(every))
     yield 1.0
 
 
@@ -181,10 +173,11 @@ def _band(
         other = yield from scaled(tracer(band, dx, dy), number * share, share)
         if color is None:
             color = np.zeros((len(hits.t), 4))
-        for part in _parts(len(hits.t)):
+        for part in parts(len(hits.t), PIXELS // 8):
             color[part] += shading.colors(scene, other.take(part)) / len(offsets)
             yield (number + 1) * share
-    yield from _write(scene, frame, band, hits, color)
+    written = _write(scene, frame, band, hits, color)
+    yield from timed(written, frame.statistics.stages, 1.0)
 
 
 def sample_offsets(samples: int) -> list[tuple[float, float]]:
@@ -214,22 +207,17 @@ def _rows(r: Region, rows: int) -> list[Region]:
     return [Region(r.x0, y, r.x1, min(y + rows, r.y1)) for y in range(r.y0, r.y1, rows)]
 
 
-def _parts(count: int) -> list[slice]:
-    return [slice(first, first + PIXELS // 8) for first in range(0, count, PIXELS // 8)]
-
-
 def _write(
     scene: Scene, frame: Frame, band: Region, hits: Hits, color: NDArray | None
-) -> Work[None]:
+) -> Steps[None]:
     """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
     rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
     flat = frame.hits(rows)
     colors = frame.color[rows].reshape(-1, 4)
-    for part in _parts(len(hits.t)):
-        with frame.statistics.stage("shade"):
-            some = hits.take(part)
-            colors[part] = shading.colors(scene, some) if color is None else color[part]
-            flat.enter(part, some)
-        yield 1.0
+    for part in parts(len(hits.t), PIXELS // 8):
+        some = hits.take(part)
+        colors[part] = shading.colors(scene, some) if color is None else color[part]
+        flat.enter(part, some)
+        yield "shade"
     frame.ties = Ties.joined((frame.ties, hits.ties.numbered(rows.start * band.width)))
     frame.rows_done[rows] = True

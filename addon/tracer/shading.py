@@ -1,4 +1,4 @@
-"""Constant shading, and the other outputs of a hit: colour, position, normal, object.
+"""Constant shading, and the other outputs of a hit: colour, position, normal.
 
 In come `Hits`, for the position with their rays; out go arrays, a row a ray. All of it is float64
 whatever the precision of the intersection: it says where the hit was found to be.
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
-from .vector import Vectors, cross, dot, transform_points
+from .vector import Vectors, cross, dot, largest, transform_points
 
 
 def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
@@ -76,8 +76,6 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
 
 def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the first of each run of rays that see the same triangle, and each ray's run."""
-    if not len(hits.t):
-        return (np.zeros(0, np.intp),) * 2
     changes = np.ones(len(hits.t), bool)
     changes[1:] = hits.triangle[1:] != hits.triangle[:-1]
     changes[1:] |= hits.instance[1:] != hits.instance[:-1]
@@ -86,8 +84,7 @@ def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 def _near_1(v: Vectors) -> Vectors:
     """Return vectors as they are or scaled, so that products neither overflow nor underflow."""
-    x, y, z = np.abs(v)
-    size = np.maximum(np.maximum(x, y), z)
+    size = largest(*np.abs(v))
     if (((size > 2.0**-100) & (size < 2.0**100)) | (size == 0)).all():
         return v
     return np.ldexp(v, -np.frexp(size)[1])
@@ -99,11 +96,6 @@ def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
     points = rays.at(np.where(hit, hits.t, 0.0))
     points[:, ~hit] = 0
     return points.T
-
-
-def objects(scene: Scene, hits: Hits) -> NDArray[np.int32]:
-    """Return the index into `scene.objects` of what each ray sees, (n,); NOTHING for nothing."""
-    return scene.instance_objects[hits.instance]
 
 
 def _by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:

@@ -1,12 +1,16 @@
 """Vectors as component-first arrays, (3, n): the formulas read as in the textbook.
 
+And records of arrays whose last axis counts the same things.
+
 Every operation is an explicit elementwise one. A matrix product or einsum may round the same
 vertex differently in arrays of different length, which would tear shared vertices apart.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterable, Iterator
+from functools import reduce
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,13 +39,62 @@ def gather(values: NDArray, index: NDArray[np.integer]) -> NDArray:
     return out
 
 
-def in_parts(function: Callable[[slice], NDArray], count: int, size: int) -> NDArray:
-    """Return what a function makes of slices of `size` columns, side by side: (..., count).
+class Arrays:
+    """What all records of arrays have in common that count the same things in their last axis."""
 
-    So that the temporaries of long formulas stay in a core's cache.
-    """
-    parts = [function(slice(k, k + size)) for k in range(0, max(count, 1), size)]
-    return np.concatenate(parts, axis=-1)
+    def __len__(self) -> int:
+        return next(iter(vars(self).values())).shape[-1]
+
+    def take(self, index: NDArray[np.integer] | slice) -> Self:
+        """Return those at `index`."""
+        if isinstance(index, slice):
+            return type(self)(*(v[..., index] for v in vars(self).values()))
+        return type(self)(*(gather(v, index) for v in vars(self).values()))
+
+    @classmethod
+    def joined(cls, parts: Iterable[Self]) -> Self:
+        """Return them all as one."""
+        fields = zip(*(vars(part).values() for part in parts), strict=True)
+        return cls(*(np.concatenate(f, axis=-1) for f in fields))
+
+    @classmethod
+    def together(cls, parts: Iterable[Self], size: int) -> Iterator[Self]:
+        """Yield them all, small parts joined, at least `size` at a time but at the end."""
+        some: list[Self] = []
+        for part in parts:
+            some.append(part)
+            if sum(map(len, some)) >= size:
+                yield cls.joined(some)
+                some = []
+        if some:
+            yield cls.joined(some)
+
+
+def parts(count: int, size: int) -> list[slice]:
+    """Split `count` items into parts of at most `size`."""
+    return [slice(first, first + size) for first in range(0, count, size)]
+
+
+def groups(counts: NDArray[np.integer], limit: int) -> Iterator[tuple[int, int]]:
+    """Yield where groups of items begin and end, whose counts sum to `limit` at most, or of one."""
+    ends = np.cumsum(counts)
+    start = 0
+    while start < len(ends):
+        done = ends[start - 1] if start else 0
+        end = max(start + 1, int(np.searchsorted(ends, done + limit, side="right")))
+        yield start, end
+        start = end
+
+
+def grouped(number: NDArray[np.integer], count: int) -> list[NDArray[np.intp]]:
+    """Return for each number below `count` where it stands."""
+    ends = np.cumsum(np.bincount(number, minlength=count))[:-1]
+    return np.split(np.argsort(number, kind="stable"), ends)
+
+
+def largest(*values: NDArray) -> NDArray:
+    """Return the largest of several arrays, place by place."""
+    return reduce(np.maximum, values)
 
 
 def spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

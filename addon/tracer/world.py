@@ -6,15 +6,16 @@ scene, for all that is said of it to be exact.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .camera import project
-from .vector import transform_points
+from .vector import Arrays, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -35,27 +36,53 @@ class Batch:
 
 
 @dataclass(frozen=True, eq=False)
-class WorldTriangles:
+class WorldTriangles(Arrays):
     """A batch in world space: `corners` (3 corners, 3, m), with where each comes from, (m,)."""
 
     corners: NDArray[np.floating]
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
 
-    def take(self, index: NDArray) -> WorldTriangles:
-        """Return the triangles at `index`."""
-        return WorldTriangles(self.corners[..., index], self.instance[index], self.triangle[index])
+    @property
+    def finite(self) -> NDArray[np.bool_]:
+        """Which have no corner that is not finite, (m,)."""
+        return np.isfinite(self.corners).all(axis=(0, 1))
 
     @staticmethod
     def none() -> WorldTriangles:
         """Return no triangles."""
         return WorldTriangles(np.zeros((3, 3, 0)), np.zeros(0, np.int32), np.zeros(0, np.int32))
 
-    @staticmethod
-    def joined(parts: Sequence[WorldTriangles]) -> WorldTriangles:
-        """Return the triangles of several batches as one."""
-        fields = zip(*(vars(part).values() for part in parts), strict=True)
-        return WorldTriangles(*(np.concatenate(f, axis=-1) for f in fields))
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """p pairs of a pixel and a triangle that may cover it.
+
+    `pixel` (p,) indexes the rays; `row` (p,) the batch's `triangles`.
+    """
+
+    pixel: NDArray[np.integer]
+    row: NDArray[np.integer]
+    triangles: WorldTriangles
+
+    @cached_property
+    def corners(self) -> NDArray[np.floating]:
+        """Corner, component, pair: (3, 3, p), world space."""
+        return np.stack([corner.take(self.row, axis=1) for corner in self.triangles.corners])
+
+    @property
+    def instance(self) -> NDArray[np.int32]:
+        """Whose each triangle is, (p,)."""
+        return self.triangles.instance[self.row]
+
+    @property
+    def triangle(self) -> NDArray[np.int32]:
+        """Which of its mesh each triangle is, (p,)."""
+        return self.triangles.triangle[self.row]
+
+    def take(self, index: NDArray) -> Pairs:
+        """Return the pairs at `index`."""
+        return Pairs(self.pixel[index], self.row[index], self.triangles)
 
 
 def batches(scene: Scene) -> Iterator[Batch]:

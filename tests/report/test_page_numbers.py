@@ -10,7 +10,7 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.report.page import arrays
 from reference_tracer.tracer import plane
-from reference_tracer.tracer.camera import Rays, camera_rays, film_positions_of
+from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.world import world_corners
 
 pytestmark = pytest.mark.browser
@@ -35,7 +35,7 @@ def expected_bits(comparison, dtype):
     scene, frame = comparison.scene, comparison.frame
     camera, count = scene.camera, len(scene.instances)
     pixel = np.arange(frame.t.size)
-    rays = camera_rays(camera, *film_positions_of(camera.region, pixel), dtype)
+    rays = camera_rays(camera, *film_positions(camera.region, pixel=pixel), dtype)
     rays = Rays(*(np.broadcast_to(v, (3, len(pixel))) for v in (rays.origins, rays.directions)))
     out = np.zeros((len(pixel), 6))
     out[:, :4] = np.nan

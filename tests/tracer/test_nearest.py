@@ -9,10 +9,10 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.study.oracle import scene_sights
-from reference_tracer.tracer import culling, plane, render, world
+from reference_tracer.tracer import candidates, plane, render, world
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.certified.sweep import chunks, depth_bins, rasterise, sweep, verdict
+from reference_tracer.tracer.certified.sweep import boxes, chunks, rasterise, sweep, verdict
 from reference_tracer.tracer.nearest import NOTHING, film_positions
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
@@ -116,7 +116,7 @@ def test_certified_and_auto_against_exact_brute_force(mess):
 def test_the_division_of_the_work_does_not_matter(mess, settings, division, monkeypatch):
     whole = traced(mess, settings)
     for module, name, value in zip(
-        (culling, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
+        (candidates, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
     ):
         monkeypatch.setattr(module, name, value)
     if settings in PROVEN:
@@ -127,7 +127,7 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         for module, name in ((verdict, "_PAIRS"), (rasterise, "_VALUES"), (rasterise, "_CELLS")):
             monkeypatch.setattr(module, name, pairs)
         monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
-        monkeypatch.setattr(depth_bins, "BINS", 2 + triangles % 255)
+        monkeypatch.setattr(boxes, "BINS", 2 + triangles % 255)
     divided = traced(mess, settings)
     for name, values in divided.passes().items():
         assert values.tobytes() == whole.passes()[name].tobytes(), name

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 from reference_tracer.methods import Method
 from reference_tracer.scene import Region
-from reference_tracer.tracer import culling
+from reference_tracer.tracer import candidates
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.frame import Frame
@@ -169,7 +169,7 @@ def test_an_empty_scene_is_its_background(make, background, samples):
 @pytest.fixture
 def busy(make, monkeypatch):
     """Return a scene whose picture takes many small steps."""
-    monkeypatch.setattr(culling, "PAIRS", 100)
+    monkeypatch.setattr(candidates, "PAIRS", 100)
     monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (4 * 40))  # 4 rows
     camera = make.camera(40, 30, half=0.3, eye=(2.3, -2.6, 1.9), target=(0, 0, 0))
     return make.scene(camera, make.mesh(SHAPES["torus"]), make.mesh(SHAPES["box"]))
@@ -189,8 +189,8 @@ def test_steps_are_small(busy):
     tested = [0]
     for _ in steps(busy, Settings("moller_trumbore"), frame):
         tested.append(frame.statistics.pairs_tested)
-    assert max(np.diff(tested)) <= culling.PAIRS + busy.camera.region.width
-    assert tested[-1] > 20 * culling.PAIRS
+    assert max(np.diff(tested)) <= candidates.PAIRS + busy.camera.region.width
+    assert tested[-1] > 20 * candidates.PAIRS
     assert frame.statistics.triangles == busy.triangle_count
 
 

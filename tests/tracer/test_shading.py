@@ -110,10 +110,10 @@ def test_positions_and_objects(scene, rng):
     seen = shading.positions(rays, some)
     expected = (rays.origins + np.array([2.0, 3.0, 0.0]) * rays.directions).T
     assert np.allclose(seen[:2], expected[:2], **NEAR) and not seen[2].any()
-    assert shading.objects(scene, some).tolist() == [2, 1, NOTHING]
+    assert scene.instance_objects[some.instance].tolist() == [2, 1, NOTHING]
 
 
 def test_a_scene_without_anything_has_no_objects(make):
     empty = make.scene(make.camera())
-    assert shading.objects(empty, hits([NOTHING], [NOTHING])).tolist() == [NOTHING]
+    assert empty.instance_objects[hits([NOTHING], [NOTHING]).instance].tolist() == [NOTHING]
     assert shading.colors(empty, hits([NOTHING], [NOTHING])).tolist() == [[0, 0, 0, 0]]

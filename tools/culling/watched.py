@@ -16,10 +16,9 @@ from reference_tracer.tracer import render
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.sweep import sweep
 from reference_tracer.tracer.certified.sweep.chunks import Expanded
-from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer
+from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
 from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
 from reference_tracer.tracer.certified.sweep.film import Film
-from reference_tracer.tracer.certified.sweep.fragments import Fragments
 from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Rasterised
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import quiet, result_of

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ...methods import Method
 from ...scene import Scene
 from ...tracer import plane
-from ...tracer.camera import Rays, camera_rays, film_positions_of
+from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.world import world_corners
@@ -120,7 +120,7 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.uint
         for first in range(0, len(t), _TOGETHER):
             rows = slice(first, min(first + _TOGETHER, len(t)))
             pixel = np.arange(rows.start, rows.stop)
-            rays = camera_rays(scene.camera, *film_positions_of(scene.camera.region, pixel))
+            rays = camera_rays(scene.camera, *film_positions(scene.camera.region, pixel=pixel))
             formula[rows] = _textbook_t(scene, rays, surfaces, surfaces.number.ravel()[rows])
     formula[~np.isfinite(formula)] = 0.0
     with np.errstate(over="ignore"):

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..vector import Vectors, cross, dot
+from ..vector import Vectors, cross, dot, largest
 
 U = 2.0**-53
 BOUND = 12 * U
@@ -87,24 +87,15 @@ class FromPoint:
         a, b, c = corners
         arms = [corner - origins for corner in (a, b, c)]
         sides = (b - a, c - b, a - c)
-        normals = [cross(arm, side) for arm, side in zip(arms, sides, strict=True)]
-        sizes = [
-            cross_magnitude(np.abs(arm), np.abs(side))
-            for arm, side in zip(arms, sides, strict=True)
-        ]
-        largest = np.maximum(np.maximum(sizes[0], sizes[1]), sizes[2])
-        error = bound(dot(reach, largest), reach)
-        self._edges = np.concatenate((*normals, error[None]))
+        pairs = list(zip(arms, sides, strict=True))
+        normals = [cross(*pair) for pair in pairs]
+        sizes = [cross_magnitude(*np.abs(pair)) for pair in pairs]
+        error = bound(dot(reach, largest(*sizes)), reach)
+        self._edges = np.vstack((*normals, error))
         n, size = _normal(corners)
         arm = np.abs(arms[0])
-        self._fractions = np.concatenate(
-            (
-                n,
-                bound(dot(reach, size), reach)[None],
-                dot(arms[0], n)[None],
-                bound(dot(arm, size), arm)[None],
-            )
-        )
+        bounds = bound(dot(reach, size), reach), bound(dot(arm, size), arm)
+        self._fractions = np.vstack((n, bounds[0], dot(arms[0], n), bounds[1]))
 
     def edges(self, rows: NDArray[np.integer], rays: Rays) -> tuple[Vectors, Floats]:
         """Return e_ab, e_bc, e_ca, (3, p), of p rays with p triangles, and their bound, (p,)."""
@@ -143,18 +134,10 @@ class Parallel:
             bound(dot(arm, cross_magnitude(np.abs(side), size)), arm)
             for arm, side in zip(arms, sides, strict=True)
         ]
-        error = np.maximum(np.maximum(errors[0], errors[1]), errors[2])
-        self._edges = np.concatenate((a, b, c, *normals, error[None]))
+        self._edges = np.vstack((a, b, c, *normals, largest(*errors)))
         n, magnitude = _normal(corners)
-        self._fractions = np.concatenate(
-            (
-                a,
-                n,
-                bound(dot(arms[0], magnitude), arms[0])[None],
-                dot(direction, n)[None],
-                bound(dot(size, magnitude), size)[None],
-            )
-        )
+        bounds = bound(dot(arms[0], magnitude), arms[0]), bound(dot(size, magnitude), size)
+        self._fractions = np.vstack((a, n, bounds[0], dot(direction, n), bounds[1]))
 
     def edges(self, rows: NDArray[np.integer], rays: Rays) -> tuple[Vectors, Floats]:
         """Return e_ab, e_bc, e_ca, (3, p), of p rays with p triangles, and their bound, (p,)."""

@@ -39,8 +39,6 @@ Moves = Sequence[Integers]
 
 PERTURBATION: Moves = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 ZERO: Integers = (0, 0, 0)
-
-
 _Triangle = tuple[int, Integers, tuple[Integers, ...], tuple[Integers, ...]]
 
 
@@ -86,19 +84,19 @@ def crossing(first: Hit, second: Hit) -> tuple[Integers, Integers]:
 
 
 class Batch:
-    """Rays, triangles and planes as integers.
+    """Rays, triangles and planes as integers. Surfaces are the planes, then the triangles.
 
     Parameters
     ----------
-    rays : Rays
-        n rays, float64, finite.
+    rays
+        Finite, float64.
     corners : (3, 3, m) float64
         Corner, component, triangle; finite.
     planes : sequence of ((3,), (3,)) float64
         Point and normal of each infinite plane.
-    start, end : float
-        The clip range: hits with start <= t <= end are seen, but for t = 0 where `start` is 0 (a
-        ray does not meet what it begins on); `end` may be inf.
+    start, end
+        Hits with start <= t <= end are seen, but for t = 0 where `start` is 0 (a ray does not meet
+        what it begins on); `end` may be inf.
     """
 
     def __init__(
@@ -111,8 +109,8 @@ class Batch:
     ) -> None:
         count = corners.shape[2]
         points = np.array([p for p, _ in planes]).reshape(-1, 3).T
-        lengths, exponent = integers(np.hstack((rays.origins, *corners, points)))
         at = rays.origins.shape[1]
+        lengths, exponent = integers(np.hstack((rays.origins, *corners, points)))
         self._origins = lengths[:at]
         self._corners = [lengths[at + k * count : at + (k + 1) * count] for k in range(3)]
         self._directions, direction_exponent = integers(rays.directions)
@@ -127,10 +125,7 @@ class Batch:
         self._known: dict[int, _Triangle] = {}
 
     def hit(self, ray: int, surface: int) -> Hit | None:
-        """Return a ray's hit on a surface within the clip range; None where there is none.
-
-        Surfaces are the planes, then the triangles.
-        """
+        """Return a ray's hit on a surface within the clip range; None where there is none."""
         d = self._directions[ray if len(self._directions) > 1 else 0]
         o = self._origins[ray if len(self._origins) > 1 else 0]
         if surface < len(self._planes):
@@ -150,8 +145,7 @@ class Batch:
 
     def _triangle(self, o: Integers, surface: int) -> _Triangle:
         """Return T, n, and of each edge m and span; found once where all rays share o."""
-        known = self._known.get(surface)
-        if known:
+        if known := self._known.get(surface):
             return known
         k = surface - len(self._planes)
         ox, oy, oz = o
@@ -251,8 +245,4 @@ def _dot(a: Integers, b: Integers) -> int:
 
 
 def _cross(a: Integers, b: Integers) -> Integers:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

@@ -34,11 +34,7 @@ def applies(rays: Rays, start: float) -> bool:
 
 
 def compare(
-    around: Rays,
-    rays: Rays,
-    batch: Batch,
-    first: NDArray[np.intp],
-    second: NDArray[np.intp],
+    around: Rays, rays: Rays, batch: Batch, first: NDArray[np.intp], second: NDArray[np.intp]
 ) -> NDArray[np.int8]:
     """Return how the first of two surfaces lies, of n rays that surely hit both.
 
@@ -47,8 +43,6 @@ def compare(
     around : Rays
         To which the above :func:`applies`: they say what the rays share, and the first of them
         has o0.
-    rays : Rays
-        The n rays.
     batch : Batch
         The surfaces as integers, with the first of the rays around.
     first, second : (n,) int
@@ -74,9 +68,7 @@ def compare(
     return np.where(coplanar, COPLANAR, order).astype(np.int8)
 
 
-def _difference(
-    batch: Batch, first: int, second: int, shared_origin: bool
-) -> tuple[float, float, float, float, float]:
+def _difference(batch: Batch, first: int, second: int, shared_origin: bool) -> tuple[float, ...]:
     """Return f0, v (or 0, w), and the sign of D1 D2, each rounded once; 0 all for one plane.
 
     One power of two scales f0 and v alike, so that the largest of them is near 1.

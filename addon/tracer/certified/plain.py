@@ -1,7 +1,7 @@
 """The certified picture by its definition: each ray meets every triangle that it may come near.
 
 In come a scene and a region of its camera's pixels; out go `Hits`, proven. Read from here
-downwards: `culling` proposes pairs of a pixel and a triangle, and leaves out none that is hit.
+downwards: `candidates` proposes pairs of a pixel and a triangle, and leaves out none that is hit.
 A `Contest` decides them: by error bounds (`bounds`) where these leave no doubt, else in integers
 (`exact`, `ties`, `order`; `settle` puts them together). `sweep/` finds the same sooner.
 """
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..camera import camera_rays, corner_rays, film_positions
-from ..culling import Culled, candidates, cull
+from ..candidates import Culled, candidates, cull
 from ..hits import Hits, Statistics
 from ..progress import Work
 from .contest import Contest
@@ -37,15 +37,14 @@ def plain(
 
     Parameters
     ----------
-    scene : Scene
-    region : Region
+    region
         Of n pixels, within the camera's.
     memory : int
         Bytes that the pairs may take, about.
     dx, dy : float
         Where each ray passes its pixel's centre, in pixels; at most half a pixel.
-    statistics : Statistics, optional
-        To count in.
+    statistics
+        To count in, if any.
 
     Returns
     -------

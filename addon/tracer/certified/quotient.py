@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..vector import Vectors, gather
+from ..vector import Vectors, gather, largest, parts
 from .bounds import U
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
@@ -77,24 +77,19 @@ class Quotients:
     @classmethod
     def of(cls, rays: Rays, corners: NDArray[np.float64], planes: Sequence = ()) -> Quotients:
         """Prepare infinite planes, (point, normal) each, then triangles, corners (3, 3, m)."""
-        parts = [
-            cls._of_triangles(rays, corners[..., first : first + _CHUNK])
-            for first in range(0, max(1, corners.shape[2]), _CHUNK)
-        ]
+        all_parts = []
         if planes:
             point, normal = (np.array(v, np.float64).T for v in zip(*planes, strict=True))
             nothing = np.zeros_like(normal)
-            parts.insert(0, cls(rays, point, (normal, nothing), nothing[0]))
-        out = parts[0]
+            all_parts.append(cls(rays, point, (normal, nothing), nothing[0]))
+        for part in parts(max(1, corners.shape[2]), _CHUNK):
+            a, b, c = corners[..., part]
+            normal, error = _cross(two_sum(b, -a), two_sum(c, -a))
+            all_parts.append(cls(rays, a, normal, np.where(error > _LEAST, error, np.inf)))
+        out = all_parts[0]
         for name in ("_point", "_normals", "_fixed"):
-            setattr(out, name, np.concatenate([getattr(p, name) for p in parts], axis=1))
+            setattr(out, name, np.concatenate([getattr(p, name) for p in all_parts], axis=1))
         return out
-
-    @classmethod
-    def _of_triangles(cls, rays: Rays, corners: NDArray[np.float64]) -> Quotients:
-        a, b, c = corners
-        normal, error = _cross(two_sum(b, -a), two_sum(c, -a))
-        return cls(rays, a, normal, np.where(error > _LEAST, error, np.inf))
 
     def meet(self, rays: Rays, surface: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
         """Return t of p rays with surfaces, and whether it surely is the nearest float64."""
@@ -184,8 +179,7 @@ def two_product(a: Floats, b: Floats) -> Pair:
 
 def power_above(v: Floats) -> Floats:
     """Return the power of two above the largest component of vectors (3, n)."""
-    x, y, z = np.abs(v)
-    return np.ldexp(1.0, np.frexp(np.maximum(np.maximum(x, y), z))[1])
+    return np.ldexp(1.0, np.frexp(largest(*np.abs(v)))[1])
 
 
 def halves(v: Floats, unit: Floats) -> Pair:

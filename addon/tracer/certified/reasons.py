@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..vector import cross
+from ..vector import cross, largest
 from .bounds import BOUND, SLACK
 
 
@@ -35,7 +35,7 @@ def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
     a, b, c = corners
     with np.errstate(all="ignore"):
         sides = [_length(side) for side in (b - a, c - b, a - c)]
-        longest = np.maximum(np.maximum(*sides[:2]), sides[2])
+        longest = largest(*sides)
         normal = cross((b - a) / longest, (c - a) / longest)  # by units, lest it underflow
         height = _length(normal)
         speed, distance = _length(rays.directions), _length(a - rays.origins)

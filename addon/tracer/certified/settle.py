@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import NOTHING, Hits, Ties
+from ..vector import parts
 from . import exact, order
 from .certainty import Certainty
 from .reasons import Reason, of_doubts
@@ -58,8 +59,7 @@ class Decisions:
         """Enter what rays surely hit first, in small steps: only t and barycentrics are open."""
         surfaces, surface = self.surfaces.only(surface)
         prepared = Prepared(self.around, surfaces)
-        for first in range(0, len(ray), TOGETHER):
-            part = slice(first, first + TOGETHER)
+        for part in parts(len(ray), TOGETHER):
             prepared.enter(self.hits, ray[part], self.rays.take(ray[part]), surface[part])
             yield
         prepared.finish(self.hits, self.rays.take)
@@ -95,7 +95,9 @@ class Decisions:
             pass
         self.hits.certainty[won.ray] = Certainty.EXACT
         tied[first[np.unique(of_ray[tied])]] = True
-        self._tie(found.take(np.flatnonzero(tied)))
+        ties = found.take(np.flatnonzero(tied))  # what lies in one plane, sorted by ray
+        self.ties.append(Ties(ties.ray, *self.surfaces.names(ties.surface)))
+        self.hits.certainty[ties.ray] = Certainty.AMBIGUOUS
         return rest
 
     def _first_by_order(
@@ -106,34 +108,29 @@ class Decisions:
         Candidates are sorted by ray: `count` of each, from `start` on. The nearest so far of each
         ray meets the ray's next one in every round.
         """
-        pairs = self.surfaces.integers(self.around, np.zeros_like(found.ray), found.surface)
-        surface = np.array(pairs.surface)
+        none = np.zeros_like(found.ray)
+        batch, _, surface = self.surfaces.integers(self.around, none, found.surface)
+        surface = np.array(surface)
         first, decided, tied = start.copy(), np.ones(len(start), bool), np.zeros(len(surface), bool)
         for number in range(1, count.max()):
             at = np.flatnonzero(count > number)
             other = start[at] + number
             some = self.rays.take(found.ray[other])
-            result = order.compare(
-                self.around, some, pairs.batch, surface[first[at]], surface[other]
-            )
+            result = order.compare(self.around, some, batch, surface[first[at]], surface[other])
             decided[at[result == order.UNDECIDED]] = False
             tied[other] = result == order.COPLANAR
             beaten = result == order.FARTHER
             first[at[beaten]] = other[beaten]
         return first, decided, tied
 
-    def _tie(self, found: Candidates) -> None:
-        """Enter candidates, sorted by ray, that lie in one plane, as ties of their ray."""
-        self.ties.append(Ties(found.ray, *self.surfaces.names(found.surface)))
-        self.hits.certainty[found.ray] = Certainty.AMBIGUOUS
-
     def by_integers(self, found: Candidates) -> None:
         """Enter rays, sorted, whose candidates are decided by integers, together."""
-        pairs = self.surfaces.integers(self.rays, found.ray, found.surface, *self.clip)
+        batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, *self.clip)
+        met = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
         names = list(zip(*(v.tolist() for v in self.surfaces.names(found.surface)), strict=True))
         groups: dict[int, list[tuple[int, exact.Hit | None]]] = {}
         for k, ray in enumerate(found.ray.tolist()):
-            groups.setdefault(ray, []).append((k, pairs.hit(k)))
+            groups.setdefault(ray, []).append((k, met[k]))
         firsts: dict[int, exact.Hit | None] = {}
         tied = []
         for ray, group in groups.items():
@@ -144,7 +141,7 @@ class Decisions:
             firsts[ray] = None
             if seen >= 0:
                 name, firsts[ray] = of_ray[seen]
-                self._enter(ray, name, firsts[ray], pairs.batch.t(firsts[ray]))
+                self._enter(ray, name, firsts[ray], batch.t(firsts[ray]))
         ray, *name = np.array(tied, np.int64).reshape(-1, 3).T
         self.ties.append(Ties(ray, *(v.astype(np.int32) for v in name)))
         self.reasons.update(self._reasons(found, groups, firsts))

@@ -15,39 +15,30 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import NOTHING, Hits
-from ..vector import Vectors, cross, dot, gather, in_parts
+from ..vector import Arrays, Vectors, cross, dot, gather, parts
 from ..world import WorldTriangles
 from . import exact
 from .quotient import Quotients
 
+Index = NDArray[np.intp]
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
 TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
 
 
 @dataclass(frozen=True, eq=False)
-class Candidates:
+class Candidates(Arrays):
     """c hits that may be the nearest of their ray.
 
     `surface` (c,) says of which of the contest's surfaces; `low` and `high` (c,) enclose t;
     `doubt` (c,) is what is not known.
     """
 
-    ray: NDArray[np.intp]
-    surface: NDArray[np.intp]
+    ray: Index
+    surface: Index
     low: NDArray[np.float64]
     high: NDArray[np.float64]
     doubt: NDArray[np.uint8]
-
-    def take(self, index: NDArray) -> Candidates:
-        """Return those at `index`."""
-        return Candidates(*(v[..., index] for v in vars(self).values()))
-
-    @staticmethod
-    def joined(parts: Sequence[Candidates]) -> Candidates:
-        """Return them all as one."""
-        fields = zip(*(vars(part).values() for part in parts), strict=True)
-        return Candidates(*(np.concatenate(f, axis=-1) for f in fields))
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,59 +52,31 @@ class Surfaces:
     first_plane: int
     triangles: WorldTriangles
 
-    def take(self, index: NDArray[np.integer]) -> Surfaces:
-        """Return all planes, and of the triangles those at `index` (which counts planes)."""
-        return replace(self, triangles=self.triangles.take(index - len(self.planes)))
-
-    def only(self, surface: NDArray[np.integer]) -> tuple[Surfaces, NDArray[np.intp]]:
+    def only(self, surface: NDArray[np.integer]) -> tuple[Surfaces, Index]:
         """Return all planes, and the triangles among these surfaces, with their numbers there."""
         planes, count = len(self.planes), self.triangles.corners.shape[2]
         occurs = np.zeros(planes + count, bool)
         occurs[surface] = occurs[:planes] = True
-        return self.take(np.flatnonzero(occurs)[planes:]), (np.cumsum(occurs) - 1)[surface]
+        triangles = self.triangles.take(np.flatnonzero(occurs[planes:]))
+        return replace(self, triangles=triangles), (np.cumsum(occurs) - 1)[surface]
 
-    def name(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle of every surface."""
+    def names(
+        self, surface: NDArray[np.integer] | slice = slice(None)
+    ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """Return instance and triangle of surfaces, (c,) each; by default of all."""
         count = len(self.planes)
         instance = np.r_[self.first_plane + np.arange(count), self.triangles.instance]
         triangle = np.r_[np.full(count, NOTHING), self.triangles.triangle]
-        return instance.astype(np.int32), triangle.astype(np.int32)
-
-    def names(self, surface: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle of surfaces, (c,) each."""
-        instance, triangle = self.name()
-        return instance[surface], triangle[surface]
+        return instance.astype(np.int32)[surface], triangle.astype(np.int32)[surface]
 
     def integers(
-        self,
-        rays: Rays,
-        ray: NDArray[np.intp],
-        surface: NDArray[np.intp],
-        start: float = -np.inf,
-        end: float = np.inf,
-    ) -> IntegerPairs:
-        """Return pairs of a ray and a surface, (c,) each, as integers."""
+        self, rays: Rays, ray: Index, surface: Index, start: float = -np.inf, end: float = np.inf
+    ) -> tuple[exact.Batch, list[int], list[int]]:
+        """Return rays and surfaces as integers, with where pairs of them, (c,) each, are there."""
         which, ray = np.unique(ray, return_inverse=True)
-        planes = len(self.planes)
-        used, surface = np.unique(
-            np.r_[np.arange(planes), surface], return_inverse=True
-        )  # every plane stays, so that planes keep their numbers
-        some = self.take(used[planes:])
+        some, surface = self.only(surface)
         batch = exact.Batch(rays.take(which), some.triangles.corners, self.planes, start, end)
-        return IntegerPairs(batch, ray.tolist(), surface[planes:].tolist())
-
-
-@dataclass(frozen=True, eq=False)
-class IntegerPairs:
-    """Pairs of a ray and a surface as integers."""
-
-    batch: exact.Batch
-    ray: list[int]
-    surface: list[int]
-
-    def hit(self, k: int) -> exact.Hit | None:
-        """Return the exact hit of pair k; None where there is none in the clip range."""
-        return self.batch.hit(self.ray[k], self.surface[k])
+        return batch, ray.tolist(), surface.tolist()
 
 
 class Prepared:
@@ -124,18 +87,15 @@ class Prepared:
 
     def __init__(self, rays: Rays, surfaces: Surfaces) -> None:
         corners = surfaces.triangles.corners
-        self._surfaces, self._names = surfaces, surfaces.name()
+        self._surfaces, self._names = surfaces, surfaces.names()
         self._unsure: list[tuple[NDArray, NDArray]] = []
         self._planes = len(surfaces.planes)
         with np.errstate(all="ignore"):  # what overflows is not sure
             self._quotients = Quotients.of(rays, corners, surfaces.planes)
-            self._edges = in_parts(
-                lambda part: _edges(rays, corners[..., part]), corners.shape[2], TOGETHER
-            )
+            some = [corners[..., part] for part in parts(max(1, corners.shape[2]), TOGETHER)]
+            self._edges = np.concatenate([_edges(rays, part) for part in some], axis=1)
 
-    def enter(
-        self, hits: Hits, at: NDArray[np.intp], rays: Rays, surface: NDArray[np.intp]
-    ) -> None:
+    def enter(self, hits: Hits, at: Index, rays: Rays, surface: Index) -> None:
         """Enter what rays (p,) surely hit first into the hits with these numbers."""
         with np.errstate(all="ignore"):  # what overflows is not sure
             t, sure, s = self.meet(rays, surface)
@@ -148,17 +108,17 @@ class Prepared:
         instance, triangle = self._names
         hits.instance[at], hits.triangle[at] = instance.take(surface), triangle.take(surface)
 
-    def finish(self, hits: Hits, rays_at: Callable[[NDArray[np.intp]], Rays]) -> None:
+    def finish(self, hits: Hits, rays_at: Callable[[Index], Rays]) -> None:
         """Enter the t that could not be rounded for sure: integers divide."""
         if not self._unsure:
             return
         at, surface = map(np.concatenate, zip(*self._unsure, strict=True))
-        pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface)
-        hits.t[at] = [pairs.batch.t(pairs.hit(k)) for k in range(len(at))]
+        batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface)
+        hits.t[at] = [batch.t(batch.hit(*pair)) for pair in zip(*pairs, strict=True)]
         self._unsure = []
 
     def meet(
-        self, rays: Rays, surface: NDArray[np.intp]
+        self, rays: Rays, surface: Index
     ) -> tuple[NDArray[np.float64], NDArray[np.bool_], Vectors]:
         """Return t of p rays, whether it surely is rounded correctly, and the barycentrics."""
         t, sure = self._quotients.meet(rays, surface)
@@ -168,7 +128,7 @@ class Prepared:
             s[:, surface < self._planes] = 0
         return t, sure, s
 
-    def _weights(self, rays: Rays, row: NDArray[np.intp]) -> Vectors:
+    def _weights(self, rays: Rays, row: Index) -> Vectors:
         """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum."""
         edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
         if len(edges[0]) == 1:

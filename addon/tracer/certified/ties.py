@@ -15,11 +15,7 @@ from .exact import PERTURBATION, Hit, Integers, Moves, compare, crossing, gap, t
 def nearest(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int, frozenset[Name]]:
     """Return which of these hits of one ray is seen, and whatever else may be.
 
-    Parameters
-    ----------
-    hits : sequence of (name, Hit)
-    nothing : name
-        Of what is seen where nothing is.
+    `nothing` is the name of what is seen where nothing is.
 
     Returns
     -------

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.compare.checks.probe import Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
-from reference_tracer.tracer import culling
+from reference_tracer.tracer import candidates
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.nearest import NOTHING, film_positions, plan, trace_tile
 from reference_tracer.tracer.progress import result_of
@@ -103,7 +103,7 @@ def test_nothing_wanted_and_nothing_there(scene, make, wanted):
 
 
 def test_steps_are_small(scene, wanted, monkeypatch):
-    monkeypatch.setattr(culling, "PAIRS", 100)
+    monkeypatch.setattr(candidates, "PAIRS", 100)
     probe = probe_of(scene, PLAIN, wanted)
     assert len(probe.chunks) > 5
     assert max(len(some.pixel) for some in probe.chunks) <= 100

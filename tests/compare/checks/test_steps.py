@@ -11,7 +11,7 @@ from reference_tracer.compare.causes import explain
 from reference_tracer.compare.checks import anti_aliasing, coverage, probe
 from reference_tracer.compare.checks import color as coloring
 from reference_tracer.compare.picture import Picture
-from reference_tracer.tracer import culling, nearest
+from reference_tracer.tracer import candidates, nearest
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -44,7 +44,7 @@ def work(monkeypatch):
         monkeypatch.setattr(module, "test_pairs", counted_pairs)
     monkeypatch.setattr(anti_aliasing, "_pair", counted_numbers)
     monkeypatch.setattr(Picture, "other_color", counted_pixels)
-    monkeypatch.setattr(culling, "PAIRS", BOUNDS["pairs"])
+    monkeypatch.setattr(candidates, "PAIRS", BOUNDS["pairs"])
     monkeypatch.setattr(anti_aliasing, "STEP", BOUNDS["numbers"] // 4)
     monkeypatch.setattr(probe, "BLOCK", BOUNDS["pixels"])
     monkeypatch.setattr(coloring, "ENOUGH", BOUNDS["pixels"])

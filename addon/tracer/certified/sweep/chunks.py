@@ -9,15 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scene import Region, Scene
-from ...vector import Vectors, transform_points
+from ....scene import Scene
+from ...vector import Vectors, grouped, groups, transform_points
 from .film import Film, Vertices
-from .instance_boxes import InstanceBoxes
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
 
@@ -83,11 +81,10 @@ class Numbering:
             yield self._names[0], slice(None), 0
             return
         chunk = np.searchsorted(self._starts, surface, side="right") - 1
-        order = np.argsort(chunk.astype(np.uint16), kind="stable")
-        cuts = np.searchsorted(chunk[order], np.arange(len(self._names) + 1))
-        for number, (start, end) in enumerate(pairwise(cuts.tolist())):
-            if start < end:
-                yield self._names[number], order[start:end], int(self._starts[number])
+        chunk = grouped(chunk.astype(np.uint16), len(self._names))
+        for names, own, start in zip(self._names, chunk, self._starts.tolist(), strict=False):
+            if len(own):
+                yield names, own, start
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,13 +96,15 @@ class Expanded:
     names: Names
 
 
-def chunks(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> list[Chunk]:
-    """Return the chunks of what may be in view in a region, of at most `limit` triangles each."""
-    if not scene.instances:
-        return []
-    depth = around.depth
+def chunks(
+    scene: Scene, in_view: NDArray[np.bool_], depth: NDArray[np.float64], limit: int
+) -> list[Chunk]:
+    """Return the chunks of the instances in view, of at most `limit` triangles each.
+
+    `in_view` and `depth`, the least of each instance, are (n,).
+    """
     counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
-    order = np.flatnonzero(around.in_region(region) & (counts > 0))
+    order = np.flatnonzero(in_view & (counts > 0))
     order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
     out = []
     large = counts[order] > limit
@@ -114,14 +113,9 @@ def chunks(scene: Scene, around: InstanceBoxes, region: Region, limit: int) -> l
         for first in range(0, count, limit):
             out.append(Chunk(np.array([instance], np.int32), first, min(first + limit, count)))
     rest = order[~large]
-    ends = np.cumsum(counts[rest])
-    start = 0
-    while start < len(rest):
-        done = ends[start - 1] if start else 0
-        end = max(start + 1, int(np.searchsorted(ends, done + limit, side="right")))
+    for start, end in groups(counts[rest], limit):
         group = rest[start:end]
         out.append(Chunk(group[np.argsort(scene.instance_meshes[group], kind="stable")]))
-        start = end
     nearest = [depth[chunk.instances].min() for chunk in out]
     return [out[k] for k in np.argsort(nearest, kind="stable")]
 

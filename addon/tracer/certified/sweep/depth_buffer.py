@@ -1,20 +1,55 @@
 """How near the nearest sure hit of every pixel is, so that what lies behind it need not be tested.
 
 In come pixels with the nearness (`edge_functions.py`) that a hit of theirs surely has at least;
-out goes what a surface must reach to be seen: at a pixel, or anywhere in a cell of pixels.
+out goes what a surface must reach to be seen: at a pixel, or anywhere in a cell of pixels. What
+reaches it is kept as a fragment.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scene import Region
-from ...vector import gather
+from ....scene import Camera, Region
+from ...vector import Arrays, gather
+from ..bounds import U
 
+ROUNDING = 4 * U  # relative, of a nearness that was computed from t
 FINE, COARSE = 8, 64  # pixels along the side of a cell: the sizes of `farthest`
 
 Index = NDArray[np.integer]
+
+
+@dataclass(frozen=True, eq=False)
+class Fragments(Arrays):
+    """c pairs of a pixel and a surface that may be its nearest, (c,) each.
+
+    `surface` counts the triangles of all chunks; `nearest` is the most that its nearness can be;
+    `sure` whether it is hit for sure.
+    """
+
+    pixel: Index
+    surface: Index
+    nearest: NDArray[np.float64]
+    sure: NDArray[np.bool_]
+
+
+class ClipRange:
+    """The camera's clip range as nearness, with room for its own rounding."""
+
+    def __init__(self, camera: Camera) -> None:
+        ends, nearness = (camera.clip_start, camera.clip_end), camera.projection.nearness
+        self._outer, self._inner = nearness(*ends, ROUNDING), nearness(*ends, -ROUNDING)
+
+    def inside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
+        """Return which surely are in the range, of nearnesses between these."""
+        return (least > self._inner[0]) & (most < self._inner[1])
+
+    def outside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
+        """Return which surely are not."""
+        return (most < self._outer[0]) | (least > self._outer[1])
 
 
 class DepthBuffer:

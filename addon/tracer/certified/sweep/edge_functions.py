@@ -32,7 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import gather
+from ...vector import Arrays, gather, largest, parts
 from ..bounds import U
 from .film import Film, Vertices
 
@@ -48,7 +48,7 @@ Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
-class EdgeFunctions:
+class EdgeFunctions(Arrays):
     """m triangles as functions of the pixel.
 
     `coefficients` (3, 4, m): of 1, y and x, from the pixel `origin` (2, m) on, for the three edges,
@@ -66,13 +66,6 @@ class EdgeFunctions:
     nearness_error: Floats
     nearest: Floats
     sure: NDArray[np.bool_]
-
-    def take(self, index: Index) -> EdgeFunctions:
-        """Return those at `index`."""
-        return EdgeFunctions(*(gather(v, index) for v in vars(self).values()))
-
-    def __getitem__(self, part: slice) -> EdgeFunctions:
-        return EdgeFunctions(*(v[..., part] for v in vars(self).values()))
 
 
 def set_up(
@@ -101,9 +94,8 @@ def set_up(
         nearest,
         np.empty(count, bool),
     )
-    for first in range(0, count, _CHUNK):
-        part = slice(first, first + _CHUNK)
-        _fill(out[part], film, vertices, corners[:, part], reach[part])
+    for part in parts(count, _CHUNK):
+        _fill(out.take(part), film, vertices, corners[:, part], reach[part])
     return out if out.sure.all() else _both_signs(out)
 
 
@@ -119,7 +111,7 @@ def _fill(
         p.append(gather(vertices.p, corner) - x0 * weight)
         q.append(gather(vertices.q, corner) - y0 * weight)
         w.append(weight)
-    size = _largest(*(gather(vertices.size, corner) for corner in corners))
+    size = largest(*(gather(vertices.size, corner) for corner in corners))
     of_1, of_y, of_x = coefficients = out.coefficients
     for k, (a, b) in enumerate(((1, 2), (2, 0), (0, 1))):
         np.subtract(q[a] * w[b], w[a] * q[b], out=of_x[k])
@@ -129,8 +121,8 @@ def _fill(
 
     constant, slope = film.place
     place, weight = constant + slope * size, film.weight * size
-    far = _largest(*map(np.abs, (*p, *q))) + place
-    high = _largest(*map(np.abs, w)) + weight
+    far = largest(*map(np.abs, (*p, *q))) + place
+    high = largest(*map(np.abs, w)) + weight
     edge_error = 4 * reach * (place * high + far * weight) + 4 * far * place
     terms = far * (4 * reach * high + 2 * far)
     edge_error += 8 * U * terms
@@ -146,14 +138,13 @@ def _fill(
         depths = [gather(vertices.depth, corner) for corner in corners]
         base, *rest = depths
         b, c = (d - base for d in rest)
-        np.divide(of_1[1] * b + of_1[2] * c, -amount, out=of_1[3])
-        np.divide(of_y[1] * b + of_y[2] * c, -amount, out=of_y[3])
-        np.divide(of_x[1] * b + of_x[2] * c, -amount, out=of_x[3])
+        for function in coefficients:
+            np.divide(function[1] * b + function[2] * c, -amount, out=function[3])
         of_1[3] -= base
         constant, slope = film.depth_error
         own = constant + slope * size
         nearness_error = (
-            6 * (edge_error + error) / least * (_largest(np.abs(b), np.abs(c)) + 2 * own)
+            6 * (edge_error + error) / least * (largest(np.abs(b), np.abs(c)) + 2 * own)
         )
         nearness_error += 4 * own
     else:
@@ -176,11 +167,4 @@ def _both_signs(found: EdgeFunctions) -> EdgeFunctions:
     unsure = np.flatnonzero(~out.sure)
     out.coefficients[:, 3, unsure] = 0
     out.nearness_error[unsure] = np.inf
-    return out
-
-
-def _largest(first: NDArray, *others: NDArray) -> NDArray:
-    out = first
-    for other in others:
-        out = np.maximum(out, other)
     return out

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Camera
-from ...camera import pixel_size
+from ...camera import dual_axes, pixel_size
 from ...candidates import SAFETY, has_sound_axes
-from ...vector import Vectors
+from ...vector import Vectors, largest
 
 _EPS = 2.0**-52
 # Added to a vertex's size: its share in the bounds is far above what gradual underflow may lose.
@@ -71,10 +71,8 @@ class Film:
 
     @cached_property
     def dual(self) -> Floats:
-        """Rows of the inverse of the axes right, up, forward: (3, 3)."""
-        axes = self._axes
-        dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
-        return dual / (axes[0] * dual[0]).sum()
+        """The camera's dual axes, (3, 3)."""
+        return dual_axes(self.camera)
 
     @cached_property
     def is_sound(self) -> bool:
@@ -89,7 +87,7 @@ class Film:
         """
         c = self.camera
         reach = self._reach[0] + self._reach[1]
-        axes = np.abs(self._axes).max()
+        axes = np.abs((c.right, c.up, c.forward)).max()
         parallel = c.projection.is_parallel
         length = np.abs(c.origin).max() + axes * reach if parallel else axes * (1 + reach)
         return 24 * _EPS * self._spread * length
@@ -137,8 +135,7 @@ class Film:
         """Project world points (3, n) into the n of these vertices from `first` on."""
         part = slice(first, first + world.shape[1])
         camera, window = self.camera, self.camera.window
-        x, y, z = np.abs(world)
-        size = np.maximum(np.maximum(x, y), z)
+        size = largest(*np.abs(world))
         vertices.finite[part] = np.isfinite(size)
         size += np.abs(camera.origin).max() + _TINY
         q = world - camera.origin[:, None]
@@ -163,10 +160,6 @@ class Film:
             vertices.box[part, axis] = np.clip(np.ceil(at - margin), -_OFF, end + _OFF)
             highest = np.floor(at + margin) - 1
             vertices.box[part, 2 + axis] = np.clip(-highest, -end - _OFF, _OFF)
-
-    @property
-    def _axes(self) -> Floats:
-        return np.stack((self.camera.right, self.camera.up, self.camera.forward))
 
     @property
     def _spread(self) -> float:

@@ -10,14 +10,14 @@ pixels.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import gather, spread
+from ...vector import Arrays, gather, groups, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 
@@ -57,7 +57,7 @@ class Boxes:
 
 
 @dataclass(frozen=True, eq=False)
-class Rasterised:
+class Rasterised(Arrays):
     """p pairs whose ray may hit: (p,) each.
 
     `least` is the smallest of the three edge functions, `nearness` the fourth.
@@ -67,12 +67,6 @@ class Rasterised:
     owner: Index
     least: NDArray[np.float64]
     nearness: NDArray[np.float64]
-
-    @staticmethod
-    def joined(parts: Sequence[Rasterised]) -> Rasterised:
-        """Return them all as one."""
-        fields = zip(*(vars(part).values() for part in parts), strict=True)
-        return Rasterised(*map(np.concatenate, fields))
 
 
 def rasterised(
@@ -91,7 +85,7 @@ def rasterised(
 def _block(found: EdgeFunctions, boxes: Boxes, h: int, w: int, depths: DepthBuffer) -> Rasterised:
     """Evaluate boxes that are at most h pixels high and w wide."""
     owner, region = boxes.owner, depths.region
-    own = found[owner] if isinstance(owner, slice) else found.take(owner)
+    own = found.take(owner)
     of_1, of_y, of_x = own.coefficients
     x, y = low = boxes.low
     last_x, last_y = boxes.high - low
@@ -132,11 +126,7 @@ def cells(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer, size: int) ->
     """Yield the parts of boxes in those cells of this size which may be covered and seen."""
     first, last = boxes.low // size, boxes.high // size
     columns, rows = (last - first + 1).astype(np.intp)
-    ends = np.cumsum(columns * rows)
-    start = 0
-    while start < len(ends):  # some boxes at a time
-        done = ends[start - 1] if start else 0
-        end = max(start + 1, int(np.searchsorted(ends, done + _CELLS, side="right")))
+    for start, end in groups(columns * rows, _CELLS):
         which, number = spread(np.arange(start, end), (columns * rows)[start:end])
         row, column = np.divmod(number, columns.take(which))
         cell = first.take(which, axis=1) + np.stack((column, row)).astype(first.dtype)
@@ -144,7 +134,6 @@ def cells(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer, size: int) ->
         high = np.minimum(boxes.high.take(which, axis=1), cell * size + (size - 1))
         some = Boxes(boxes.owner.take(which), low, high)
         yield some.take(_may_be_seen(found, some, depths.farthest(*cell, size), depths))
-        start = end
 
 
 def _may_be_seen(

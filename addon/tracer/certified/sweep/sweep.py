@@ -1,6 +1,6 @@
 """The certified picture of a region: what a front-to-back sweep proves, and what it leaves open.
 
-In comes a scene; out go `Hits`. Pieces of the scene are swept from the front to the back. What a
+In comes a scene; out go `Hits`. Chunks of the scene are swept from the front to the back. What a
 depth buffer of sure hits hides is dropped, most of it unseen; of the rest every pixel keeps those
 triangles that may be its nearest. `verdict.py` says which of them is.
 """
@@ -14,20 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Plane, Region, Scene
-from ...camera import camera_rays, film_positions_of
+from ...camera import camera_rays, film_positions
 from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, timed
 from ...vector import gather
 from ..bounds import plane_fractions
+from .boxes import InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
-from .depth_bins import by_depth
-from .depth_buffer import FINE, DepthBuffer
+from .depth_buffer import FINE, ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
-from .fragments import ROUNDING, ClipRange, Fragments
-from .instance_boxes import InstanceBoxes
 from .rasterise import LARGE, Boxes, Rasterised, rasterised, split
-from .triangle_boxes import boxes_of
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
@@ -46,24 +43,9 @@ def sweep(
     dy: float = 0.0,
     statistics: Statistics | None = None,
 ) -> Work[Hits]:
-    """Find the nearest hits of a region's rays, with proof, in small steps.
+    """Find the nearest hits of a region's rays, as `plain` does.
 
-    Parameters
-    ----------
-    scene : Scene
-    region : Region
-        Of n pixels, within the camera's.
-    memory : int
-        Bytes that a chunk of the scene may take, about.
-    dx, dy : float
-        Where each ray passes its pixel's centre, in pixels; at most half a pixel.
-    statistics : Statistics, optional
-        To count in.
-
-    Returns
-    -------
-    Hits
-        Of the n rays, row by row from the lowest.
+    `memory` is how many bytes a chunk of the scene may take, about.
     """
     swept = Sweep(scene, Film(scene.camera, dx, dy), region, statistics or Statistics())
     return quiet(swept.steps(triangles_in(memory)))
@@ -75,16 +57,7 @@ def triangles_in(memory: int) -> int:
 
 
 class Sweep:
-    """A region's pixels on the way to being decided.
-
-    Parameters
-    ----------
-    film : Film
-    region : Region
-        Within the camera's.
-    statistics : Statistics
-        To count in.
-    """
+    """A region's pixels, within the camera's, on the way to being decided."""
 
     def __init__(self, scene: Scene, film: Film, region: Region, statistics: Statistics) -> None:
         self._scene, self._film, self._statistics = scene, film, statistics
@@ -96,10 +69,14 @@ class Sweep:
     def steps(self, limit: int) -> Work[Hits]:
         """Sweep the scene in chunks of at most `limit` triangles, and decide every pixel."""
         stages = self._statistics.stages
+        yield 0.0  # to make room for the depth buffer of a large picture is a step of its own
         for _ in timed(self.enter_planes(), stages):
             yield 0.0
-        around = InstanceBoxes.of(self._scene, self._film) if self._scene.instances else None
-        parts = chunks(self._scene, around, self._depths.region, limit)
+        parts: list[Chunk] = []
+        if self._scene.instances:
+            around = InstanceBoxes.of(self._scene, self._film)
+            in_view = around.in_region(self._depths.region)
+            parts = chunks(self._scene, in_view, around.depth, limit)
         for number, chunk in enumerate(parts):
             if self._fragments:
                 chunk = self._not_behind(chunk, around)
@@ -130,8 +107,8 @@ class Sweep:
 
     def _of_plane(self, infinite: Plane, pixel: Index, surface: int) -> Fragments:
         film = self._film
-        px, py = film_positions_of(self._depths.region, pixel, film.dx, film.dy)
-        rays = camera_rays(film.camera, px, py)
+        at = film_positions(self._depths.region, film.dx, film.dy, pixel)
+        rays = camera_rays(film.camera, *at)
         fractions = plane_fractions(rays, infinite.point[:, None], infinite.normal[:, None])
         low, high = (np.broadcast_to(v, pixel.shape) for v in fractions.interval())
         least, most = film.camera.projection.nearness(low, high, ROUNDING)
@@ -206,15 +183,7 @@ class Sweep:
         self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
     ) -> Iterator[Rasterised]:
         """Yield the pairs of sorted boxes, so many at a time as are a short step."""
-        parts, count = [], 0
-        for block in self._blocks(found, boxes, shape):
-            parts.append(block)
-            count += len(block.pixel)
-            if count >= _PAIRS:
-                yield Rasterised.joined(parts)
-                parts, count = [], 0
-        if parts:
-            yield Rasterised.joined(parts)
+        return Rasterised.together(self._blocks(found, boxes, shape), _PAIRS)
 
     def _blocks(
         self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]

@@ -13,19 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Scene
-from ...camera import Rays, camera_rays, corner_rays, film_positions_of
+from ...camera import Rays, camera_rays, corner_rays, film_positions
 from ...candidates import Pairs
 from ...hits import NOTHING, Hits, Statistics, Ties
-from ...progress import Steps, named
-from ...vector import gather
+from ...progress import Steps, mapped
+from ...vector import gather, grouped, parts
 from ...world import WorldTriangles, world_corners
 from ..certainty import Certainty
 from ..contest import Contest
 from ..surfaces import TOGETHER, Prepared, Surfaces
 from .chunks import Names, Numbering
-from .depth_buffer import DepthBuffer
+from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
-from .fragments import Fragments
 
 _PAIRS = 1 << 15  # that a contest tests at a time
 _FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
@@ -55,11 +54,14 @@ class Verdict:
         """Decide every pixel by its fragments, in small steps that say what they were."""
         region = self._depths.region
         count = region.width * region.height
-        hits = Hits.none(count, Certainty.BOUND)
-        yield "verdict"
+        hits = Hits.room(count)
+        for part in parts(count, _PAIRS):
+            hits.clear(part, Certainty.BOUND)
+            yield "verdict"
         # Of several fragments of a pixel, one is the last: the others see that they are not alone.
         near, total = [], 0
         last, surface = np.full(count, NOTHING, np.int32), np.empty(count, np.int64)
+        yield "verdict"
         for some in Fragments.together(fragments, _FRAGMENTS):
             seen = ~(some.nearest < gather(self._depths.nearness, some.pixel))
             some = some.take(np.flatnonzero(seen))
@@ -74,31 +76,31 @@ class Verdict:
             alone = gather(last, pixel) == number
             open_[gather(pixel, np.flatnonzero(~(alone & sure)))] = True
             yield "verdict"
-        for first in range(0, count, _PIXELS):
-            part = slice(first, first + _PIXELS)
-            decided = first + np.flatnonzero((last[part] >= 0) & ~open_[part])
-            yield from self._enter_sure(hits, decided, gather(surface, decided))
+        for part in parts(count, _PIXELS):
+            decided = part.start + np.flatnonzero((last[part] >= 0) & ~open_[part])
+            for chunk, own, first in self._numbers.by_chunk(gather(surface, decided)):
+                at = decided[own]
+                if len(at):
+                    yield from self._enter_sure(hits, at, gather(surface, at) - first, chunk)
         yield from self._enter_open(hits, open_, [(pixel, of) for pixel, of, _, _ in near])
         return hits
 
     def _enter_open(
-        self, hits: Hits, open_: NDArray[np.bool_], parts: Sequence[tuple[Index, Index]]
+        self, hits: Hits, open_: NDArray[np.bool_], pairs: Sequence[tuple[Index, Index]]
     ) -> Steps[None]:
         """Enter the pixels that may see several surfaces, or none for sure: some at a time.
 
-        `parts` are pixels and surfaces, of these pixels and of others.
+        `pairs` are pixels and surfaces, of these pixels and of others.
         """
         every = np.flatnonzero(open_)
         starts = every[::_RAYS]
         self._statistics.culling["left"] += len(every)
         groups: list[list[tuple[Index, Index]]] = [[] for _ in starts]
-        for pixel, surface in parts if len(starts) else ():
+        for pixel, surface in pairs if len(starts) else ():
             rest = np.flatnonzero(gather(open_, pixel))
             pixel, surface = gather(pixel, rest), gather(surface, rest)
             group = (np.searchsorted(starts, pixel, side="right") - 1).astype(np.uint16)
-            order = np.argsort(group, kind="stable")
-            ends = np.cumsum(np.bincount(group, minlength=len(starts)))[:-1]
-            for members, own in zip(groups, np.split(order, ends), strict=True):
+            for members, own in zip(groups, grouped(group, len(starts)), strict=True):
                 if len(own):
                     members.append((pixel[own], surface[own]))
             yield "contest"
@@ -115,25 +117,16 @@ class Verdict:
             first += len(part.ray)
             yield "contest"
 
-    def _enter_sure(self, hits: Hits, pixel: Index, surface: Index) -> Steps[None]:
-        """Enter pixels, in their order, that surely see the surface which is all that they have."""
-        for chunk, own, first in self._numbers.by_chunk(surface):
-            at, row = pixel[own], surface[own] - first
-            if len(at):
-                yield from self._enter_some(hits, at, row, chunk)
-
-    def _enter_some(self, hits: Hits, at: Index, row: Index, chunk: Names) -> Steps[None]:
-        """Enter pixels that surely see these surfaces of a chunk."""
+    def _enter_sure(self, hits: Hits, at: Index, row: Index, chunk: Names) -> Steps[None]:
+        """Enter pixels that surely see these surfaces of a chunk, which are all that they have."""
         surfaces = Surfaces(self._planes, len(self._scene.instances), WorldTriangles.none())
         if chunk.first != NOTHING:
             used, row = _used(row, chunk.count)
             names = chunk.of(used)
-            triangles = WorldTriangles(world_corners(self._scene, *names), *names)
-            surfaces = Surfaces((), 0, triangles)
+            surfaces = Surfaces((), 0, WorldTriangles(world_corners(self._scene, *names), *names))
         prepared = Prepared(self._around, surfaces)
         yield "rounding"
-        for first in range(0, len(at), TOGETHER):
-            part = slice(first, first + TOGETHER)
+        for part in parts(len(at), TOGETHER):
             prepared.enter(hits, at[part], self._rays(at[part]), row[part])
             yield "rounding"
         prepared.finish(hits, self._rays)
@@ -142,7 +135,7 @@ class Verdict:
         """Return the rays of pixels of the region, numbered row by row."""
         film = self._film
         return camera_rays(
-            film.camera, *film_positions_of(self._depths.region, pixel, film.dx, film.dy)
+            film.camera, *film_positions(self._depths.region, film.dx, film.dy, pixel)
         )
 
     def _contest(self, hits: Hits, which: Index, ray: Index, surface: Index) -> Steps[Ties]:
@@ -152,26 +145,20 @@ class Verdict:
         ray, surface = ray[on_mesh], surface[on_mesh]
         surface, row = np.unique(surface, return_inverse=True)
         clip = camera.clip_start, camera.clip_end
-        contest = Contest(
-            self._rays(which), self._planes, len(scene.instances), *clip, self._around
-        )
+        rays = self._rays(which)
+        contest = Contest(rays, self._planes, len(scene.instances), *clip, self._around)
         names = self._numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
         # Ray by ray, and once each: a triangle of unknown orientation has two set-ups.
-        ray, row = np.divmod(_distinct(ray * len(surface) + row), max(1, len(surface)))
-        for first in range(0, len(ray), _PAIRS):
-            part = slice(first, first + _PAIRS)
+        key = np.sort(ray * len(surface) + row)  # faster than `np.unique`
+        key = key[np.flatnonzero(np.diff(key, prepend=-1))]
+        ray, row = np.divmod(key, max(1, len(surface)))
+        for part in parts(len(ray), _PAIRS):
             contest.enter(Pairs(ray[part], row[part], triangles))
             yield "contest"
-        found = yield from named(contest.hits(self._statistics), "contest")
+        found = yield from mapped(contest.hits(self._statistics), lambda _: "contest")
         hits.enter(which, found)
         return found.ties.numbered(which)
-
-
-def _distinct(numbers: Index) -> Index:
-    """Return which numbers there are, sorted: faster than `np.unique`."""
-    numbers = np.sort(numbers)
-    return numbers[np.flatnonzero(np.diff(numbers, prepend=-1))]
 
 
 def _used(number: Index, count: int) -> tuple[Index, Index]:

@@ -10,9 +10,9 @@ from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.certified.sweep import chunks as module
+from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
 from reference_tracer.tracer.certified.sweep.chunks import Chunk, chunks, expand
 from reference_tracer.tracer.certified.sweep.film import Film
-from reference_tracer.tracer.certified.sweep.instance_boxes import InstanceBoxes
 from reference_tracer.tracer.world import Batch, refused, world_triangles
 
 from ...exact_film import ExactFilm
@@ -25,8 +25,10 @@ LIMITS = (1, 2, 5, 13, 10**9)
 
 
 def all_pieces(scene: Scene, film: Film, limit: int) -> list[Chunk]:
-    around = InstanceBoxes.of(scene, film) if scene.instances else None
-    return chunks(scene, around, film.camera.region, limit)
+    if not scene.instances:
+        return []
+    around = InstanceBoxes.of(scene, film)
+    return chunks(scene, around.in_region(film.camera.region), around.depth, limit)
 
 
 def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:

@@ -13,12 +13,11 @@ from reference_tracer.tracer import render
 from reference_tracer.tracer.certified import contest, settle, surfaces
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.sweep import (
+    boxes,
     chunks,
-    depth_bins,
     depth_buffer,
     rasterise,
     sweep,
-    triangle_boxes,
     verdict,
 )
 from reference_tracer.tracer.certified.sweep.edge_functions import set_up
@@ -106,10 +105,10 @@ def sizes(fine, coarse):
 
 DIVISIONS = {
     "triangles by ones": [(sweep, "_TRIANGLES", 1)],
-    "boxes by twos": [(triangle_boxes, "_TOGETHER", 2)],
+    "boxes by twos": [(boxes, "_TOGETHER", 2)],
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
-    "one depth bin": [(depth_bins, "BINS", 2)],
-    "few depth bins": [(depth_bins, "BINS", 5)],
+    "one depth bin": [(boxes, "BINS", 2)],
+    "few depth bins": [(boxes, "BINS", 5)],
     "pairs by ones": [(verdict, "_PAIRS", 1), (rasterise, "_VALUES", 1)],
     "pairs by sevens": [(verdict, "_PAIRS", 7), (rasterise, "_VALUES", 70)],
     "cells by ones": [(rasterise, "_CELLS", 1)],
@@ -128,7 +127,7 @@ DIVISIONS = {
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
     "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
     "all small": [
-        (sweep, "_TRIANGLES", 2), (depth_bins, "BINS", 3), (verdict, "_PAIRS", 5),
+        (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (verdict, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),
         (rasterise, "_VALUES", 9), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),

@@ -1,22 +1,32 @@
-"""Where instances are on the film: by their bounding boxes, before any of them is expanded.
+"""Where instances and triangles are on the film: the boxes of pixels that they may cover.
 
-In comes a scene; out goes what every instance's box says of it: whether it may be in view, how near
-it comes, and which pixels it may cover.
+In comes a scene. Its instances' bounding boxes say, before any of them is expanded, whether they
+may be in view, how near they come, and which pixels they may cover. Of expanded triangles the boxes
+come from those of their vertices; by them the triangles are sorted from the front to the back, into
+depth bins: how many is the scene's own number.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Region, Scene
-from ...vector import Vectors, transform_points
+from ...candidates import pixel_bounds
+from ...vector import Vectors, gather, grouped, largest, parts, transform_points
+from ...world import world_corners
+from .chunks import Expanded
 from .depth_buffer import DepthBuffer
 from .film import Film, Vertices
 
+BINS = 256  # of nearness, into which triangles are sorted
 _MARGIN = 1.0  # pixels around the region that count as in view, and around a box as its own
+_TOGETHER = 1 << 15  # triangles at a time
+
+Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,3 +111,65 @@ def _corners(scene: Scene) -> tuple[Vectors, NDArray[np.float64]]:
     reach = np.maximum(np.abs(low), np.abs(high))
     size = (np.abs(matrices[:3, :3]) * reach).sum(axis=1) + np.abs(matrices[:3, 3])
     return corners, size.max(axis=0)
+
+
+def boxes_of(
+    scene: Scene, film: Film, expanded: Expanded
+) -> tuple[Index, Index, NDArray[np.float64]]:
+    """Return lowest and highest x and y of triangles, (2, m) each, within the whole picture.
+
+    And the most that the nearness of each can be, (m,).
+    """
+    vertices, corners = expanded.vertices, expanded.corners
+    kind = vertices.box.dtype
+    packed = vertices.box.view(np.int64 if kind.itemsize == 2 else np.complex128).ravel()
+    count = corners.shape[1]
+    low, high, nearest = np.empty((2, count), kind), np.empty((2, count), kind), np.empty(count)
+    ends = np.array([[film.camera.width - 1], [film.camera.height - 1]], kind)
+    for part in parts(count, _TOGETHER):
+        some = corners[:, part].astype(np.intp)
+        box = reduce(np.minimum, [gather(packed, c).view(kind) for c in some]).reshape(-1, 4).T
+        np.maximum(box[:2], 0, out=low[:, part])
+        np.minimum(-box[2:], ends, out=high[:, part])
+        nearest[part] = largest(*(gather(vertices.nearest, c) for c in some))
+    if not vertices.ahead.all() or not vertices.finite.all():
+        _mend(scene, film, expanded, low, high)
+    return low, high, nearest
+
+
+def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index) -> None:
+    """Mend the boxes of triangles with a corner that is not before the eye, or not finite."""
+    vertices, corners = expanded.vertices, expanded.corners
+    whole = replace(film.camera, region=Region(0, 0, film.camera.width, film.camera.height))
+    finite = vertices.finite.take(corners).all(axis=0)
+    high[:, ~finite] = -1
+    some = np.flatnonzero(finite & ~vertices.ahead.take(corners).all(axis=0))
+    for part in np.split(some, range(_TOGETHER, len(some), _TOGETHER)):
+        world = world_corners(scene, *expanded.names.of(part))
+        x0, x1, y0, y1 = pixel_bounds(whole, world, reach=1.0)
+        low[:, part], high[:, part] = (x0, y0), (x1 - 1, y1 - 1)
+
+
+def by_depth(
+    seen: Index, nearest: NDArray[np.float64], low: Index, high: Index
+) -> tuple[list[Index], int, int]:
+    """Split the triangles that are seen into depth bins, from the front to the back.
+
+    Each holds about as many pixels of boxes as the union of all boxes has: so there are as many
+    bins as surfaces lie behind one another, and what a refreshed depth buffer may save is worth
+    its price. Returns the rows y0 <= y < y1 of that union, too.
+    """
+    (x0, y0), (x1, y1) = low.take(seen, axis=1), high.take(seen, axis=1)
+    nearest = nearest.take(seen)
+    bottom, top = int(y0.min()), int(y1.max()) + 1
+    area = np.multiply(x1 - x0 + 1, y1 - y0 + 1, dtype=np.float32)
+    union = (int(x1.max()) + 1 - int(x0.min())) * (top - bottom)
+    count = min(int(area.sum(dtype=np.float64) / union), BINS - 1)
+    if count < 1:
+        return [seen], bottom, top
+    first, last = nearest.min(), nearest.max()
+    scale = (BINS - 1) / (last - first) if last > first else 0.0
+    depth = ((last - nearest) * scale).astype(np.uint8)
+    area = np.cumsum(np.bincount(depth, area, BINS))
+    own = (area * (count / area[-1])).astype(np.uint8)[depth]
+    return [seen.take(part) for part in grouped(own, count) if len(part)], bottom, top
