@@ -297,6 +297,11 @@ def test_what_is_allowed_passes(path: str, source: str):
 PROOF = ADDON / "tracer" / "certified"
 
 
+def is_empty(file: Path) -> bool:
+    """Whether a file holds nothing but a docstring."""
+    return len(ast.parse(file.read_text(encoding="utf-8")).body) <= 1
+
+
 def needed_by(file: Path) -> set[Path]:
     """The files of the add-on that a module imports, itself and through others.
 
@@ -315,8 +320,9 @@ def needed_by(file: Path) -> set[Path]:
             if isinstance(statement, ast.ImportFrom):
                 names = modules(statement, package)
                 names += [f"{n}.{alias.name}" for n in names for alias in statement.names]
-                paths = (ADDON.joinpath(*name.split(".")).with_suffix(".py") for name in names)
-                waiting += [path for path in paths if path.exists()]
+                for path in (ADDON.joinpath(*name.split(".")) for name in names):
+                    holds = path / "__init__.py", path.with_suffix(".py")
+                    waiting += [p for p in holds if p.exists() and not is_empty(p)]
     return found
 
 
@@ -327,6 +333,10 @@ def test_the_proof_is_short_enough_to_be_read():
     lines = sum(len(file.read_text(encoding="utf-8").splitlines()) for file in files)
     assert {PROOF / "contest.py", PROOF / "exact.py", PROOF.parent / "candidates.py"} < files
     assert len(files) <= 20 and lines <= 2600, (len(files), lines)
+
+
+def test_a_package_with_code_is_needed_too():
+    assert ADDON / "projections" / "__init__.py" in needed_by(ADDON / "scene.py")
 
 
 def test_the_definition_does_without_the_sweep():
