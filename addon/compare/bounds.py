@@ -14,7 +14,8 @@ from ..images import encoded
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
-from ..tracer.nearest import NOTHING, Hits
+from ..tracer.hits import NOTHING
+from ..tracer.nearest import Hits
 from ..tracer.progress import Work
 from ..tracer.vector import transform_points
 

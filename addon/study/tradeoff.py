@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..methods import Method
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.nearest import NOTHING
+from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings

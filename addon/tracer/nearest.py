@@ -16,7 +16,7 @@ from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
 from .candidates import Culled, Pairs, candidates, cull
-from .hits import NOTHING, Hits, Statistics
+from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
 

@@ -23,7 +23,7 @@ from reference_tracer.study.tradeoff import (
     measure,
 )
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.nearest import NOTHING
+from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Precision, Settings

@@ -13,7 +13,8 @@ from reference_tracer.tracer import candidates, plane, render, world
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.certified.sweep import boxes, chunks, rasterise, sweep, verdict
-from reference_tracer.tracer.nearest import NOTHING, film_positions
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import WorldTriangles

@@ -15,7 +15,8 @@ from reference_tracer.tracer import candidates
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.nearest import NOTHING, film_positions
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.render import render, sample_offsets, steps, tiles
 from reference_tracer.tracer.settings import Precision, Settings
 from trimesh.ray.ray_triangle import RayMeshIntersector

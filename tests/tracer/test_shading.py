@@ -9,7 +9,8 @@ import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer import shading
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.nearest import NOTHING, Hits
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.nearest import Hits
 from reference_tracer.tracer.render import render
 
 RED, GREEN, BLUE = ([1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1])

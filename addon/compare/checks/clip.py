@@ -11,7 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...scene import Camera
-from ...tracer.nearest import NOTHING, Hits, plan
+from ...tracer.hits import NOTHING
+from ...tracer.nearest import Hits, plan
 from ...tracer.progress import Work
 from ..bounds import U, depth_resolution
 from ..cause import Cause

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from ...tracer import plane, shading
 from ...tracer.camera import camera_rays, film_of
-from ...tracer.nearest import NOTHING, Hits, Pairs, test_pairs, test_planes, within_clip
+from ...tracer.hits import NOTHING
+from ...tracer.nearest import Hits, Pairs, test_pairs, test_planes, within_clip
 from ...tracer.progress import Work
 from .probe import Probe
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...tracer.nearest import NOTHING, Hits, plan
+from ...tracer.hits import NOTHING
+from ...tracer.nearest import Hits, plan
 from ...tracer.progress import Work
 from ..cause import Cause
 from .coverage import coverage

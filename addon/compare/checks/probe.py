@@ -18,16 +18,8 @@ from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays
 from ...tracer.frame import Frame
-from ...tracer.nearest import (
-    NOTHING,
-    Hits,
-    Pairs,
-    Plan,
-    candidates,
-    film_positions,
-    test_pairs,
-    test_planes,
-)
+from ...tracer.hits import NOTHING
+from ...tracer.nearest import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
 from ...tracer.progress import Work, scaled
 from ...tracer.render import tiles
 from ...tracer.settings import Precision, Settings

@@ -10,7 +10,8 @@ from reference_tracer.compare.checks.probe import Probe
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.tracer import candidates
 from reference_tracer.tracer.camera import camera_rays
-from reference_tracer.tracer.nearest import NOTHING, film_positions, plan, trace_tile
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.nearest import film_positions, plan, trace_tile
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
