@@ -80,7 +80,7 @@ class Method(StrEnum):
         "auto",
         ("Automatic", "automatic", "automatic", "auto"),
         (5, "#222222"),
-        "The cheapest way to a proven picture: an error bound first, whole numbers only where it "
+        "The cheapest way to a proven picture: an error bound first, integers only where it "
         "does not decide. Watertight, and a warning, where this machine allows no proof",
     )
 

@@ -1,7 +1,7 @@
 """How far Blender's own arithmetic may move or recolour what a pixel shows.
 
 Float32, snapping, the depth buffer, half floats and 8-bit files: these are bounds on *Blender's*
-side; the tracer's own errors in float64 are far below them. u = 2^-24 is the rounding unit of
+side; the tracer's own errors in float64 are far below them. U32 = 2^-24 is the rounding unit of
 float32.
 """
 
@@ -19,7 +19,7 @@ from ..tracer.nearest import Hits
 from ..tracer.progress import Work
 from ..tracer.vector import transform_points
 
-U = 2.0**-24
+U32 = 2.0**-24
 SNAPPING = 1 / 256  # pixels: rasterisers keep eight bits of a vertex' position below the pixel
 
 # A vertex goes through three float32 products: model, view, projection. Of each component the
@@ -82,7 +82,7 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
         own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
         share = hits.s[corner, on_mesh] * own[which.reshape(-1)]
         error[on_mesh] = share if corner == 0 else error[on_mesh] + share
-    return U * error
+    return U32 * error
 
 
 def _corners(scene: Scene, instance: NDArray, triangle: NDArray, corner: int) -> NDArray:
@@ -106,7 +106,7 @@ def pixel_error(
     steepest, projection = max(map(abs, vars(camera.window).values())), camera.projection
     moved = view * projection.slant(steepest)
     moved = moved / projection.scale(np.maximum(depth, camera.clip_start))
-    film = _FILM * U * max(camera.width, camera.height)
+    film = _FILM * U32 * max(camera.width, camera.height)
     return SNAPPING + film + moved / min(width, height)
 
 
@@ -120,7 +120,7 @@ def depth_resolution(
     error `view` (n,) besides.
     """
     near, far = camera.clip_start, camera.clip_end
-    step = camera.projection.depth_step((far - near) * U, depth, near, far)
+    step = camera.projection.depth_step((far - near) * U32, depth, near, far)
     return _DEPTH_STEPS * step + 2 * view
 
 

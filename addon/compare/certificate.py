@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, SceneError
 from ..tracer.camera import film_of, pixel_size
-from .bounds import U
+from .bounds import U32
 
 POINTS = 1024  # besides the volume's corners
 SEED = 1
@@ -107,4 +107,4 @@ def _allowed(camera: Camera, points: NDArray, depth: NDArray) -> NDArray[np.floa
     away = np.abs(points - camera.origin[:, None]).sum(axis=0)
     away = away / camera.projection.scale(depth)
     reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
-    return ROUNDINGS * U * ((away + reach) / min(width, height) + camera.width + camera.height)
+    return ROUNDINGS * U32 * ((away + reach) / min(width, height) + camera.width + camera.height)

@@ -218,7 +218,11 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     if picture.owner is not None:
         traced = picture.owners[before.instance_index]
         identity = Identity(picture.names, traced, picture.owner)
-    counted = count_pixels(found.causes, boundary(before), identity)
+    yield share / _CAUSES
+    at_boundary = boundary(before)
+    yield share / _CAUSES
+    counted = count_pixels(found.causes, at_boundary, identity)
+    yield share / _CAUSES
     made = Comparison(found.case, before, found.causes, counted, measured, identity=identity)
     made.background = found.background
     if case.self_check:

@@ -17,7 +17,7 @@ from .textbook import FLOATS, Arithmetic, Verdict
 
 READING = (
     "How to read the tables: every number is computed three times, from the same input and by the "
-    "same formula: in float32, in float64, and exactly, with fractions of whole numbers. A float "
+    "same formula: in float32, in float64, and exactly, with fractions of integers. A float "
     "is written with as many digits as tell it from its neighbours; marked digits are wrong. “off” "
     "is the error in ulp, units in the last place: a number that is as good as its type allows is "
     "off by 0.5 at most. An exact number that ends in … has more digits (the JSON has it whole, as "

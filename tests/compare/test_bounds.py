@@ -11,7 +11,7 @@ from reference_tracer.compare.bounds import (
     HALF_UNITS,
     LEAST_STEP,
     SNAPPING,
-    U,
+    U32,
     depth_resolution,
     differing,
     pixel_error,
@@ -115,14 +115,14 @@ def test_planes_have_a_place_too(make):
     scene = replace(scene, planes=(Plane(0, (1e6, 0, 0), (0, 0, 1)),))
     hits = Hits(np.full(2, 5.0), np.array([1, 1]), np.array([-1, -1]), np.zeros((3, 2)))
     near, far = view_error(scene, hits, np.array([[0, 0, -5.0], [1e6, 0, 0]]))
-    assert far > 1e5 * U > near > 0
+    assert far > 1e5 * U32 > near > 0
 
 
 def test_the_middle_of_a_triangle_carries_its_corners_errors(make):
     """A triangle from 1 000 km away that passes close by is where its far corners put it."""
     scene = make.scene(make.camera(), make.quad(-1e6, 1e6, -1e6, 1e6, -5))
     hits = Hits(np.full(1, 5.0), np.array([0]), np.array([0]), np.array([[0.5], [0.0], [0.5]]))
-    assert view_error(scene, hits, np.array([[0.0, 0, -5]]))[0] > 1e6 * U
+    assert view_error(scene, hits, np.array([[0.0, 0, -5]]))[0] > 1e6 * U32
 
 
 @pytest.mark.parametrize("orthographic", [False, True])

@@ -14,7 +14,7 @@ from ...scene import Camera
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, plan
 from ...tracer.progress import Work
-from ..bounds import U, depth_resolution
+from ..bounds import U32, depth_resolution
 from ..cause import Cause
 from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts
 
@@ -58,7 +58,7 @@ def _clipped(part: Part) -> Work[None]:
 def _widened(camera: Camera) -> Camera:
     """Return a camera that also sees what Blender may take to be within its clip range."""
     ends = np.array((camera.clip_start, camera.clip_end))
-    view = U * WIDENED * (np.abs(camera.origin).sum() + ends)
+    view = U32 * WIDENED * (np.abs(camera.origin).sum() + ends)
     off = depth_resolution(camera, ends, view)
     start = camera.clip_start - off[0]
     if not camera.projection.is_parallel:

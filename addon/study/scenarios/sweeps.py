@@ -79,14 +79,14 @@ SCENARIOS: tuple[Scenario, ...] = (
         odd=True,
     ),
     Scenario(
-        *("integer_cube", "Whole numbers, perspective", "cells per side", ""),
-        "Cube and rays are whole numbers, so that rays meet edges and corners exactly.",
+        *("integer_cube", "Integers, perspective", "cells per side", ""),
+        "Cube and rays are integers, so that rays meet edges and corners exactly.",
         (1, 2, 4, 8),
         scenes.integer_cube,
         odd=True,
     ),
     Scenario(
-        *("integer_cube_ortho", "Whole numbers, orthographic", "cells per side", ""),
+        *("integer_cube_ortho", "Integers, orthographic", "cells per side", ""),
         "As before, from outside and along the cube's sides: outlines are met exactly, too.",
         (1, 2, 4, 8),
         scenes.integer_cube_ortho,

@@ -135,7 +135,7 @@ class Sweep:
             return
         yield "boxes"
         parts, y0, y1 = by_depth(seen, nearest, part_low, part_high)
-        yield "slabs"
+        yield "bins"
         for number, depth_bin in enumerate(parts):
             if number or self._fragments:
                 self._depths.refresh(y0, y1)
@@ -161,7 +161,7 @@ class Sweep:
                     np.maximum(width, height) + 1.0,
                 )
                 boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
-                yield "footprints"
+                yield "set-up"
                 for pairs in self.pairs(found, boxes, shape):
                     self._fragments.append(self.of_pairs(found, pairs, start + some))
                     yield "pixels"
