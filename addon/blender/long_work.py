@@ -22,6 +22,7 @@ from .results import redraw
 
 STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
+SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
 
 
 class LongWork:
@@ -76,7 +77,7 @@ class LongWork:
         self._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
-        self._began = time.monotonic()
+        self._began = self._shown = time.monotonic()
         LongWork.running = self.bl_label
         return {"RUNNING_MODAL"}
 
@@ -109,8 +110,11 @@ class LongWork:
         self._clean_up(context)
 
     def _show_progress(self, context: Any, share: float) -> None:
+        now = time.monotonic()
+        if now - self._shown < SHOWN_EVERY:
+            return
+        self._shown, past = now, now - self._began
         context.window_manager.progress_update(int(100 * share))
-        past = time.monotonic() - self._began
         left = f"  {past * (1 - share) / share:.0f} s left" if share > 0.01 else ""
         context.workspace.status_text_set(
             f"{self.bl_label}: {int(100 * share)} %{left}  (Esc: cancel)"
