@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.compare.picture import Source
 from reference_tracer.manifest import ObjectEntry
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
@@ -167,15 +168,16 @@ def test_the_causes_are_seen_without_scrolling(show, differing):
 
 def test_long_tables_are_cut_and_say_so(show, differing):
     entries = tuple(ObjectEntry(f"Leaf {k}", "MESH", True) for k in range(5000))
-    many = replace(differing, manifest=replace(differing.manifest, objects=entries))
+    manifest = replace(differing.manifest, objects=entries)
+    many = replace(differing, case=replace(differing.case, manifest=manifest))
     tab = show(many, held=content(many))
     text = tab.locator("#tables").inner_text()
     assert "Leaf 199" in text and "Leaf 200" not in text and "4,800 more" in text
 
 
 def test_a_picture_that_is_not_blenders(show, differing):
-    about = {"version": None, "source": "picture", "picture": "student.png", "settings": {}}
-    tab = show(replace(differing, blender=about))
+    picture = replace(differing.case.picture, source=Source(file="student.png"))
+    tab = show(replace(differing, case=replace(differing.case, picture=picture)))
     text = tab.locator("body").inner_text()
     assert "student.png" in tab.locator("#subtitle").inner_text() and "null" not in text
     assert tab.locator("#right option").nth(1).inner_text() == "Picture"
