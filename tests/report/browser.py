@@ -19,7 +19,7 @@ SIZE = {"width": 1280, "height": 1300}  # the stage is whole in it
 NOT_BAD = ("data:", "blob:")  # addresses that are no network
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # one at a time: Playwright cannot start twice in a process
 def chromium():
     from playwright.sync_api import sync_playwright
 
