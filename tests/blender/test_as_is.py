@@ -30,7 +30,7 @@ def test_like_for_like_takes_one_sample(build, compare):
     build.corner_camera(lens=40)
     scene.reference_tracer.samples = 4
     comparison = compare()
-    assert comparison.settings.samples == 1
+    assert comparison.case.settings.samples == 1
     assert comparison.verdict == "agree"
 
 
