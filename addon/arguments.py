@@ -26,7 +26,7 @@ from .tracer.settings import Precision, Settings
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
 INTERRUPTED = 130  # as shells have it: 128 and the number of the signal
 
-EXIT_CODES = """exit codes:
+EXIT_CODES_HELP = """exit codes:
   0  the pictures agree
   1  warnings: something is not modelled, or not decidable
   2  differences that no cause explains
@@ -115,7 +115,7 @@ def add_pixel(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(endings={"out": tuple(WRITERS), "reproducer": (".json",)})
 
 
-def check(options: argparse.Namespace) -> None:
+def check_options(options: argparse.Namespace) -> None:
     """Find what is wrong with the options themselves, before any work.
 
     Raises

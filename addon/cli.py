@@ -6,7 +6,7 @@ import sys
 from importlib.metadata import entry_points
 
 from . import __version__, interrupts
-from .arguments import EXIT_CODES, INTERRUPTED, Parser, failed
+from .arguments import EXIT_CODES_HELP, INTERRUPTED, Parser, failed
 from .commands import compare, files, studies
 from .commands.parts import Commands
 from .scene import SceneError
@@ -42,7 +42,7 @@ def main(argv: list[str] | None = None) -> int:
 def _parser() -> Parser:
     parser = Parser(
         "reftrace",
-        epilog=EXIT_CODES,
+        epilog=EXIT_CODES_HELP,
         description=(
             "Trace a scene with the textbook's plane and triangle maths, and compare what Blender "
             "shows with it, pixel by pixel."

@@ -134,7 +134,7 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class StoredPicture:
     """A picture from a file."""
 
     color: NDArray[np.float32]  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
@@ -142,7 +142,7 @@ class Picture:
     opaque: bool  # the file has no alpha
 
 
-def load(path: str | Path) -> Picture:
+def read_picture(path: str | Path) -> StoredPicture:
     """Read a PNG, of 8 bits and sRGB's curve, or an EXR.
 
     Raises
@@ -161,7 +161,7 @@ def load(path: str | Path) -> Picture:
     return readers[path.suffix.lower()](path)
 
 
-def _load_png(path: Path) -> Picture:
+def _load_png(path: Path) -> StoredPicture:
     try:
         from PIL import Image
     except ImportError:
@@ -174,10 +174,10 @@ def _load_png(path: Path) -> Picture:
             stored = np.asarray(image.convert("RGBA"))[::-1]
     except (ValueError, SyntaxError) as error:
         raise OSError(f"'{path}' cannot be read: {error}") from error
-    return Picture(decoded(stored / 255).astype(np.float32), 255, opaque)
+    return StoredPicture(decoded(stored / 255).astype(np.float32), 255, opaque)
 
 
-def _load_exr(path: Path) -> Picture:
+def _load_exr(path: Path) -> StoredPicture:
     try:
         import OpenEXR
     except ImportError:
@@ -191,7 +191,7 @@ def _load_exr(path: Path) -> Picture:
         raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(channels))}")
     alpha = channels.get("A", np.ones_like(channels["R"]))
     color = np.stack((*(channels[c] for c in "RGB"), alpha), axis=-1)[::-1]
-    return Picture(np.ascontiguousarray(color), 0, "A" not in channels)
+    return StoredPicture(np.ascontiguousarray(color), 0, "A" not in channels)
 
 
 def _missing(what: str, library: str) -> MissingLibraryError:

@@ -49,8 +49,8 @@ from reference_tracer.explain.derivation import derive
 assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
 """
 SEES_METHOD_IN_BLENDER = """
-from reference_tracer.blender.properties import METHODS
-assert ("never", "Never", "Misses", 77) in METHODS
+from reference_tracer.blender.properties import METHOD_ITEMS
+assert ("never", "Never", "Misses", 77) in METHOD_ITEMS
 """
 PASS = {
     "tracer/frame.py": ('    Pass("rows_done"),\n', '    Pass("t", "T Again"),\n'),

@@ -10,8 +10,8 @@ import pytest
 from PIL import Image
 from reference_tracer.images import (
     MissingLibraryError,
-    load,
     png,
+    read_picture,
     save_exr,
     save_png,
     to_display,
@@ -101,8 +101,8 @@ def test_exr_holds_every_pass(tmp_path, rng):
     "use, library, module",
     [
         (lambda path: save_exr(path / "p.exr", {}), "OpenEXR", "OpenEXR"),
-        (lambda path: load(path / "given.exr"), "OpenEXR", "OpenEXR"),
-        (lambda path: load(path / "given.png"), "Pillow", "PIL"),
+        (lambda path: read_picture(path / "given.exr"), "OpenEXR", "OpenEXR"),
+        (lambda path: read_picture(path / "given.png"), "Pillow", "PIL"),
     ],
 )
 def test_missing_library_says_how_to_get_it(use, library, module, tmp_path, monkeypatch):

@@ -9,10 +9,10 @@ from typing import Any
 import bpy
 
 from .. import arguments
-from ..arguments import AGREE, EXIT_CODES, Parser, settings_from
+from ..arguments import AGREE, EXIT_CODES_HELP, Parser, settings_from
 from ..compare import engines
-from ..compare.comparison import EXIT_CODES as VERDICT_CODES
-from ..explain.candidates import LIMIT, gather
+from ..compare.comparison import EXIT_CODES
+from ..explain.candidates import LIMIT, gather_pixel
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report
@@ -23,7 +23,7 @@ from ..study import tradeoff
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
 from . import studies
-from .compare import compare_all, compare_to_folder, export_open_file, made
+from .compare import compare_all, compare_to_folder, export_open_file, made_folder
 from .judges import choices
 
 _handle: Any = None
@@ -39,18 +39,18 @@ def run(argv: list[str]) -> int:
     except SystemExit as stop:
         return int(stop.code or 0)
     try:
-        arguments.check(options)
+        arguments.check_options(options)
         return options.run(options)
     except Exception as error:
         return arguments.failed(error, "reference_tracer")
 
 
 def _parser() -> Parser:
-    parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES)
+    parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
 
     def command(name: str, run: Callable[[Any], int], text: str) -> Parser:
-        sub = commands.add_parser(name, help=text, epilog=EXIT_CODES)
+        sub = commands.add_parser(name, help=text, epilog=EXIT_CODES_HELP)
         sub.set_defaults(run=run)
         sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
         return sub
@@ -62,7 +62,7 @@ def _parser() -> Parser:
     arguments.add_judge(sub, choices())
     arguments.add_page(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
-    sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES)
+    sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES_HELP)
     sub.set_defaults(run=_explain)
     arguments.add_pixel(sub)
     sub = command(
@@ -87,7 +87,7 @@ def _explain(options: Any) -> int:
     _check_open()
     scene, _, _ = export_open_file(bpy.context)
     source = bpy.path.basename(bpy.data.filepath)
-    found = gather(scene, *options.pixel, options.limit or LIMIT, source)
+    found = gather_pixel(scene, *options.pixel, options.limit or LIMIT, source)
     text = pixel.write(found, options.out, options.reproducer)
     print(arguments.printable(text), end="")
     return AGREE
@@ -95,7 +95,7 @@ def _explain(options: Any) -> int:
 
 def _trade(options: Any) -> int:
     _check_open()
-    folder = made(options.out)
+    folder = made_folder(options.out)
     samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
     found = result_of(studies.trade(bpy.context, options.width, samples))
     studies.write(trade_report, folder, found)
@@ -104,7 +104,7 @@ def _trade(options: Any) -> int:
 
 
 def _extremes(options: Any) -> int:
-    folder = made(options.out)
+    folder = made_folder(options.out)
     rows = result_of(studies.extremes(rays=options.rays))
     studies.write(extremes_report, folder, rows)
     print(extremes_report.breaking_table(rows), f"written to {folder}", sep="\n")
@@ -137,14 +137,14 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
         print(f"written to {options.out}")
         pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
         print("open", *pages, "in a browser")
-        return VERDICT_CODES[verdict]
+        return EXIT_CODES[verdict]
     judge = options.judge.upper() if options.judge else None
     for_page = {"trade": options.trade, "extremes": options.extremes}
     work = compare_to_folder(bpy.context, options.out, **for_page, judge=judge, **chosen)
     comparison = result_of(work, progress)
     print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
     print(f"open {Path(options.out) / page.NAME} in a browser")
-    return VERDICT_CODES[comparison.verdict]
+    return EXIT_CODES[comparison.verdict]
 
 
 def register() -> None:

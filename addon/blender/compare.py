@@ -27,7 +27,7 @@ from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
 from .camera import export_camera
 from .engine import export_for_judge, export_for_render
-from .judges import JUDGES, Judge, find
+from .judges import JUDGES, Judge, judge_named
 from .planes import stand_ins
 from .temporary import temporary_scene, values_kept
 from .unmodelled import of_shading
@@ -35,7 +35,7 @@ from .viewport import (
     anti_aliasing,
     draw_identity,
     picture,
-    prepare,
+    prepare_scene,
     solid_shading,
     use_view_shading,
 )
@@ -47,7 +47,7 @@ def compared(case: Case) -> Work[Comparison]:
     return (yield from trace_and_compare(replace(case, manifest=manifest)))
 
 
-def gather(
+def gather_case(
     context: Any,
     settings: Settings | None = None,
     judge: str | None = None,
@@ -72,7 +72,7 @@ def gather(
     settings = settings or stored.settings()
     if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
         settings = replace(settings, samples=1)
-    engine = find(judge or stored.judge, bpy.app.background)
+    engine = judge_named(judge or stored.judge, bpy.app.background)
     of_view = engine.needs_window and not like_for_like
     view_shading = solid_shading(context) if of_view else None
     checked = stored.self_check if self_check is None else self_check
@@ -81,7 +81,7 @@ def gather(
     with temporary_scene(scene, layer, engine) as tmp:
         if view_shading:
             use_view_shading(tmp, view_shading)
-        used = prepare(tmp, like_for_like)
+        used = prepare_scene(tmp, like_for_like)
         used["shading_of"] = "3D view" if view_shading else "scene"
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, engine, like_for_like)
         exported, manifest, certificate = export_for_judge(tmp, layer, engine)
@@ -131,11 +131,11 @@ def compare_to_folder(
     """Gather at once; return the work of tracing, comparing and writing the files.
 
     With `trade` and `extremes`, these are measured for the page, too. On failure the folder's JSON
-    says why. Raises what :func:`gather` and `compare.compare` raise, and OSError.
+    says why. Raises what :func:`gather_case` and `compare.compare` raise, and OSError.
     """
-    folder = made(directory)  # now, not after all the work
+    folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
-        work = compared(gather(context, **choices))
+        work = compared(gather_case(context, **choices))
     return _to_folder(folder, work, trade, extremes)
 
 
@@ -164,7 +164,7 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
     """Have every engine draw the scene at once; return the work of comparing each.
 
     Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
-    written if it is empty. The choices are those of :func:`gather`.
+    written if it is empty. The choices are those of :func:`gather_case`.
 
     Raises
     ------
@@ -173,7 +173,7 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
     OSError
         If the folder cannot be written.
     """
-    folder = made(directory) if directory else None
+    folder = made_folder(directory) if directory else None
     here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
     drawn = [(name, _drawn(context, name, choices)) for name in here]
     if all(isinstance(d, str) for _, d in drawn):
@@ -184,7 +184,7 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
 def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Case | str:
     """Return what is gathered for an engine, or why it makes no picture."""
     try:
-        return gather(context, judge=engine.upper(), **choices)
+        return gather_case(context, judge=engine.upper(), **choices)
     except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
         return words(error)
 
@@ -207,7 +207,7 @@ def _all_compared(
     return tuple(rows)
 
 
-def made(directory: str) -> Path:
+def made_folder(directory: str) -> Path:
     """Return a folder that is there now; its path is as Blender writes it, or as the shell does.
 
     Raises

@@ -20,9 +20,9 @@ from ..scene import Scene, SceneError
 from . import ray_objects, results
 from .camera import export_camera
 from .engine import export_for_judge
-from .judges import JUDGES, find
+from .judges import JUDGES, judge_named
 from .temporary import temporary_scene
-from .viewport import prepare
+from .viewport import prepare_scene
 
 TEXT = "Reference Tracer Pixel"
 
@@ -60,9 +60,9 @@ def exported(context: Any, as_rendered: bool = False) -> Scene:
     """Export the context's scene as a comparison does, or as a render."""
     scene, layer, stored = context.scene, context.view_layer.name, context.scene.reference_tracer
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
-    judge = JUDGES["workbench"] if as_rendered else find(stored.judge, bpy.app.background)
+    judge = JUDGES["workbench"] if as_rendered else judge_named(stored.judge, bpy.app.background)
     with temporary_scene(scene, layer, judge) as tmp:
-        prepare(tmp, stored.shading == "LIKE_FOR_LIKE" and not as_rendered)
+        prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE" and not as_rendered)
         return export_for_judge(tmp, layer, judge)[0]
 
 
@@ -108,7 +108,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
             self.report({"ERROR"}, words(error))
             return {"CANCELLED"}
         said = results.keep_derivation(context.scene, found, answer_sentence(found)).lines[0]
-        results.show_text(context, TEXT, document.markdown(found))
+        results.show_text(context, TEXT, document.document_markdown(found))
         if self.draw_ray:
             ray_objects.draw(context.scene, found)
         results.redraw(context)
@@ -159,7 +159,7 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Allow where there are some."""
-        return ray_objects.drawn()
+        return ray_objects.are_drawn()
 
     def execute(self, context: Any) -> set[str]:
         """Remove."""

@@ -131,7 +131,7 @@ def choices() -> dict[str, Judge]:
     return {name: judge for name, judge in JUDGES.items() if judge.number is not None}
 
 
-def find(name: str, background: bool) -> Judge:
+def judge_named(name: str, background: bool) -> Judge:
     """Return the judge that a name, or AUTO, means with or without a window.
 
     Raises

@@ -17,10 +17,12 @@ from bpy.props import StringProperty
 
 from ..arguments import EXPECTED, words
 from ..tracer.progress import Work, result_of
-from .compare import made
+from .compare import made_folder
 from .results import redraw
 
-STEP = 0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
+SECONDS_A_STEP = (
+    0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
+)
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
 
@@ -41,7 +43,7 @@ class LongWork:
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        return made(self.directory) if self.directory else None
+        return made_folder(self.directory) if self.directory else None
 
     def begin(self, context: Any) -> Work[Any]:
         """Return the work; what has to be done in one go is done here."""
@@ -89,7 +91,7 @@ class LongWork:
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
-        until = time.monotonic() + STEP
+        until = time.monotonic() + SECONDS_A_STEP
         try:
             while time.monotonic() < until:
                 share = next(self._work)

@@ -18,7 +18,7 @@ from ..study.extremes import BreakingPoint
 from ..study.trade import Trade
 from ..tracer.progress import Work
 from . import results
-from .compare import compare_all, compare_to_folder, compared, gather
+from .compare import compare_all, compare_to_folder, compared, gather_case
 from .judges import JUDGES
 from .long_work import LongWork, say
 
@@ -38,7 +38,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         """Have Blender draw the scene at once; return the work that is left."""
         if self.directory:
             return compare_to_folder(context, self.directory)
-        return compared(gather(context))
+        return compared(gather_case(context))
 
     def finish(self, context: Any, result: Comparison) -> tuple[str, str]:
         """Show the pictures and the numbers."""

@@ -64,7 +64,7 @@ def short_name(method: str, precision: str) -> str:
     return f"{name[0].upper()}{name[1:]} {precision.removeprefix('float')}"
 
 
-def table(layout: Any, rows: Sequence[Sequence[str]], first: float = 0.45) -> None:
+def draw_table(layout: Any, rows: Sequence[Sequence[str]], first: float = 0.45) -> None:
     """Draw rows of text in columns; `first` is the first column's share of the width."""
     split = layout.split(factor=first)
     names, rest = split.column(align=True), split.row()
@@ -115,7 +115,7 @@ class _Main:
                 wrong = "?" if row.wrong_objects is None else row.wrong_objects
                 shown = (p["differ"], wrong, p["unexplained"])
                 rows.append((JUDGES[row.engine].label, *map(str, shown)))
-            table(layout.box(), rows, NARROW)
+            draw_table(layout.box(), rows, NARROW)
 
 
 class _Result:
@@ -150,13 +150,13 @@ class _Result:
             ("Compared With", JUDGES[comparison.case.picture.source.name].label),
             ("Traced In", f"{comparison.frame.statistics.seconds:.2f} s"),
         ]
-        table(self.layout, rows)
+        draw_table(self.layout, rows)
         rows = [("Traced by", "s", "Wrong", "Ambig.")]
         for m in comparison.methods:
             wrong = "?" if m.wrong_pixels is None else f"{m.wrong_pixels:,}"
             name = short_name(m.method, m.precision)
             rows.append((name, f"{m.seconds:.2f}", wrong, f"{m.ambiguous:,}"))
-        table(self.layout.box(), rows, NARROW)
+        draw_table(self.layout.box(), rows, NARROW)
         for line in (*comparison.required, *self_check.table(comparison.self_check)[:1]):
             wrapped(self.layout, context, line)
         self.layout.operator(operators.REFERENCE_TRACER_OT_open_page.bl_idname, icon="URL")

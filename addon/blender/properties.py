@@ -15,12 +15,12 @@ from . import judges
 
 # (identifier, name, description, number). A .blend stores the number: one that was given away is
 # never given to another, and a new item takes the next.
-METHODS = tuple((m.value, m.label, m.description, m.number) for m in reversed(Method))
+METHOD_ITEMS = tuple((m.value, m.label, m.description, m.number) for m in reversed(Method))
 PRECISIONS = (
     ("float64", "float64", "Double precision", 0),
     ("float32", "float32", "Single precision, as graphics hardware has it", 1),
 )
-JUDGES = (
+JUDGE_ITEMS = (
     (judges.AUTO, "Automatic", "The viewport in a window, Workbench in background", 0),
     *((j.name.upper(), j.label, j.description, j.number) for j in judges.choices().values()),
 )
@@ -40,7 +40,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     """How to trace and compare this scene."""
 
     method: EnumProperty(  # type: ignore[valid-type]
-        name="Method", items=METHODS, default="auto", description="How a ray meets a triangle"
+        name="Method", items=METHOD_ITEMS, default="auto", description="How a ray meets a triangle"
     )
     precision: EnumProperty(  # type: ignore[valid-type]
         name="Precision",
@@ -57,7 +57,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     )
     judge: EnumProperty(  # type: ignore[valid-type]
         name="Compare With",
-        items=JUDGES,
+        items=JUDGE_ITEMS,
         default="AUTO",
         description="Which of Blender's own pictures the traced one is compared with",
     )

@@ -33,7 +33,7 @@ def draw(scene: Any, derivation: Derivation) -> Any:
     return collection
 
 
-def drawn() -> bool:
+def are_drawn() -> bool:
     """Return whether there is one, or some of it."""
     return any(_own(bpy.data.collections)) or any(_own(bpy.data.objects))
 

@@ -23,8 +23,8 @@ from ..methods import Method
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
-from ..report.comparison import difference
-from ..study.extremes import BreakingPoint, Row, breaking_points
+from ..report.comparison import difference_picture
+from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points
 from ..study.trade import Trade
 
 TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
@@ -40,7 +40,7 @@ class Result:
     content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...] | tuple[EngineRow, ...]
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
-    rows: tuple[Row, ...] = ()  # of the extremes, as they were measured
+    rows: tuple[ExtremesRow, ...] = ()  # of the extremes, as they were measured
 
 
 _latest: dict[type, Result] = {}
@@ -50,7 +50,7 @@ def keep_comparison(context: Any, comparison: Comparison) -> Result:
     """Remember a comparison, and put its three pictures into images of Blender's."""
     show(TRACED, comparison.frame.color)
     show(BLENDER, comparison.picture)
-    shown = show(DIFFERENCE, difference(comparison))
+    shown = show(DIFFERENCE, difference_picture(comparison))
     show_in_editor(context, shown)
     return _keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
 
@@ -62,11 +62,11 @@ def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
 
 def keep_trade(context: Any, trade: Trade) -> Result:
     """Remember a trade, and show its plot if there can be one."""
-    why = _show_plots(context, lambda: [(TRADE, trade_report.picture(trade))], "trade")
+    why = _show_plots(context, lambda: [(TRADE, trade_report.plot_picture(trade))], "trade")
     return _keep(Trade, trade, [trade.advice, *why], trade.scene)
 
 
-def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
+def keep_extremes(context: Any, rows: Sequence[ExtremesRow]) -> Result:
     """Remember where each method breaks, and show the pictures of it if there can be any."""
 
     def plots() -> Iterable[tuple[str, NDArray[np.uint8]]]:
@@ -76,7 +76,7 @@ def keep_extremes(context: Any, rows: Sequence[Row]) -> Result:
     return _keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
 
 
-def _extremes_sentence(rows: Sequence[Row]) -> str:
+def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
     """Return in one sentence whether the certified method holds, and which other holds longest."""
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
@@ -124,7 +124,7 @@ def _keep(
     content: Any,
     lines: Iterable[str],
     scene: str | None = None,
-    rows: Sequence[Row] = (),
+    rows: Sequence[ExtremesRow] = (),
 ) -> Result:
     _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, tuple(rows))
     return _latest[kind]

@@ -13,7 +13,7 @@ from ..report import extremes as extremes_report
 from ..report import trade as trade_report
 from ..scene import SceneError
 from ..study import tradeoff
-from ..study.extremes import Row, measure
+from ..study.extremes import ExtremesRow, measure
 from ..study.scenarios.sweeps import ALL, MAPS
 from ..study.trade import Trade
 from ..tracer.progress import Work
@@ -44,7 +44,7 @@ def trade(context: Any, width: int | None = None, samples: int = tradeoff.SAMPLE
     return tradeoff.measure(scene, width, samples, manifest.scene)
 
 
-def extremes(scenario: str = EVERY, rays: int | None = None) -> Work[list[Row]]:
+def extremes(scenario: str = EVERY, rays: int | None = None) -> Work[list[ExtremesRow]]:
     """Return the work of tracing every scenario, or all of one name, by every method.
 
     A map has a scenario for each of its rows.

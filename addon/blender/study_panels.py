@@ -16,10 +16,10 @@ from ..explain.textbook import Arithmetic
 from ..methods import MEASURED, PLAIN, Method
 from ..study.extremes import BreakingPoint, written
 from ..study.scenarios.sweeps import SCENARIOS
-from ..study.trade import Row, Trade
+from ..study.trade import Trade, TradeRow
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .panels import NARROW, both, short_name, table, wrapped
+from .panels import NARROW, both, draw_table, short_name, wrapped
 from .scenario_scene import CHANGED
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
@@ -130,11 +130,11 @@ class _Trade:
         wrapped(layout, context, found.lines[0], "INFO")
         box, rows = layout.box(), trade.whole
         box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
-        table(box, [("", "s", "Wrong", "MiB"), *(_method(r) for r in rows)], NARROW)
+        draw_table(box, [("", "s", "Wrong", "MiB"), *(_method(r) for r in rows)], NARROW)
         box = layout.box()
         box.label(text=f"Nearest to {trade.converged} × {trade.converged} rays a pixel")
         best = sorted((r for r in trade.rows if r.best_coverage), key=lambda r: r.seconds)
-        table(box, [("", "Size", "s", "RMS"), *(_coverage(r) for r in best)], NARROW)
+        draw_table(box, [("", "Size", "s", "RMS"), *(_coverage(r) for r in best)], NARROW)
         wrapped(layout, context, "* no other is faster with as few wrong pixels")
         _say_why(layout, context, found)
 
@@ -145,14 +145,14 @@ def _say_why(layout: Any, context: Any, found: results.Result) -> None:
         wrapped(layout, context, line, "ERROR")
 
 
-def _method(row: Row) -> tuple[str, ...]:
+def _method(row: TradeRow) -> tuple[str, ...]:
     star = " *" if row.best_pixels else ""
     memory = f"{row.peak_bytes / 2**20:.1f}"
     name = short_name(row.method, row.precision)
     return name, f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
 
 
-def _coverage(row: Row) -> tuple[str, ...]:
+def _coverage(row: TradeRow) -> tuple[str, ...]:
     size = f"{row.width}, {row.samples}²"
     name = short_name(row.method, row.precision)
     return name, size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"

@@ -52,7 +52,7 @@ _LIKE_FOR_LIKE = {
 }
 
 
-def prepare(scene: Any, like_for_like: bool) -> dict[str, Any]:
+def prepare_scene(scene: Any, like_for_like: bool) -> dict[str, Any]:
     """Set a temporary scene up for a picture that can be compared; return what was set.
 
     Like for like is flat light, no effect and no anti-aliasing, on a transparent film, raw; the
@@ -183,7 +183,7 @@ def draw_identity(
         return None
     number = {name: n for n, name in enumerate(names)}
     numbers = [number[owner] for owner in owners]
-    prepare(tmp, True)
+    prepare_scene(tmp, True)
     tmp.display.shading.color_type = "OBJECT"
     with colored_copies(tmp, layer, objects, colors_of(len(names))[numbers]):
         found = decode(picture(tmp, layer, judge, camera, True), len(names))

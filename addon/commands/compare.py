@@ -96,7 +96,7 @@ def _with_blender(options: argparse.Namespace) -> int:
 
 def _against(options: argparse.Namespace) -> int:
     """Compare with a picture of unknown make."""
-    picture = images.load(options.against)
+    picture = images.read_picture(options.against)
     with progress_bar() as progress:
         of = _blend if options.scene.suffix.lower() == ".blend" else _file
         comparison = result_of(of(options, picture), progress)
@@ -108,7 +108,7 @@ def _against(options: argparse.Namespace) -> int:
     return EXIT_CODES[comparison.verdict]
 
 
-def _blend(options: argparse.Namespace, picture: images.Picture) -> Work[Comparison]:
+def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
     with open_blend(options.scene) as blender:
         from ..blender.against import gather_against
         from ..blender.camera import export_camera
@@ -122,7 +122,7 @@ def _blend(options: argparse.Namespace, picture: images.Picture) -> Work[Compari
         return (yield from compared(case))
 
 
-def _file(options: argparse.Namespace, picture: images.Picture) -> Work[Comparison]:
+def _file(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
     scene, stored = load(options.scene, *camera_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     settings, shown = settings_from(options, stored), _shown(options, picture, scene.camera)
@@ -131,7 +131,7 @@ def _file(options: argparse.Namespace, picture: images.Picture) -> Work[Comparis
 
 
 def _shown(
-    options: argparse.Namespace, picture: images.Picture, camera: Camera, dither: float = 0.0
+    options: argparse.Namespace, picture: images.StoredPicture, camera: Camera, dither: float = 0.0
 ) -> Picture:
     """Return what is compared of a picture: of one of the whole view, the camera's border."""
     color, r = picture.color, camera.region

@@ -12,7 +12,7 @@ from pathlib import Path
 from .. import images
 from ..arguments import add_camera, add_pixel, add_settings, camera_from, printable, settings_from
 from ..explain import reproducer
-from ..explain.candidates import LIMIT, gather
+from ..explain.candidates import LIMIT, gather_pixel
 from ..interrupts import progress_bar
 from ..opening import SOURCES, load
 from ..report import folders, pixel
@@ -111,7 +111,7 @@ def explain(options: argparse.Namespace) -> int:
     else:
         with _told_aside():
             scene, _ = load(path, *camera_from(options, path))
-        found = gather(scene, *options.pixel, options.limit or LIMIT, path.name)
+        found = gather_pixel(scene, *options.pixel, options.limit or LIMIT, path.name)
     print(printable(pixel.write(found, options.out, options.reproducer)), end="")
     return 0
 

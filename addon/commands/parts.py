@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..arguments import EXIT_CODES, Parser, check
+from ..arguments import EXIT_CODES_HELP, Parser, check_options
 from ..images import MissingLibraryError
 
 Commands = Any  # what argparse's add_subparsers returns, which has no public name
@@ -33,14 +33,14 @@ def command(
 
     def checked(options: argparse.Namespace) -> int:
         with around(options):
-            check(options)
+            check_options(options)
             return run(options)
 
     parser = commands.add_parser(
         name,
         help=text,
         description=text[0].upper() + text[1:] + ".",
-        epilog=f"example:\n  {example}\n\n{EXIT_CODES}",
+        epilog=f"example:\n  {example}\n\n{EXIT_CODES_HELP}",
     )
     parser.set_defaults(run=checked)
     if source:

@@ -184,10 +184,10 @@ def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDArr
         view = view_error(scene, hits, frame.positions(rows)[seen])
         own[rows].reshape(-1)[seen] = pixel_error(scene.camera, hits.t, view)
         yield number / len(all_rows)
-    return (yield from spread(own))
+    return (yield from spread_error(own))
 
 
-def spread(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
+def spread_error(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
     """Return SNAPPING, or what is larger of those whose surface may move as far as the pixel.
 
     `own` (h, w) is how far, in pixels; it counts in a square that reaches as far as the power of

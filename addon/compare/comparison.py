@@ -20,7 +20,7 @@ from .causes import explain
 from .checks.background import Background
 from .identity import Identity
 from .methods import MethodRow, list_methods
-from .metrics import boundary, count_pixels, measure
+from .metrics import boundary, count_pixels, image_metrics
 from .self_check import FaultRow, self_check, table
 
 SCHEMA = "reference_tracer.comparison/1"
@@ -212,7 +212,7 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     share = (1 - _CHECKING if case.self_check else 1.0) * _CAUSES
     found = yield from scaled(explain(case, frame), 0.0, share)
     picture, before = found.case.picture, found.frame  # before the picture's own background
-    measuring = measure(before.color, picture.color)
+    measuring = image_metrics(before.color, picture.color)
     measured = yield from scaled(measuring, share, share * (1 / _CAUSES - 1))
     identity = None
     if picture.owner is not None:

@@ -15,7 +15,7 @@ from ..tracer.progress import Work, scaled
 from .cause import Cause, Causes
 from .identity import Identity
 
-ROWS = 32  # looked at together, so that a step of the work is short
+_ROWS = 32  # looked at together, so that a step of the work is short
 EXAMPLES = 10  # pixels named of each cause
 
 
@@ -48,8 +48,8 @@ def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
     shortest = min(first.shape[:2])
     size = min(size, shortest - (1 - shortest % 2))
     windows, total = first.shape[0] - size + 1, 0.0
-    for start in range(0, windows, ROWS):
-        rows = slice(start, min(start + ROWS, windows) + size - 1)
+    for start in range(0, windows, _ROWS):
+        rows = slice(start, min(start + _ROWS, windows) + size - 1)
         total += _similarity(first[rows], second[rows], data_range, size).sum()
         yield start / windows
     return float(total / (windows * (first.shape[1] - size + 1) * first.shape[2]))
@@ -77,15 +77,17 @@ def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:
     return {"value": value, "pixel": [int(x), int(y)], "channel": int(channel)}
 
 
-def measure(traced: NDArray[np.float32], picture: NDArray[np.float32]) -> Work[dict[str, Any]]:
+def image_metrics(
+    traced: NDArray[np.float32], picture: NDArray[np.float32]
+) -> Work[dict[str, Any]]:
     """Measure how far two pictures of linear RGBA differ; what is not a number counts as 0.
 
     RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
     """
     a, b = np.empty_like(traced), np.empty_like(picture)
     height, squares, largest = len(a), 0.0, {"value": -1.0}
-    for start in range(0, height, ROWS):
-        rows = slice(start, min(start + ROWS, height))
+    for start in range(0, height, _ROWS):
+        rows = slice(start, min(start + _ROWS, height))
         a[rows], b[rows] = np.nan_to_num(traced[rows]), np.nan_to_num(picture[rows])
         squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
         found = largest_difference(a[rows], b[rows])

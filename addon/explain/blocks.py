@@ -41,7 +41,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Row:
+class BlockRow:
     """A number: what it is called, and for each float its digits and its error in ulp.
 
     The first of a vector's three says where the vector comes from.
@@ -57,7 +57,7 @@ class Row:
 class Numbers:
     """Numbers below one another, in float32, float64 and exactly."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[BlockRow, ...]
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def numbers(quantities: tuple[Quantity, ...]) -> Numbers:
             values = [q.values[kind][k] for kind in FLOATS]
             floats = tuple((marked(v, exact), off_text(ulps(v, exact))) for v in values)
             truth = "undefined" if exact is None else exact_text(exact)
-            rows.append(Row(label, None if k else q.formula, floats, truth))
+            rows.append(BlockRow(label, None if k else q.formula, floats, truth))
     return Numbers(tuple(rows))
 
 
@@ -116,7 +116,7 @@ def markdown(block: Block) -> str:
     raise TypeError(type(block).__name__)
 
 
-def _row(row: Row) -> str:
+def _row(row: BlockRow) -> str:
     cells = [str(row.formula or ""), row.label]
     for parts, off in row.floats:
         wrong = f"**{parts.wrong}**" if parts.wrong else ""

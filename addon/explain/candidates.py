@@ -35,7 +35,7 @@ _CUBE = np.array(  # a box's twelve triangles, by corners numbered x + 2 y + 4 z
 )
 
 
-def gather(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Pixel:
+def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Pixel:
     """Return what the ray through a pixel's centre may meet.
 
     Parameters

@@ -18,21 +18,21 @@ import numpy as np
 
 from ..scene import Scene
 from ..tracer.hits import NOWHERE, Name
-from .candidates import LIMIT, gather
+from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
 from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
 from .textbook import (
     Arithmetic,
+    Judgement,
     Number,
-    Steps,
-    Verdict,
+    Values,
     camera_steps,
-    steps,
+    evaluate_all,
     surface_steps,
     verdict,
 )
 
-Columns = dict[Arithmetic, Steps]
+Columns = dict[Arithmetic, Values]
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +65,7 @@ class Test:
 
     candidate: Candidate
     quantities: tuple[Quantity, ...]
-    verdicts: Mapping[Arithmetic, Verdict]
+    verdicts: Mapping[Arithmetic, Judgement]
 
     def number(self, key: str, kind: Arithmetic) -> Number:
         """Return a step's value, of a vector the first component."""
@@ -124,7 +124,7 @@ def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
     SceneError
         If there is no such pixel.
     """
-    return derive_pixel(gather(scene, x, y, limit, source))
+    return derive_pixel(gather_pixel(scene, x, y, limit, source))
 
 
 def derive_pixel(pixel: Pixel) -> Derivation:
@@ -205,5 +205,7 @@ def _color(
     for kind in Arithmetic:
         given = {TRIANGLE[k].label: seen.number(k, kind) for k in ("s1", "s2", "s3")}
         corners = (kind.vector(c[:3]) for c in colors)
-        columns[kind] = steps(COLOR, given | dict(zip(("c₁", "c₂", "c₃"), corners, strict=True)))
+        columns[kind] = evaluate_all(
+            COLOR, given | dict(zip(("c₁", "c₂", "c₃"), corners, strict=True))
+        )
     return _quantities(columns, COLOR), color

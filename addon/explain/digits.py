@@ -29,7 +29,7 @@ class Parts(NamedTuple):
         return "".join(self)
 
 
-def text(value: Number) -> str:
+def digits_text(value: Number) -> str:
     """Return a number as text that means it: reading it gives the same float, to the bit."""
     if isinstance(value, Fraction):
         return exact_text(value)
@@ -92,7 +92,7 @@ def marked(value: np.floating, exact: Fraction | None) -> Parts:
     A digit is wrong where the error is more than half of one in its place; none is in a number that
     is correctly rounded.
     """
-    whole = text(value)
+    whole = digits_text(value)
     off = ulps(value, exact)
     if exact is None or not np.isfinite(value) or (off is not None and off <= 0.5):
         return Parts(whole, "", "")

@@ -10,10 +10,10 @@ from ..tracer.certified.certainty import Certainty
 from . import blocks
 from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
 from .derivation import Derivation, Test
-from .digits import text
+from .digits import digits_text
 from .formulas import ERRATA
 from .pixel import SENTENCES
-from .textbook import FLOATS, Arithmetic, Verdict
+from .textbook import FLOATS, Arithmetic, Judgement
 
 READING = (
     "How to read the tables: every number is computed three times, from the same input and by the "
@@ -42,7 +42,7 @@ def lecture(derivation: Derivation) -> list[Block]:
     ]
 
 
-def markdown(derivation: Derivation) -> str:
+def document_markdown(derivation: Derivation) -> str:
     """Return the lecture as Markdown."""
     return "\n\n".join(map(blocks.markdown, lecture(derivation))) + "\n"
 
@@ -61,8 +61,8 @@ def _opening(derivation: Derivation) -> list[Block]:
         *_textbook_t(derivation),
         Paragraph(
             f"Camera “{camera.name}”: {camera.projection.name}, {camera.width} × {camera.height} "
-            f"pixels, it shows depths from {text(float(camera.clip_start))} m to "
-            f"{text(float(camera.clip_end))} m. "
+            f"pixels, it shows depths from {digits_text(float(camera.clip_start))} m to "
+            f"{digits_text(float(camera.clip_end))} m. "
             f"Pixel (0, 0) is the lower left.{part}"
         ),
         Paragraph(READING, "note"),
@@ -76,14 +76,16 @@ def answer_sentence(derivation: Derivation) -> str:
         return "The ray meets nothing within the clip range: the pixel shows the background."
     proven = derivation.certified.certainty is not Certainty.NOT_CERTIFIED
     origin = "proven: the exact value, rounded once" if proven else "not proven"
-    return f"The pixel sees {seen.title}, at t = {text(derivation.certified.t)} m ({origin})."
+    return (
+        f"The pixel sees {seen.title}, at t = {digits_text(derivation.certified.t)} m ({origin})."
+    )
 
 
 def _textbook_t(derivation: Derivation) -> list[Block]:
     """Say the other t of what is seen: the one that the tables come to."""
     for test in derivation.tests:
         if test.candidate is derivation.seen:
-            t = text(test.number("t", Arithmetic.FLOAT64))
+            t = digits_text(test.number("t", Arithmetic.FLOAT64))
             return [Paragraph(f"By the textbook’s formula in float64, t = {t} m.", "note")]
     return []
 
@@ -136,7 +138,7 @@ def _candidates(derivation: Derivation) -> list[Block]:
 
 
 def _summary(number: int, test: Test) -> tuple[str, ...]:
-    values = {q.key: text(q.values[Arithmetic.FLOAT64][0]) for q in test.quantities}
+    values = {q.key: digits_text(q.values[Arithmetic.FLOAT64][0]) for q in test.quantities}
     said = [test.verdicts[kind].accepted for kind in Arithmetic]
     cells = (values.get(key, "") for key in ("t", "s1", "s2", "s3"))
     return f"2.{number}", test.candidate.title, *cells, *("hit" if s else "no" for s in said)
@@ -160,7 +162,7 @@ def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
     return out
 
 
-def _verdict(kind: Arithmetic, verdict: Verdict) -> tuple[str, ...]:
+def _verdict(kind: Arithmetic, verdict: Judgement) -> tuple[str, ...]:
     why = "; ".join(r.sentence for r in verdict.reasons) or "all conditions hold"
     printed = {None: "–", True: "hit", False: "no"}[verdict.literal]
     if verdict.accepted and verdict.literal is False:
@@ -176,13 +178,13 @@ def _nearest(derivation: Derivation) -> list[Block]:
             rows.append((kind.value, "nothing", "–"))
             continue
         test = derivation.tests[k]
-        rows.append((kind.value, test.candidate.title, text(test.number("t", kind))))
+        rows.append((kind.value, test.candidate.title, digits_text(test.number("t", kind))))
     methods = tuple(
         (
             a.method.value,
             a.precision.value,
             derivation.title_of(a.seen),
-            text(a.precision.dtype.type(a.t)),
+            digits_text(a.precision.dtype.type(a.t)),
             "as proven" if a.seen == derivation.certified.seen else "differs",
         )
         for a in derivation.answers
@@ -212,7 +214,7 @@ def _color(derivation: Derivation) -> list[Block]:
             "1 on every surface, and light plays no part."
         )
     steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
-    rgba = ", ".join(text(v) for v in derivation.color)
+    rgba = ", ".join(digits_text(v) for v in derivation.color)
     shown = to_display([[derivation.color]])[0, 0, :3]
     srgb = "#" + "".join(f"{v:02x}" for v in shown)
     text_ = f"linear RGBA ({rgba}); on a screen (sRGB) {srgb}"

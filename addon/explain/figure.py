@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 from .derivation import Derivation, Test
 from .textbook import Arithmetic
 
-Color = tuple[float, float, float, float]
+Rgba = tuple[float, float, float, float]
 
-RAY: Color = (1.0, 0.55, 0.0, 1.0)
-HIT: Color = (1.0, 1.0, 1.0, 1.0)
-WEIGHTS: tuple[Color, ...] = ((0.9, 0.1, 0.1, 1.0), (0.1, 0.7, 0.15, 1.0), (0.1, 0.25, 0.95, 1.0))
-ACCEPTED: Color = (0.05, 0.75, 0.85, 1.0)
-GLASS: Color = (0.05, 0.75, 0.85, 0.25)
-REJECTED: Color = (0.6, 0.6, 0.6, 1.0)
+RAY: Rgba = (1.0, 0.55, 0.0, 1.0)
+HIT: Rgba = (1.0, 1.0, 1.0, 1.0)
+WEIGHTS: tuple[Rgba, ...] = ((0.9, 0.1, 0.1, 1.0), (0.1, 0.7, 0.15, 1.0), (0.1, 0.25, 0.95, 1.0))
+ACCEPTED: Rgba = (0.05, 0.75, 0.85, 1.0)
+GLASS: Rgba = (0.05, 0.75, 0.85, 0.25)
+REJECTED: Rgba = (0.6, 0.6, 0.6, 1.0)
 
 # Radii as seen from the eye, in lengths at depth 1: a ray is a cone that begins there, so that it
 # is equally thin wherever it goes, some pixels wide. And at most so much of the triangle that is
@@ -41,7 +41,7 @@ class Shape(NamedTuple):
     vertices: NDArray[np.float64]  # (n, 3)
     edges: list[tuple[int, int]]
     faces: list[tuple[int, ...]]
-    color: Color
+    color: Rgba
     in_front: bool = False  # seen through what is before it
 
 
@@ -93,7 +93,7 @@ def _normal(test: Test) -> tuple[float, ...]:
     return tuple(map(float, n.values[Arithmetic.FLOAT64]))
 
 
-def _color(test: Test) -> Color:
+def _color(test: Test) -> Rgba:
     return ACCEPTED if test.verdicts[Arithmetic.EXACT].accepted else REJECTED
 
 
@@ -159,7 +159,7 @@ def _across(direction: NDArray) -> tuple[NDArray, NDArray]:
 
 
 def _cone(
-    name: str, start: NDArray, along: NDArray, length: float, radius: float, color: Color
+    name: str, start: NDArray, along: NDArray, length: float, radius: float, color: Rgba
 ) -> Shape:
     u, v = _across(along)  # not end - start: at t = 0, or far away, that is zero
     end = start + length * along
@@ -171,7 +171,7 @@ def _cone(
     return Shape(name, np.array([start, *ring, end]), [(0, middle)], faces, color, True)
 
 
-def _dot(name: str, center: NDArray, radius: float, color: Color) -> Shape:
+def _dot(name: str, center: NDArray, radius: float, color: Rgba) -> Shape:
     """Return an octahedron."""
     points = center + radius * np.concatenate((np.eye(3), -np.eye(3)))
     faces = [

@@ -87,12 +87,12 @@ ERRATA = (
 )
 
 
-class Reason(StrEnum):
+class Rejection(StrEnum):
     """Why a surface is rejected; the values are what JSON calls them."""
 
     sentence: str  # for a reader
 
-    def __new__(cls, value: str, sentence: str) -> Reason:
+    def __new__(cls, value: str, sentence: str) -> Rejection:
         """Return the string that JSON has, with its sentence."""
         made = str.__new__(cls, value)
         made._value_, made.sentence = value, sentence

@@ -13,7 +13,7 @@ import re
 from collections.abc import Iterable
 from html import escape
 
-from .blocks import Block, Heading, Numbers, Paragraph, Row, Swatch, Table
+from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Swatch, Table
 from .derivation import Derivation
 from .digits import Parts
 from .document import lecture
@@ -149,7 +149,7 @@ def _table(head: tuple[str, ...], rows: Iterable[str], kind: str) -> str:
     )
 
 
-def _number(row: Row) -> str:
+def _number(row: BlockRow) -> str:
     first, shown = "", ""
     if row.formula:
         first = ' class="derivation-first"'

@@ -1,7 +1,7 @@
 """The textbook's steps and conditions, in three arithmetics: float32, float64, and exactly.
 
 In come numbers in one arithmetic; out go all that the formulas of `formulas.py` make of them, by
-name and in order, and a `Verdict` with every condition that fails. The formulas are evaluated as
+name and in order, and a `Judgement` with every condition that fails. The formulas are evaluated as
 they are printed, one operation after the other: in float32 and float64 these numbers are those of
 `tracer/camera.py`, `plane.py` and `triangle.py`, to the last bit, and a test holds them to it.
 """
@@ -23,11 +23,11 @@ from ..tracer.camera import pixel_size
 from ..tracer.nearest import within_clip
 from ..tracer.triangle import SUM_TOLERANCE
 from ..tracer.vector import cross, dot
-from .formulas import CAMERA, Formula, Reason, ray_formulas
+from .formulas import CAMERA, Formula, Rejection, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
 Vector = NDArray  # (3,), float32 or float64, which round after every operation, or of fractions
-Steps = dict[str, Number | Vector]
+Values = dict[str, Number | Vector]
 
 
 class Arithmetic(StrEnum):
@@ -101,7 +101,7 @@ def _operand(tokens: list[str], names: Mapping[str, Number | Vector]) -> Number 
 
 
 @np.errstate(all="ignore")
-def steps(formulas: Mapping[str, Formula], given: Mapping[str, Number | Vector]) -> Steps:
+def evaluate_all(formulas: Mapping[str, Formula], given: Mapping[str, Number | Vector]) -> Values:
     """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
 
     Parameters
@@ -122,7 +122,7 @@ def steps(formulas: Mapping[str, Formula], given: Mapping[str, Number | Vector])
     return out
 
 
-def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Steps:
+def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
     """Return how the ray through the centre of a pixel comes about.
 
     Parameters
@@ -141,65 +141,65 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Steps:
     vectors["e"] = camera.origin
     given = {label: kind.number(value) for label, value in numbers.items()}
     given |= {label: kind.vector(value) for label, value in vectors.items()}
-    return steps(CAMERA | ray_formulas(camera.projection), given)
+    return evaluate_all(CAMERA | ray_formulas(camera.projection), given)
 
 
-def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Steps:
+def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Values:
     """Return how a ray meets a triangle of three corners, or a plane of a point and a normal."""
     labels = [formula.label for formula in formulas.values()]
-    return steps(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
+    return evaluate_all(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
 
 
-class Verdict(NamedTuple):
+class Judgement(NamedTuple):
     """What one arithmetic says of a surface.
 
     `literal` is whether the test as printed, sum = 1 included, accepts it, too; None of a plane.
     """
 
     accepted: bool
-    reasons: tuple[Reason, ...]
+    reasons: tuple[Rejection, ...]
     literal: bool | None = None
 
 
-def verdict(found: Steps, camera: Camera) -> Verdict:
+def verdict(found: Values, camera: Camera) -> Judgement:
     """Hold the steps of a plane or a triangle against the textbook's conditions and the clip."""
     undefined = _undefined(found)
     if undefined:
-        return Verdict(False, (undefined,), False if "p1" in found else None)
+        return Judgement(False, (undefined,), False if "p1" in found else None)
     reasons = _inside(found) + _clipped(found["t"], camera)
     literal = not reasons and bool(found["sum"] == 1) if "sum" in found else None
-    return Verdict(not reasons, tuple(reasons), literal)
+    return Judgement(not reasons, tuple(reasons), literal)
 
 
-def _undefined(found: Steps) -> Reason | None:
+def _undefined(found: Values) -> Rejection | None:
     """Return why there is no t; floats have one by the rules for inf, but it means nothing."""
     if not any(found["n"]):
-        return Reason.DEGENERATE
+        return Rejection.DEGENERATE
     if found["towards"] == 0:
-        return Reason.PARALLEL
+        return Rejection.PARALLEL
     values = [found[k] for k in ("t", "s1", "s2", "s3") if k in found]
     if not all(isinstance(v, Fraction) or np.isfinite(v) for v in values):
-        return Reason.NOT_A_NUMBER
+        return Rejection.NOT_A_NUMBER
     return None
 
 
-def _inside(found: Steps) -> list[Reason]:
+def _inside(found: Values) -> list[Rejection]:
     if "s1" not in found:
         return []
     outside = [
-        Reason(f"s{k}_{'negative' if found[f's{k}'] < 0 else 'above_1'}")
+        Rejection(f"s{k}_{'negative' if found[f's{k}'] < 0 else 'above_1'}")
         for k in (1, 2, 3)
         if not 0 <= found[f"s{k}"] <= 1
     ]
     total = found["sum"]
     if not outside and not isinstance(total, Fraction):
         if not abs(total - total.dtype.type(1)) <= total.dtype.type(SUM_TOLERANCE[total.dtype]):
-            return [Reason.SUM]
+            return [Rejection.SUM]
     negative = [r for r in outside if "negative" in r]  # it also says why others are above 1
     return negative or outside
 
 
-def _clipped(t: Number, camera: Camera) -> list[Reason]:
+def _clipped(t: Number, camera: Camera) -> list[Rejection]:
     """Return how t lies outside the clip range, in t's own arithmetic, as the tracer has it."""
     start, end = float(camera.clip_start), float(camera.clip_end)
     if isinstance(t, Fraction):
@@ -209,5 +209,5 @@ def _clipped(t: Number, camera: Camera) -> list[Reason]:
     if seen:
         return []
     if t < 0 and start >= 0:
-        return [Reason.BEHIND]
-    return [Reason.BEYOND_CLIP_END if t > end else Reason.BEFORE_CLIP_START]
+        return [Rejection.BEHIND]
+    return [Rejection.BEYOND_CLIP_END if t > end else Rejection.BEFORE_CLIP_START]

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from .derivation import Derivation, Quantity, Test
-from .digits import exact_text, text, ulps
-from .document import markdown
+from .digits import digits_text, exact_text, ulps
+from .document import document_markdown
 from .html import page
 from .pixel import Answer
 from .textbook import FLOATS, Arithmetic, Number
@@ -92,7 +92,7 @@ def number(value: Number) -> Any:
     if isinstance(value, Fraction):
         rational = f"{value.numerator}/{value.denominator}"
         return {"decimal": exact_text(value), "rational": rational}
-    return float(text(value)) if np.isfinite(value) else text(value)
+    return float(digits_text(value)) if np.isfinite(value) else digits_text(value)
 
 
 def _test(test: Test) -> dict[str, Any]:
@@ -129,7 +129,7 @@ def _answer(answer: Answer, derivation: Derivation) -> dict[str, Any]:
 
 
 WRITERS: dict[str, Callable[[Derivation], str]] = {
-    ".md": markdown,
+    ".md": document_markdown,
     ".html": page,
     ".json": json_text,
 }

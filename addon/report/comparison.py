@@ -32,7 +32,7 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
     OSError
         If the folder cannot be written.
     """
-    colors = comparison.frame.color, comparison.picture, difference(comparison)
+    colors = comparison.frame.color, comparison.picture, difference_picture(comparison)
     causes, owners = comparison.causes, comparison.identity
     # Whose surface each side shows, as numbers of the JSON's names, where it is known.
     whose = {"owner_traced": owners.traced, "owner_shown": owners.shown} if owners else {}
@@ -52,7 +52,7 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
         write_json(new / JSON, comparison.to_dict())
 
 
-def difference(comparison: Comparison) -> NDArray[np.float32]:
+def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
     grey = _DIM * (np.nan_to_num(comparison.frame.color[..., :3]) @ np.array(_LUMINANCE))
     out = np.ones((*grey.shape, 4), np.float32)

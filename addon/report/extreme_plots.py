@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..methods import MEASURED, Method
-from ..study.extremes import BreakingPoint, Row, breaking_points, written
+from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
 from ..study.scenarios.sweeps import SCENARIOS, Map
 from . import plots
 
@@ -31,7 +31,7 @@ _LEFT = -4.65  # of the scenes' names, where a column of the table is 1 wide
 _CENTRED = {"ha": "center", "va": "center"}
 
 
-def breaking_picture(rows: Sequence[Row]) -> NDArray[np.uint8]:
+def breaking_picture(rows: Sequence[ExtremesRow]) -> NDArray[np.uint8]:
     """Return a table in colour: the first scale of each sweep at which a method loses a ray.
 
     The later in the sweep, the paler. A plus marks methods that cross too many triangles somewhere.
@@ -100,9 +100,9 @@ def _key(axes: Axes, y: float) -> None:
         y += 0.65
 
 
-def by_scenario(rows: Sequence[Row]) -> dict[str, list[Row]]:
+def by_scenario(rows: Sequence[ExtremesRow]) -> dict[str, list[ExtremesRow]]:
     """Return the rows of each sweep; those of maps are left out."""
-    sweeps: dict[str, list[Row]] = {}
+    sweeps: dict[str, list[ExtremesRow]] = {}
     for row in rows:
         if row.across is None:
             sweeps.setdefault(row.scenario, []).append(row)
@@ -126,7 +126,7 @@ def _colormap() -> Colormap:
     return matplotlib.colormaps["YlOrRd"].with_extremes(under=NEVER, bad="#dddddd")
 
 
-def sweeps_picture(sweeps: Sequence[Sequence[Row]], page: str = "") -> NDArray[np.uint8]:
+def sweeps_picture(sweeps: Sequence[Sequence[ExtremesRow]], page: str = "") -> NDArray[np.uint8]:
     """Return small multiples: of each scenario the share of lost rays over the scale."""
     down = -(-len(sweeps) // ACROSS)
     figure = plots.new_figure(1920, 200 + 310 * down)
@@ -159,7 +159,7 @@ def _nested() -> dict[Method, tuple[float, float]]:
     return dict(zip(SWEPT, zip(*ends, strict=True), strict=True))
 
 
-def _sweep(axes: Axes, rows: Sequence[Row]) -> None:
+def _sweep(axes: Axes, rows: Sequence[ExtremesRow]) -> None:
     """Draw one scenario; its scales are steps, each as wide as the next."""
     name = rows[0].scenario
     scales = list(dict.fromkeys(r.scale for r in rows))
@@ -189,7 +189,7 @@ def _ticks(put, scales: Sequence[float]) -> None:
     put(places, words, rotation=45, ha="right", rotation_mode="anchor")
 
 
-def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
+def map_picture(some: Map, rows: Sequence[ExtremesRow]) -> NDArray[np.uint8]:
     """Return heat maps over two scales of the share of lost rays, one for each method."""
     columns = [m for m in MEASURED if any(r.method == m for r in rows)]
     precisions = [p for p in ("float64", "float32") if any(r.precision == p for r in rows)]
@@ -213,11 +213,11 @@ def map_picture(some: Map, rows: Sequence[Row]) -> NDArray[np.uint8]:
     return plots.pixels(figure)
 
 
-def _is_grey(row: Row) -> bool:
+def _is_grey(row: ExtremesRow) -> bool:
     return not (row.seen or row.lost)
 
 
-def _heat(axes: Axes, rows: Sequence[Row]) -> AxesImage | None:
+def _heat(axes: Axes, rows: Sequence[ExtremesRow]) -> AxesImage | None:
     """Draw the map of one method; nothing where there are no rows."""
     from matplotlib.colors import PowerNorm
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from .. import images
 from ..methods import MEASURED
-from ..study.extremes import BreakingPoint, Row, breaking_points, written
+from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
 from ..study.scenarios.sweeps import MAPS, SCENARIOS, Map, Scenario
 from . import extreme_plots
 from .extreme_plots import KNOWN, by_scenario, scale_of
@@ -45,7 +45,7 @@ _LITERAL = "(The literal textbook is left out: it loses rays from the first scal
 _WIDTH = 12  # of a column of the tables
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(rows: Sequence[ExtremesRow]) -> str:
     """Return the sweeps as text: for each scale, the percentage of rays that each method loses.
 
     Behind a plus: those that cross more triangles than there are.
@@ -63,7 +63,7 @@ def table(rows: Sequence[Row]) -> str:
     return _text(title, methods, lines, (_WIDTH,))
 
 
-def _shown(rows: Sequence[Row] | Sequence[BreakingPoint]) -> list[tuple[str, str]]:
+def _shown(rows: Sequence[ExtremesRow] | Sequence[BreakingPoint]) -> list[tuple[str, str]]:
     """Return the methods and precisions but the literal textbook, which loses rays everywhere."""
     found = dict.fromkeys((r.method, r.precision) for r in rows)
     return [m for m in found if m[0] != "textbook_literal"]
@@ -84,14 +84,14 @@ def _text(
     return "\n".join([title, _LITERAL, "", *columns([*head, *lines], left, least=widths)])
 
 
-def _lost(row: Row | None) -> str:
+def _lost(row: ExtremesRow | None) -> str:
     if row is None:
         return ""
     doubled = f" +{percent(row.doubled / row.rays)}" if row.doubled else ""
     return f"{percent(row.share)}{doubled}" if row.lost or row.doubled else "."
 
 
-def breaking_table(rows: Sequence[Row]) -> str:
+def breaking_table(rows: Sequence[ExtremesRow]) -> str:
     """Return as text at which scale each method first misses a ray or sees a wrong surface.
 
     Behind a plus: where a ray first crosses more triangles than there are.
@@ -117,7 +117,7 @@ def _first_scale(point: BreakingPoint | None) -> str:
     return lost if point.doubled is None else f"{lost} +{written(point.doubled)}"
 
 
-def to_dict(rows: Sequence[Row]) -> dict[str, Any]:
+def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
     """Return what `extremes.json` holds."""
     return {
         "schema": SCHEMA,
@@ -135,7 +135,7 @@ def _about(some: Scenario | Map) -> dict[str, str]:
     return {"name": some.name, "title": some.title, "explanation": some.explanation}
 
 
-def write(directory: str | Path, rows: Sequence[Row]) -> None:
+def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
     """Write `extremes.txt`, `extremes.json` and the pictures, all or none, in a folder.
 
     Raises
@@ -161,7 +161,7 @@ def picture_names() -> list[str]:
     return ["breaking_points", *sweeps, *(f"map_{m.name}" for m in MAPS)]
 
 
-def pictures(rows: Sequence[Row]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
+def pictures(rows: Sequence[ExtremesRow]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
     """Yield the name and pixels, (h, w, 4) sRGB, row 0 at the bottom, of every picture.
 
     Raises

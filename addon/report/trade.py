@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from .. import images
 from ..methods import MEASURED, Method
-from ..study.trade import Row, Trade
+from ..study.trade import Trade, TradeRow
 from . import plots
 from .folders import finite, replacing, write_json
 from .tables import columns
@@ -72,7 +72,7 @@ def table(trade: Trade) -> str:
     )
 
 
-def _cells(r: Row, wrong: str) -> list[str]:
+def _cells(r: TradeRow, wrong: str) -> list[str]:
     pixels, coverage = (" *" if best else "  " for best in (r.best_pixels, r.best_coverage))
     t_error = "-" if r.largest_t_error is None else f"{r.largest_t_error:.1e}"
     return [
@@ -94,7 +94,7 @@ def to_dict(trade: Trade) -> dict[str, Any]:
     }
 
 
-def _row(r: Row) -> dict[str, Any]:
+def _row(r: TradeRow) -> dict[str, Any]:
     found = {name: getattr(r, name) for name in _HELD}
     return found | {n: finite(found[n]) for n in ("largest_t_error", "coverage_error")}
 
@@ -112,10 +112,10 @@ def write(directory: str | Path, trade: Trade) -> None:
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(trade))
-        images.save_png(new / PLOT, picture(trade))
+        images.save_png(new / PLOT, plot_picture(trade))
 
 
-def picture(trade: Trade) -> NDArray[np.uint8]:
+def plot_picture(trade: Trade) -> NDArray[np.uint8]:
     """Return the plot, (h, w, 4) sRGB, row 0 at the bottom.
 
     Wrong pixels are those of the methods side by side, coverage errors those of all rows. A line
@@ -177,12 +177,12 @@ def _wrong_pixels(axes: Axes, trade: Trade) -> list[_Name]:
     return [(r.slowest, y, _name(r)) for r, y in zip(rows, heights, strict=True) if _is_named(r)]
 
 
-def _name(r: Row) -> str:
+def _name(r: TradeRow) -> str:
     count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
     return f"{Method(r.method).words}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
 
 
-def _is_named(row: Row) -> bool:
+def _is_named(row: TradeRow) -> bool:
     return row.best_pixels or not row.wrong_pixels
 
 
@@ -209,7 +209,7 @@ def _coverage(axes: Axes, trade: Trade) -> list[_Name]:
     return list(names.values())
 
 
-def _points(axes: Axes, rows: list[Row], errors: Sequence[float], best: str) -> None:
+def _points(axes: Axes, rows: list[TradeRow], errors: Sequence[float], best: str) -> None:
     """Draw the rows, and the line of those that no other beats; `best` says by a row's field."""
     ordered = sorted(zip((r.seconds for r in rows), errors, rows, strict=True), key=lambda p: p[:2])
     front = [(x, y) for x, y, r in ordered if getattr(r, best)]

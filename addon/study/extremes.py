@@ -33,7 +33,7 @@ JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 
 
 @dataclass(frozen=True)
-class Row:
+class ExtremesRow:
     """What a method in a precision makes of a scenario at a scale; counts are of rays."""
 
     scenario: str
@@ -85,12 +85,12 @@ class BreakingPoint:
         return self.lost is None and self.doubled is None
 
 
-def breaking_points(rows: Sequence[Row]) -> list[BreakingPoint]:
+def breaking_points(rows: Sequence[ExtremesRow]) -> list[BreakingPoint]:
     """Return where each method first goes wrong in each sweep, in the order of the rows.
 
     Rows of a map have two scales, and no first one: they are left out.
     """
-    sweeps: dict[tuple[str, str, str], list[Row]] = {}
+    sweeps: dict[tuple[str, str, str], list[ExtremesRow]] = {}
     for row in rows:
         if row.across is None:
             sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
@@ -113,7 +113,7 @@ def written(scale: float | None) -> str:
 
 def measure(
     scenarios: Sequence[Scenario] = ALL, rays: int | None = None, judged: int = JUDGED
-) -> Work[list[Row]]:
+) -> Work[list[ExtremesRow]]:
     """Trace every scenario at every scale by every method; yields the share of the work done.
 
     Parameters
@@ -129,7 +129,7 @@ def measure(
     certainty.AssumptionError
         If nothing can be certified in this process.
     """
-    rows: list[Row] = []
+    rows: list[ExtremesRow] = []
     scenes = [(s, scale) for s in scenarios for scale in s.scales]
     for done, (scenario, scale) in enumerate(scenes):
         width, height = _size(scenario, rays)
@@ -151,7 +151,7 @@ def _size(scenario: Scenario, rays: int | None) -> tuple[int, int]:
     return max(1, round(rays / height)), height
 
 
-def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Settings) -> Row:
+def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Settings) -> ExtremesRow:
     scene, camera = truth.frame.scene, truth.frame.scene.camera
     frame = render(scene, settings)
 
@@ -164,7 +164,7 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     found = frame.triangle_index.ravel() != NOTHING
     wrong = np.flatnonzero(off & found)
     names = frame.instance_index.flat[wrong], frame.triangle_index.flat[wrong]
-    return Row(
+    return ExtremesRow(
         scenario.name,
         scale,
         settings.method.value,
@@ -202,7 +202,7 @@ def _largest_t_error(frame: Frame, certified: Frame) -> float | None:
     return float(errors.max())
 
 
-def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) -> Row:
+def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) -> ExtremesRow:
     frame, count = truth.frame, truth.count
     sees = frame.instance_index.ravel() != NOTHING
     # That the nearest is one of all, and that none of all is missed, holds for every ray.
@@ -223,7 +223,7 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
             error = abs(Fraction(t) - sight.t) / Fraction(float(np.spacing(t)))
             worst = max(worst or 0.0, float(error))
     statistics = frame.statistics
-    return Row(
+    return ExtremesRow(
         scenario.name,
         scale,
         Method.CERTIFIED.value,

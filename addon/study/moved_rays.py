@@ -54,7 +54,9 @@ def crosses(o: Vector, d: Vector, surface: Surface) -> bool:
     return min(u, v, det - u - v) > 0 or max(u, v, det - u - v) < 0
 
 
-def nearest(o: Vector, d: Vector, surfaces: Sequence[Surface], by: Sequence[Vector]) -> Name:
+def nearest_of_moved(
+    o: Vector, d: Vector, surfaces: Sequence[Surface], by: Sequence[Vector]
+) -> Name:
     """Return what a ray that is moved along `by` sees first; of equals, the lowest name."""
     o, d, surfaces = moved(o, d, surfaces, by)
     met = []

@@ -33,7 +33,7 @@ from .moved_rays import (
     meet,
     move,
     moved,
-    nearest,
+    nearest_of_moved,
     sub,
     turning_planes,
 )
@@ -79,8 +79,8 @@ def intersect_pairs(
     parts = []
     for at in range(0, corners.shape[2], AT_ONCE):
         part = slice(at, at + AT_ONCE)
-        lengths, scale = integers(np.concatenate((origins[:, part], *corners[:, :, part])))
-        d, direction_scale = integers(directions[:, part])
+        lengths, scale = scaled_integers(np.concatenate((origins[:, part], *corners[:, :, part])))
+        d, direction_scale = scaled_integers(directions[:, part])
         o, *points = lengths.reshape(4, 3, -1)
         det, u, v, numerator = meet(o, d, *points)
         rest = det - u - v
@@ -98,7 +98,7 @@ def intersect_pairs(
     return Intersections(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def integers(values: NDArray[np.float64]) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
+def scaled_integers(values: NDArray[np.float64]) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
     """Return floats (k, n) as integers and the exponent of each column: float = integer * 2^e."""
     mantissa, exponent = np.frexp(values)
     exponent = np.where(mantissa == 0, 5000, exponent.astype(np.int64))  # zero has none
@@ -149,7 +149,7 @@ class Sight:
             for s, r in product((1, -1), repeat=2):
                 beside = [s * x for x in along], [r * x for x in normal]
                 by = (move([0, 0, 0], beside, beside),)  # one way: o, if it moves, goes with d
-                found.add(nearest(o, d, surfaces, by))
+                found.add(nearest_of_moved(o, d, surfaces, by))
         return frozenset(found)
 
 
@@ -234,6 +234,6 @@ def _sight(o: NDArray[np.float64], d: NDArray[np.float64], meetings: list[Meetin
     if len(front) == 1 and sure is not None:
         seen = front[0].surface.name
     else:
-        seen = nearest(*in_integers(o, d, surfaces), THE_RULE) if front else NOWHERE
+        seen = nearest_of_moved(*in_integers(o, d, surfaces), THE_RULE) if front else NOWHERE
     t = next((m.t for m in front if m.surface.name == seen), None)
     return Sight(o, d, seen, t, sum(m.hit for m in meetings), surfaces, sure is not None)

@@ -19,7 +19,7 @@ FORGIVEN = 7  # of so many rounds, one may have been disturbed
 
 
 @dataclass(frozen=True)
-class Row:
+class TradeRow:
     """One choice, what it takes and what it gets wrong."""
 
     method: str
@@ -62,23 +62,23 @@ class Trade:
     """What was measured on a scene, and the advice that follows from it."""
 
     scene: str
-    rows: list[Row]
+    rows: list[TradeRow]
     advice: str
     converged: int  # samples a pixel and direction of the picture that coverage is held against
 
     @property
-    def whole(self) -> list[Row]:
+    def whole(self) -> list[TradeRow]:
         """The rows of the largest picture with one sample: the methods, side by side."""
         return whole(self.rows)
 
 
-def whole(rows: list[Row]) -> list[Row]:
+def whole(rows: list[TradeRow]) -> list[TradeRow]:
     """Return those of the largest picture with one sample."""
     width = max(r.width for r in rows)
     return [r for r in rows if r.width == width and r.samples == 1]
 
 
-def mark(rows: list[Row]) -> list[Row]:
+def mark(rows: list[TradeRow]) -> list[TradeRow]:
     """Return the rows with those marked that no other beats.
 
     One beats another if its error is smaller and the other is not measurably faster; or if the
@@ -86,7 +86,7 @@ def mark(rows: list[Row]) -> list[Row]:
     can't have as many wrong. Coverage is compared over all, as every picture is held against the
     same one.
     """
-    sizes: dict[tuple[int, int], list[Row]] = {}
+    sizes: dict[tuple[int, int], list[TradeRow]] = {}
     for r in rows:
         sizes.setdefault((r.width, r.height), []).append(r)
     return [
@@ -101,14 +101,14 @@ def mark(rows: list[Row]) -> list[Row]:
     ]
 
 
-def _beats(one: Row, other: Row, error: str) -> bool:
+def _beats(one: TradeRow, other: TradeRow, error: str) -> bool:
     mine, others = getattr(one, error), getattr(other, error)
     if mine == others:
         return one.seconds < other.seconds
     return mine < others and gain(other, one) <= 0
 
 
-def gain(fast: Row, slow: Row) -> float:
+def gain(fast: TradeRow, slow: TradeRow) -> float:
     """Return which part of `slow`'s time `fast` saves, 0 where the measurement does not tell.
 
     It does where the rounds agree on which is faster, all but one of seven: they were measured in
@@ -121,7 +121,7 @@ def gain(fast: Row, slow: Row) -> float:
     return 1 - median(f / s for f, s in pairs) if pairs and agree >= enough else 0.0
 
 
-def advice(rows: list[Row]) -> str:
+def advice(rows: list[TradeRow]) -> str:
     """Return, in one sentence, what float32 buys and costs here, and what the proof does."""
     if all(r.largest_t_error is None for r in whole(rows)):
         return NOTHING_SEEN
@@ -141,7 +141,7 @@ def advice(rows: list[Row]) -> str:
     )
 
 
-def _fastest(rows: list[Row]) -> Row:
+def _fastest(rows: list[TradeRow]) -> TradeRow:
     """Return the one with the fewest wrong pixels of those that none is measurably faster than."""
     first = min(rows, key=lambda r: r.seconds)
     equals = [r for r in rows if gain(first, r) <= 0]
@@ -154,7 +154,7 @@ def _buys(share: float) -> str:
     return f"buys {_percent(share)}" if share > 0 else f"takes {_times(1 - share)} float64"
 
 
-def _costs(one: Row, other: Row) -> str:
+def _costs(one: TradeRow, other: TradeRow) -> str:
     more = one.wrong_pixels - other.wrong_pixels
     if more == 0:
         return f"costs no {'further ' if other.wrong_pixels else ''}pixel of {one.pixels:,}"
@@ -164,7 +164,7 @@ def _costs(one: Row, other: Row) -> str:
     return f"costs {more:,} {further}wrong pixel{'s' * (more > 1)} of {one.pixels:,}"
 
 
-def _takes(share: float, rival: Row) -> str:
+def _takes(share: float, rival: TradeRow) -> str:
     count = f"{rival.wrong_pixels:,}" if rival.wrong_pixels else "no"
     wrong = f"{count} wrong pixel{'s' * (rival.wrong_pixels != 1)}"
     name = f"{Method(rival.method).words} in {rival.precision} ({wrong})"

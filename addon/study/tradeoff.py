@@ -22,7 +22,7 @@ from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
-from .trade import Row, Trade, advice, mark
+from .trade import Trade, TradeRow, advice, mark
 
 WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
 SMALLER = (1, 2, 4)  # the widths measured: the largest, a half and a quarter of it
@@ -42,7 +42,7 @@ SHORT = 0.25  # seconds
 # is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are MANY
 # rays, but at least twice as many as what is held against it.
 CONVERGED = 16
-MANY = 4_000_000
+MOST_SAMPLES = 4_000_000
 BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 
@@ -62,9 +62,9 @@ class _Choice:
         camera = self.scene.camera
         return self.settings.samples**2 * (camera.width * camera.height + self.scene.triangle_count)
 
-    def row(self) -> Row:
+    def row(self) -> TradeRow:
         s, camera, (wrong, t_error, coverage) = self.settings, self.scene.camera, self.errors
-        return Row(
+        return TradeRow(
             *(s.method.value, s.precision.value, s.samples, camera.width, camera.height),
             *(median(self.rounds), wrong, t_error, self.peak_bytes, coverage, tuple(self.rounds)),
         )
@@ -97,7 +97,7 @@ def measure(
     choices = choose(scene, min(WIDTH, scene.camera.width) if width is None else width, samples)
     camera = choices[0].scene.camera
     pixels, each = camera.width * camera.height, sum(c.cost for c in choices)
-    k = max(2 * samples, min(CONVERGED, int((MANY / pixels) ** 0.5)))
+    k = max(2 * samples, min(CONVERGED, int((MOST_SAMPLES / pixels) ** 0.5)))
     rays = k * k * pixels
     first, second = (cost / (rays + 6 * each) for cost in (rays, 2 * each))
     truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)

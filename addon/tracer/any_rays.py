@@ -94,14 +94,14 @@ def decide(
     hit[possible] = ~outside & (doubt == SURE)
     undecided[possible] = ~outside & (doubt != SURE)
     for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
-        batch = exact.Batch(rays.take(part), corners.take(part, axis=2), (), start, end)
+        batch = exact.IntegerBatch(rays.take(part), corners.take(part, axis=2), (), start, end)
         for k, pair in enumerate(part.tolist()):
             if found := batch.hit(k, k):
                 hit[pair], edge[pair] = found.is_hit(), found.on_edge
     return Decision(hit, edge, undecided)
 
 
-def nearest(
+def nearest_hits(
     rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
 ) -> Hits:
     """Return what n rays see of m triangles (3, 3, m), each ray tested with each triangle.

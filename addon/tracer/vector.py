@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 
 _TAKE_IS_FAST = np.lib.NumpyVersion(np.__version__) >= "2.0.0"
 
+Floats = NDArray[np.float64]
+Index = NDArray[np.integer]
 Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
 
 

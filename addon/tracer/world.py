@@ -15,14 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .camera import project
-from .vector import Arrays, transform_points
+from .vector import Arrays, Index, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
 
 BATCH = 1 << 14  # triangles looked at together: a few milliseconds of work, some MiB
-
-Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)

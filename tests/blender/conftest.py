@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 import pytest
 import reference_tracer
-from reference_tracer.blender.compare import compared, gather
+from reference_tracer.blender.compare import compared, gather_case
 from reference_tracer.blender.engine import export_for_render
 from reference_tracer.blender.export import export as export_depsgraph
 from reference_tracer.blender.temporary import temporary_scene
@@ -66,7 +66,7 @@ def compare():
     """Trace the open scene and compare it, as the button does."""
 
     def run(**choices: Any):
-        return result_of(compared(gather(bpy.context, **choices)))
+        return result_of(compared(gather_case(bpy.context, **choices)))
 
     return run
 

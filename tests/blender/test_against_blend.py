@@ -144,7 +144,7 @@ def test_a_picture_of_another_size(scene, drawn, judged):
 
 def test_the_file_is_read_as_blender_shows_it(scene, drawn, tmp_path):
     drawn(view_transform="Standard")
-    mine = images.load(tmp_path / "drawn.png")
+    mine = images.read_picture(tmp_path / "drawn.png")
     loaded = bpy.data.images.load(str(tmp_path / "drawn.png"))
     values = np.array(loaded.pixels[:], np.float32).reshape(54, 96, 4)
     np.testing.assert_allclose(images.encoded(mine.color)[..., 3], values[..., 3], atol=1e-6)

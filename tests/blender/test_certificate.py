@@ -7,7 +7,7 @@ from dataclasses import replace
 import bpy
 import pytest
 from reference_tracer.blender import engine as engine_module
-from reference_tracer.blender.compare import gather
+from reference_tracer.blender.compare import gather_case
 from reference_tracer.compare.certificate import CameraMismatchError
 
 from . import test_compare_scenes as settings
@@ -32,7 +32,7 @@ SETTINGS = (
 def test_every_camera_has_one(setting, build):
     build.scene(160, 90)
     setting(build)
-    found = gather(bpy.context).certificate
+    found = gather_case(bpy.context).certificate
     assert found.passed and found.largest < 0.01 and found.points > 1000
 
 
@@ -48,7 +48,7 @@ def test_another_camera_is_refused_before_any_picture(build, monkeypatch):
 
     monkeypatch.setattr(engine_module, "export", shifted)
     with pytest.raises(CameraMismatchError, match="not Blender's"):
-        gather(bpy.context)
+        gather_case(bpy.context)
     with pytest.raises(RuntimeError, match="not Blender's"):
         bpy.ops.reference_tracer.compare()
     assert not bpy.data.images

@@ -13,7 +13,7 @@ from reference_tracer.blender.compare import export_open_file
 from reference_tracer.blender.results import MARK
 from reference_tracer.compare.comparison import Comparison
 from reference_tracer.explain import document, reproducer
-from reference_tracer.explain.candidates import gather
+from reference_tracer.explain.candidates import gather_pixel
 from reference_tracer.explain.derivation import Derivation, derive
 
 ops = bpy.ops.reference_tracer
@@ -45,9 +45,9 @@ def test_explain_shows_the_derivation_of_the_export(suzanne, export):
     found = latest()
     scene, _ = export.render()  # what a comparison takes in background
     again = derive(scene, 60, 33, source="suzanne.blend")
-    assert document.markdown(found) == document.markdown(again)
+    assert document.document_markdown(found) == document.document_markdown(again)
     assert found.seen.object == "Suzanne"
-    assert text() == document.markdown(found)
+    assert text() == document.document_markdown(found)
 
 
 def test_a_second_pixel_takes_the_place_of_the_first(suzanne):
@@ -202,9 +202,9 @@ def test_no_picture_has_the_ray(suzanne, compare):
     entries = {e.name: e for e in drawn.manifest.objects}
     for obj in bpy.data.collections[ray_objects.NAME].objects:  # not dropped without a word
         assert not entries[obj.name].exported and entries[obj.name].reason
-    first = document.markdown(latest())
+    first = document.document_markdown(latest())
     ops.explain(**PIXEL)
-    assert document.markdown(latest()) == first
+    assert document.document_markdown(latest()) == first
 
 
 def test_undo_takes_one_step_each(suzanne):
@@ -234,7 +234,7 @@ def test_the_pixel_of_the_docs_is_the_sample_scenes(opened):
     """docs/pixel.json, which float32 gets wrong, is what the command there writes."""
     opened("exercise_perspective")
     scene, _, _ = export_open_file(bpy.context)
-    now, stored = gather(scene, 207, 192, limit=3), reproducer.read(DOCS / "pixel.json")
+    now, stored = gather_pixel(scene, 207, 192, limit=3), reproducer.read(DOCS / "pixel.json")
     np.testing.assert_array_equal(now.direction, stored.direction)
     assert [c.object for c in now.candidates] == [c.object for c in stored.candidates]
     for own, kept in zip(now.candidates, stored.candidates, strict=True):

@@ -8,7 +8,7 @@ import sys
 
 import bpy
 import pytest
-from reference_tracer.blender.judges import JUDGES, find
+from reference_tracer.blender.judges import JUDGES, judge_named
 from reference_tracer.scene import SceneError
 
 # A Blender of its own, in which the records have one more before anything else reads them.
@@ -80,6 +80,6 @@ def test_one_that_is_unknown_is_refused(name, opened, compare):
 def test_a_record_is_found_by_its_name():
     for name, judge in JUDGES.items():
         assert judge.name == name
-        assert find(name.upper(), background=True) is judge
-    assert find("AUTO", background=True) is JUDGES["workbench"]
-    assert find("AUTO", background=False).needs_window
+        assert judge_named(name.upper(), background=True) is judge
+    assert judge_named("AUTO", background=True) is JUDGES["workbench"]
+    assert judge_named("AUTO", background=False).needs_window

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.camera import view_window
-from reference_tracer.blender.compare import gather
+from reference_tracer.blender.compare import gather_case
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.picture import Picture
 from reference_tracer.tracer.progress import result_of
@@ -150,7 +150,7 @@ class Original:
     """What was gathered of a scene once, and its true comparison."""
 
     def __init__(self, context) -> None:
-        self.case = gather(context)
+        self.case = gather_case(context)
         self.scene, self.picture = self.case.scene, self.case.picture.color
         self.comparison = self.compared(self.scene, self.picture)
         self.frame = self.comparison.frame

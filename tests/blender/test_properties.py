@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 import pytest
-from reference_tracer.blender.properties import JUDGES, METHODS, PRECISIONS, SHADINGS
+from reference_tracer.blender.properties import JUDGE_ITEMS, METHOD_ITEMS, PRECISIONS, SHADINGS
 from reference_tracer.methods import Method
 from reference_tracer.tracer.settings import Precision, Settings
 
@@ -26,12 +26,17 @@ CASES = [(name, value) for name, values in STORED.items() for value in values]
 
 
 def test_numbers_are_those_that_were_released():
-    items = {"method": METHODS, "precision": PRECISIONS, "judge": JUDGES, "shading": SHADINGS}
+    items = {
+        "method": METHOD_ITEMS,
+        "precision": PRECISIONS,
+        "judge": JUDGE_ITEMS,
+        "shading": SHADINGS,
+    }
     assert {n: {i[0]: i[-1] for i in some} for n, some in items.items()} == STORED
 
 
 def test_every_method_and_precision_is_offered():
-    assert {i[0] for i in METHODS} == {m.value for m in Method}
+    assert {i[0] for i in METHOD_ITEMS} == {m.value for m in Method}
     assert {i[0] for i in PRECISIONS} == {p.value for p in Precision}
 
 

@@ -96,7 +96,7 @@ def test_every_scale_is_a_scene_or_says_why_not():
                 assert "cannot be a scene in Blender" in str(error)
     assert opened_ones.keys() == BY_NAME.keys() | STORED_ELSEWHERE
     assert opened_ones["far_from_origin"] == list(BY_NAME["far_from_origin"].scales)
-    assert max(opened_ones["huge"]) == 1e38 or max(opened_ones["huge"]) == 1e20
+    assert max(opened_ones["huge"]) == 1e38
     assert 1 in opened_ones["tiny"]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import viewport
 from reference_tracer.blender.camera import export_camera
-from reference_tracer.blender.judges import JUDGES, find
+from reference_tracer.blender.judges import JUDGES, judge_named
 from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.compare.comparison import SizeError
 
@@ -29,7 +29,7 @@ def pictured(scene, judge="workbench", like_for_like=True):
     camera = export_camera(scene)
     layer = bpy.context.view_layer.name
     with temporary_scene(scene) as copy:
-        viewport.prepare(copy, like_for_like)
+        viewport.prepare_scene(copy, like_for_like)
         return viewport.picture(copy, layer, JUDGES[judge], camera, like_for_like)
 
 
@@ -38,7 +38,7 @@ def pictured(scene, judge="workbench", like_for_like=True):
 )
 def test_the_judge_in_background(judge, source):
     assert bpy.app.background
-    assert find(judge, bpy.app.background) is JUDGES[source]
+    assert judge_named(judge, bpy.app.background) is JUDGES[source]
 
 
 def test_row_0_is_the_bottom_row(scene, build):
@@ -136,7 +136,7 @@ def test_compositor_and_sequencer_are_not_in_the_picture(extra, scene, build):
 def test_a_picture_of_another_size_is_an_error(scene):
     camera = export_camera(scene)
     with temporary_scene(scene) as copy:
-        viewport.prepare(copy, True)
+        viewport.prepare_scene(copy, True)
         copy.render.resolution_x = 64
         with pytest.raises(SizeError, match="64 x 54 pixels, the camera's region 96 x 54"):
             viewport.picture(copy, bpy.context.view_layer.name, JUDGES["workbench"], camera, True)

@@ -208,4 +208,4 @@ def test_every_error_reaches_as_far_as_it_is_large(rng, monkeypatch, rows, shape
             reach = int(2 ** np.ceil(np.log2(max(own[y, x], 1))))
             near = expected[max(0, y - reach) : y + reach + 1, max(0, x - reach) : x + reach + 1]
             np.maximum(near, own[y, x], out=near)
-        assert np.array_equal(result_of(bounds.spread(own)), expected)
+        assert np.array_equal(result_of(bounds.spread_error(own)), expected)

@@ -9,7 +9,7 @@ import pytest
 from reference_tracer.compare import causes
 from reference_tracer.compare.cause import Cause, Record
 from reference_tracer.compare.comparison import compare
-from reference_tracer.report.comparison import difference
+from reference_tracer.report.comparison import difference_picture
 from reference_tracer.report.page.content import _hex, content
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -57,7 +57,9 @@ def test_a_new_cause_is_everywhere_by_its_record_and_its_check(room, comet):
     assert "  comet: 10, as at (4, 3)" in "\n".join(found.lines())
     held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
     assert held == {key: getattr(COMET, key) for key in ("number", "label", "sentence", "unit")}
-    assert np.array_equal(difference(found)[3:5, 4:9, :3], np.full((2, 5, 3), COMET.color, "f4"))
+    assert np.array_equal(
+        difference_picture(found)[3:5, 4:9, :3], np.full((2, 5, 3), COMET.color, "f4")
+    )
     [entry] = [c for c in content(found)["causes"] if c["name"] == "comet"]
     assert entry["label"] == "Comet" and entry["pixels"] == 10 and entry["value"] == 42
     assert entry["color"] == _hex(COMET.color) and entry["sentence"] == COMET.sentence

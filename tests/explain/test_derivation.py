@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
-from reference_tracer.explain.formulas import Reason
+from reference_tracer.explain.formulas import Rejection
 from reference_tracer.explain.textbook import Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
@@ -34,7 +34,7 @@ def reasons(scene, index=0):
     said = {test.verdicts[kind].reasons for kind in Arithmetic}
     assert len(said) == 1 and found.seen is None
     assert found.color == pytest.approx((0.2, 0.3, 0.4, 0.5))
-    for text in (document.markdown(found), html.page(found), writers.json_text(found)):
+    for text in (document.document_markdown(found), html.page(found), writers.json_text(found)):
         assert "nothing" in text
     return said.pop()
 
@@ -82,15 +82,15 @@ def test_a_hit(one_triangle):
 @pytest.mark.parametrize(
     ("triangle", "reason"),
     [
-        (shifted(x=0.7)[1:] + shifted(x=0.7)[:1], Reason.S1_NEGATIVE),
-        (shifted(x=0.7)[2:] + shifted(x=0.7)[:2], Reason.S3_NEGATIVE),
-        (shifted(x=0.7), Reason.S2_NEGATIVE),
-        (shifted(x=-0.7), Reason.S1_NEGATIVE),
-        (shifted(z=8), Reason.BEHIND),
-        (shifted(z=3.75), Reason.BEFORE_CLIP_START),
-        (shifted(z=-200), Reason.BEYOND_CLIP_END),
-        ([(0, 0, -4), (1, 0, -4), (-1, 0, -4)], Reason.DEGENERATE),
-        ([(0, -1, -3), (0, 1, -3), (0, 0, -9)], Reason.PARALLEL),
+        (shifted(x=0.7)[1:] + shifted(x=0.7)[:1], Rejection.S1_NEGATIVE),
+        (shifted(x=0.7)[2:] + shifted(x=0.7)[:2], Rejection.S3_NEGATIVE),
+        (shifted(x=0.7), Rejection.S2_NEGATIVE),
+        (shifted(x=-0.7), Rejection.S1_NEGATIVE),
+        (shifted(z=8), Rejection.BEHIND),
+        (shifted(z=3.75), Rejection.BEFORE_CLIP_START),
+        (shifted(z=-200), Rejection.BEYOND_CLIP_END),
+        ([(0, 0, -4), (1, 0, -4), (-1, 0, -4)], Rejection.DEGENERATE),
+        ([(0, -1, -3), (0, 1, -3), (0, 0, -9)], Rejection.PARALLEL),
     ],
 )
 @pytest.mark.parametrize("projection", PROJECTIONS.values(), ids=PROJECTIONS)
@@ -100,12 +100,12 @@ def test_why_not(one_triangle, triangle, reason, projection):
 
 
 def test_planes(one_triangle):
-    assert reasons(one_triangle(planes=[((0, -1, 0), (0, 1, 0))])) == (Reason.PARALLEL,)
-    assert reasons(one_triangle(planes=[((0, 0, 5), (0, 1, 2))])) == (Reason.BEHIND,)
+    assert reasons(one_triangle(planes=[((0, -1, 0), (0, 1, 0))])) == (Rejection.PARALLEL,)
+    assert reasons(one_triangle(planes=[((0, 0, 5), (0, 1, 2))])) == (Rejection.BEHIND,)
     found = derive(one_triangle(shifted(z=-9), planes=[((0, 0, -8), (0, 1, 2))]), 1, 1)
     assert found.seen.is_plane and found.seen.object == "Thing 1"
     assert found.color == pytest.approx((0.5, 0.5, 0, 1))  # alpha is 1 on every surface
-    assert "infinite plane" in document.markdown(found)
+    assert "infinite plane" in document.document_markdown(found)
 
 
 def test_an_edge_is_ambiguous(one_triangle):
@@ -114,7 +114,7 @@ def test_an_edge_is_ambiguous(one_triangle):
     assert found.certified.certainty == Certainty.AMBIGUOUS
     assert found.certified.ties == {(0, 0), (1, 0)}
     assert [t.verdicts[Arithmetic.EXACT].accepted for t in found.tests] == [True, True]
-    assert "may be said to see" in document.markdown(found)
+    assert "may be said to see" in document.document_markdown(found)
     assert len(writers.to_dict(found)["certified"]["may_be_seen"]) == 2
 
 
@@ -129,7 +129,7 @@ def test_the_limit_keeps_what_is_seen_and_what_is_tied(one_triangle):
     names = [t.candidate.name for t in tied.tests]
     assert names == [(5, 0), (6, 0), (7, 0), (8, -1)]
     assert tied.pixel.left_out == 5 and tied.certified.seen == (5, 0)
-    assert "5 are left out" in document.markdown(tied)
+    assert "5 are left out" in document.document_markdown(tied)
     whole = derive(one_triangle(*farther, FACING), 1, 1, limit=99)
     assert [t.candidate.instance for t in whole.tests] == [5, 0, 1, 2, 3, 4]  # by t
     assert whole.pixel.left_out == 0
@@ -145,7 +145,7 @@ def test_of_a_border(one_triangle):
     part = replace(scene, camera=replace(scene.camera, region=Region(1, 1, 3, 3)))
     found = derive(part, 0, 0)
     assert found.certified.t == 4 and (found.pixel.column, found.pixel.row) == (1, 1)
-    assert "pixel (1, 1) of the whole" in document.markdown(found)
+    assert "pixel (1, 1) of the whole" in document.document_markdown(found)
 
 
 @pytest.mark.parametrize(("x", "y", "name"), [(3, 0, "x"), (-1, 0, "x"), (0, 3, "y"), (0, -1, "y")])
@@ -191,7 +191,7 @@ def test_colors_between_corners(make):
         s = found.certified.s[[0, 2, 1]]
         swapped = (colors[found.certified.seen[1], :, :3] * s[:, None]).sum(axis=0)
         assert np.abs(swapped - exact).max() > 1e-3
-        assert "weighed by s₁, s₂, s₃" in document.markdown(found)
+        assert "weighed by s₁, s₂, s₃" in document.document_markdown(found)
 
 
 def test_from_inside_what_is_behind_is_told(make):
@@ -201,7 +201,7 @@ def test_from_inside_what_is_behind_is_told(make):
     found = derive(make.scene(make.camera(9, 9), front, back, across), 4, 5)
     said = [(t.candidate.object, t.verdicts[Arithmetic.EXACT]) for t in found.tests]
     assert ("Front", True) in [(name, j.accepted) for name, j in said]
-    assert ("Back", (Reason.BEHIND,)) in [(name, j.reasons) for name, j in said]
+    assert ("Back", (Rejection.BEHIND,)) in [(name, j.reasons) for name, j in said]
     assert "Across" in [name for name, _ in said]
 
 
@@ -214,7 +214,7 @@ def test_at_the_ends_of_floats(one_triangle, scale):
     assert not found.tests[0].verdicts[Arithmetic.FLOAT32].accepted
     content = json.loads(writers.json_text(found))
     assert content["certified"]["t"] == 4
-    assert "rejects what is truly hit" in document.markdown(found)
+    assert "rejects what is truly hit" in document.document_markdown(found)
     html.page(found)
 
 
@@ -227,7 +227,7 @@ def test_triangles_that_are_not_finite_are_counted(one_triangle):
         replace(scene, meshes=[scene.meshes[0], mesh], instances=[scene.instances[0], moved]), 1, 1
     )
     assert found.pixel.refused == 1 and found.certified.seen == (0, 0)
-    assert "not finite" in document.markdown(found)
+    assert "not finite" in document.document_markdown(found)
 
 
 def test_a_miss_of_float32_is_said(make):
@@ -235,7 +235,7 @@ def test_a_miss_of_float32_is_said(make):
     from .conftest import ball
 
     scene = ball(make, far=1e6)
-    told = [document.markdown(derive(scene, x, 9)) for x in range(8, 16)]
+    told = [document.document_markdown(derive(scene, x, 9)) for x in range(8, 16)]
     assert any("Float32 rejects what is truly hit" in t or "Float32 accepts" in t for t in told)
 
 
@@ -249,6 +249,6 @@ def test_a_color_that_is_not_finite(make, value):
     scene = make.scene(make.camera(4, 4), mesh)
     found = derive(scene, 1, 1)
     np.testing.assert_array_equal(np.float32(found.color), render(scene).color[1, 1])
-    assert "not finite" in document.markdown(found) and "not finite" in html.page(found)
+    assert "not finite" in document.document_markdown(found) and "not finite" in html.page(found)
     linear = json.loads(writers.json_text(found))["color"]["linear_rgba"]
     assert linear == [0.5, 0.5, str(value), 1.0]

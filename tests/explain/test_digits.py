@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from reference_tracer.explain.digits import (
     EXACT_DIGITS,
+    digits_text,
     exact_text,
     marked,
     off_text,
-    text,
     ulps,
     unit_in_last_place,
 )
@@ -25,9 +25,9 @@ def test_floats_read_back_to_the_bit(rng, kind):
     finite = [v for v in (*values, kind(0), kind(-0.0), np.finfo(kind).max) if np.isfinite(v)]
     assert len(finite) > 2000
     for value in finite:
-        again = kind(float(text(value)))  # by way of float64, as a JSON reader goes
+        again = kind(float(digits_text(value)))  # by way of float64, as a JSON reader goes
         assert again == value and np.signbit(again) == np.signbit(value)
-    assert text(kind(np.inf)) == "inf" and text(kind(np.nan)) == "nan"
+    assert digits_text(kind(np.inf)) == "inf" and digits_text(kind(np.nan)) == "nan"
 
 
 def test_exact_numbers_are_correctly_rounded(rng):

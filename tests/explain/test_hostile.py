@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.explain import document, html, reproducer, writers
-from reference_tracer.explain.candidates import gather
+from reference_tracer.explain.candidates import gather_pixel
 from reference_tracer.explain.derivation import derive, derive_pixel
 from reference_tracer.explain.textbook import FLOATS, Arithmetic
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -35,7 +35,7 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
             y, x = divmod(index, region.width)
             found = derive(scene, x, y, limit=int(rng.integers(1, 9)))
             certified = found.certified
-            every = {c.name for c in gather(scene, x, y, limit=10**6).candidates}
+            every = {c.name for c in gather_pixel(scene, x, y, limit=10**6).candidates}
             for answer in found.answers:  # whatever is left out, these are the pictures' own
                 frame = plain[answer.method, answer.precision]
                 seen = int(frame.instance[index]), int(frame.triangle[index])
@@ -56,10 +56,14 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
                 seen = None if nearest is None else found.tests[nearest].candidate
                 assert seen is found.seen
                 disagreed += any(found.nearest[kind] != nearest for kind in FLOATS)
-        texts = document.markdown(found), html.page(found), writers.json_text(found)
+        texts = document.document_markdown(found), html.page(found), writers.json_text(found)
         json.loads(texts[2])
         path = tmp_path / f"{number}.json"
         path.write_text(reproducer.text(found.pixel), encoding="utf-8")
         again = derive_pixel(reproducer.read(path))
-        assert (document.markdown(again), html.page(again), writers.json_text(again)) == texts
+        assert (
+            document.document_markdown(again),
+            html.page(again),
+            writers.json_text(again),
+        ) == texts
     assert {Certainty.BOUND, Certainty.AMBIGUOUS} <= kinds and disagreed and kept

@@ -127,7 +127,7 @@ def test_no_table_is_cut_off(derivation, chromium, width):
 
 def test_the_numbers_are_those_of_the_markdown(derivation):
     expected = []
-    for _, columns, _ in tables(document.markdown(derivation)):
+    for _, columns, _ in tables(document.document_markdown(derivation)):
         for label in columns["float32"]:
             row = (
                 columns[kind].get(label, "undefined") for kind in ("float32", "float64", "exact")
@@ -149,7 +149,9 @@ def test_names_are_text(ball_scene, name):
     reader = read(html.page(found))
     assert "script" not in reader.tags
     assert any(name in piece for piece in reader.text)
-    rows = [line for line in document.markdown(found).splitlines() if line.startswith("| 2.")]
+    rows = [
+        line for line in document.document_markdown(found).splitlines() if line.startswith("| 2.")
+    ]
     assert len(rows) == len(found.tests)
     assert {row.replace("\\|", "").count("|") for row in rows} == {10}  # no cell more
 

@@ -35,7 +35,7 @@ def derivations(ball_scene):
 def test_markdown(derivations):
     compared = 0
     for d in derivations:
-        tables = printed.tables(document.markdown(d))
+        tables = printed.tables(document.document_markdown(d))
         assert len(tables) == 2 + len(d.tests)
         (_, camera, _), (_, ray, _), *tests = tables
         c = d.pixel.camera

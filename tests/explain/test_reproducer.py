@@ -8,7 +8,7 @@ from copy import deepcopy
 import numpy as np
 import pytest
 from reference_tracer.explain import document, html, reproducer, writers
-from reference_tracer.explain.candidates import gather
+from reference_tracer.explain.candidates import gather_pixel
 from reference_tracer.explain.derivation import derive, derive_pixel
 from reference_tracer.scene import SceneError
 
@@ -17,7 +17,9 @@ from reference_tracer.scene import SceneError
 def saved(ball_scene, tmp_path):
     """The file of a pixel of the ball, and what is in it."""
     path = tmp_path / "pixel.json"
-    path.write_text(reproducer.text(gather(ball_scene, 12, 9, source="ball")), encoding="utf-8")
+    path.write_text(
+        reproducer.text(gather_pixel(ball_scene, 12, 9, source="ball")), encoding="utf-8"
+    )
     return path, json.loads(path.read_text(encoding="utf-8"))
 
 
@@ -29,7 +31,7 @@ def test_the_same_derivation_again(ball_scene, tmp_path, pixel, limit):
     first = derive(ball_scene, *pixel, limit=limit, source="ball.npz")
     path.write_text(reproducer.text(first.pixel), encoding="utf-8")
     again = derive_pixel(reproducer.read(path))
-    assert document.markdown(again) == document.markdown(first)
+    assert document.document_markdown(again) == document.document_markdown(first)
     assert html.page(again) == html.page(first)
     assert writers.json_text(again) == writers.json_text(first)
     assert reproducer.text(again.pixel) == path.read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from reference_tracer.compare.comparison import SCHEMA, compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
-from reference_tracer.report.comparison import difference, failure_written, write
+from reference_tracer.report.comparison import difference_picture, failure_written, write
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -160,7 +160,7 @@ def test_every_cause_has_a_colour_of_its_own(comparison):
     shown = set()
     for cause in colored:
         comparison.causes.cause[...] = cause
-        picture = difference(comparison)
+        picture = difference_picture(comparison)
         assert picture.shape == (9, 12, 4) and picture.dtype == np.float32
         shown.add(tuple(np.round(picture[5, 5], 3)))
     assert len(shown) == len(colored)

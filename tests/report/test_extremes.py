@@ -18,7 +18,7 @@ from reference_tracer.report.extremes import (
     to_dict,
     write,
 )
-from reference_tracer.study.extremes import Row
+from reference_tracer.study.extremes import ExtremesRow
 from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS
 
 from ..scenarios import quick
@@ -33,7 +33,7 @@ CHOICES = [("textbook", "float32"), ("textbook", "float64"), ("certified", "floa
 def rows():
     """Made up: methods break in the middle of each sweep; certified doesn't."""
     return [
-        Row(
+        ExtremesRow(
             s.name,
             scale,
             *choice,
@@ -137,7 +137,7 @@ def test_grey_is_explained_only_where_there_is_grey(seen, rows, monkeypatch):
 
 
 def row(scale, missed=0, wrong=0, doubled=0, method="watertight"):
-    return Row("tiny", scale, method, "float64", 200, missed, doubled, wrong, 0)
+    return ExtremesRow("tiny", scale, method, "float64", 200, missed, doubled, wrong, 0)
 
 
 def test_tables():

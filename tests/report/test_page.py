@@ -80,7 +80,9 @@ def test_surfaces_and_t_are_those_of_the_frame(room, orthographic, float32):
     assert np.array_equal(hit, frame.instance_index >= 0) and hit.any() and len(seen.instance) > 20
     assert np.array_equal(seen.instance[seen.number[hit] - 1], frame.instance_index[hit])
     assert np.array_equal(seen.triangle[seen.number[hit] - 1], frame.triangle_index[hit])
-    held = {k: unpacked(v) for k, v in arrays.table(scene, seen).items() if k != "instances"}
+    held = {
+        k: unpacked(v) for k, v in arrays.surface_table(scene, seen).items() if k != "instances"
+    }
     assert held["vertices"].dtype == (np.float32 if float32 else np.float64)
     offsets = arrays.t_offsets(scene, frame, seen)
     assert (offsets < 1 << 13).all()  # twice the ulp: so near is the formula to the proven t

@@ -14,8 +14,8 @@ from reference_tracer import images
 from reference_tracer.methods import Method
 from reference_tracer.report import plots
 from reference_tracer.report import trade as trade_report
-from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, picture, table, write
-from reference_tracer.study.trade import Row, Trade, mark
+from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, plot_picture, table, write
+from reference_tracer.study.trade import Trade, TradeRow, mark
 from reference_tracer.tracer.settings import Precision
 
 pytestmark = pytest.mark.slow
@@ -37,7 +37,7 @@ def made(wrong=(3742, 3052, 41, 0, 2, 0, 0, 0, 0), coverage=0.03, samples=(1, 2,
             rounds = 0.9 * seconds, seconds, 1.2 * seconds
             error = coverage / k * (1 + 4 * (method == "textbook_literal"))
             rows.append(
-                Row(
+                TradeRow(
                     *(method, precision, k, 160, 90, seconds, count, 1e-5, 11 << 20),
                     *(error, rounds),
                 )
@@ -54,7 +54,7 @@ def trade():
 
 @pytest.fixture(scope="module")
 def plot(trade):
-    return picture(trade)
+    return plot_picture(trade)
 
 
 def test_table(trade):
@@ -146,7 +146,7 @@ def shows(plot, color):
 
 def test_plot_shows_the_line_of_the_best(plot, trade):
     none = [replace(r, best_pixels=False, best_coverage=False) for r in trade.rows]
-    assert shows(plot, plots.INK) > shows(picture(replace(trade, rows=none)), plots.INK) + 2000
+    assert shows(plot, plots.INK) > shows(plot_picture(replace(trade, rows=none)), plots.INK) + 2000
 
 
 @pytest.mark.parametrize(
@@ -160,7 +160,7 @@ def test_plot_shows_the_line_of_the_best(plot, trade):
 )
 def test_plot_of_odd_trades(case):
     """Nothing wrong, all wrong, a coverage without error, one sample."""
-    assert len(np.unique(picture(made(**case)).view(np.uint32))) > 50
+    assert len(np.unique(plot_picture(made(**case)).view(np.uint32))) > 50
 
 
 def test_plots_keep_off_matplotlibs_global_state():
@@ -201,7 +201,7 @@ def test_names_in_a_plot_are_apart_or_left_out():
 def test_the_headline_has_the_scenes_name(trade, monkeypatch):
     said = []
     monkeypatch.setattr(plots, "headline", lambda figure, text: said.append(text))
-    picture(replace(trade, advice="word " * 60))
+    plot_picture(replace(trade, advice="word " * 60))
     lines = said[0].splitlines()
     assert lines[0].startswith("a scene.blend: word") and max(map(len, lines)) <= 132
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study import extremes
-from reference_tracer.study.extremes import Row, breaking_points, measure, written
+from reference_tracer.study.extremes import ExtremesRow, breaking_points, measure, written
 from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -223,7 +223,9 @@ def test_the_number_of_rays_can_be_chosen():
 
 
 def row(scale, missed=0, wrong=0, doubled=0, scenario="tiny", across=None, method="watertight"):
-    return Row(scenario, scale, method, "float64", 200, missed, doubled, wrong, 0, across=across)
+    return ExtremesRow(
+        scenario, scale, method, "float64", 200, missed, doubled, wrong, 0, across=across
+    )
 
 
 def test_breaking_points():

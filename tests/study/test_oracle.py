@@ -13,8 +13,8 @@ from reference_tracer.study.oracle import (
     EDGE,
     INSIDE,
     OUTSIDE,
-    integers,
     intersect_pairs,
+    scaled_integers,
     scene_sights,
     sights,
 )
@@ -175,7 +175,7 @@ def test_the_range_is_closed_and_a_ray_does_not_meet_where_it_begins():
 def test_integers_are_the_floats(rng):
     values = rng.normal(size=(3, 50)) * 10.0 ** rng.integers(-300, 300, (3, 50))
     values[:, 0], values[:, 1] = (0, -0.0, 5e-324), 0
-    whole, exponent = integers(values)
+    whole, exponent = scaled_integers(values)
     assert exponent.min() < -1000
     for floats, ints, e in zip(values.T, whole.T, exponent, strict=True):
         assert [Fraction(n) * Fraction(2) ** int(e) for n in ints] == fractions(floats)[0]

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.trade import Row, Trade, advice, gain, mark
+from reference_tracer.study.trade import Trade, TradeRow, advice, gain, mark
 from reference_tracer.tracer.settings import Precision
 
 
@@ -16,7 +16,7 @@ def row(method="textbook", precision="float64", seconds=1.0, wrong=0, coverage=0
     rounds = options.pop("rounds", (seconds,) * 3)
     size = options.pop("width", 160), options.pop("height", 90)
     samples = options.pop("samples", 1)
-    return Row(method, precision, samples, *size, seconds, wrong, 0.0, 1000, coverage, rounds)
+    return TradeRow(method, precision, samples, *size, seconds, wrong, 0.0, 1000, coverage, rounds)
 
 
 def beats(first, second):

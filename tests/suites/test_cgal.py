@@ -15,7 +15,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays
 
 from .meshes import bumpy_sphere, corners_of
@@ -80,7 +80,7 @@ def test_first_hit_is_the_least_of_all():
     o, d = rng.uniform(-6, 6, (3, 1000)), rng.uniform(-1, 1, (3, 1000))
     chosen = rng.choice(corners.shape[2], 150, replace=False)
     corners = corners[:, :, chosen]
-    seen = nearest(Rays(o, d), corners)
+    seen = nearest_hits(Rays(o, d), corners)
     expected = [s.seen for s in sights(o, d, corners)]
     assert [(int(i), int(k)) for i, k in zip(seen.instance, seen.triangle, strict=True)] == expected
     hit = np.flatnonzero(seen.triangle >= 0)

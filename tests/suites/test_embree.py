@@ -21,7 +21,7 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, drop_non_finite
 from reference_tracer.study.oracle import scene_sights
-from reference_tracer.tracer.any_rays import nearest
+from reference_tracer.tracer.any_rays import nearest_hits
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
@@ -66,7 +66,7 @@ def test_watertight_plane(rng, n):
     at_vertices = corners[0, :, rng.integers(corners.shape[2], size=RAYS)].T - o
     for d in (anywhere, at_vertices[:, (np.abs(at_vertices[1:]) < 5.9).all(axis=0)]):
         assert (crossings(o, d, corners).counts == 1).all()
-        seen = nearest(Rays(o, d[:, :100]), corners)
+        seen = nearest_hits(Rays(o, d[:, :100]), corners)
         assert (seen.t * d[0, :100] == 3).all()
         assert (crossings(o, d, corners, Method.WATERTIGHT).counts >= 1).all()
 
@@ -77,7 +77,7 @@ def test_triangle_hit(rng):
     u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])[:, :, None]
     rays = Rays(np.array([[0], [0], [-1.0]]), np.stack((u, v, np.ones(256))))
-    hits = nearest(rays, corners)
+    hits = nearest_hits(rays, corners)
     ulp = 16 * np.finfo(np.float64).eps
     assert (hits.triangle == 0).all() and (hits.t == 1).all()
     assert np.abs(hits.s - np.stack((1 - u - v, u, v))).max() <= ulp
@@ -100,7 +100,7 @@ def test_small_triangle_hit(rng, make, distance, count):
     o = distance * rng.uniform(-1, 1, (3, count))
     facing = np.abs(turn[:, 2] @ o) / np.linalg.norm(o, axis=0)
     o = np.where(facing > 0.1, o, distance * turn[:, 2:])  # not along the plane
-    seen = nearest(Rays(o, middle - o), corners)
+    seen = nearest_hits(Rays(o, middle - o), corners)
     assert np.array_equal(seen.triangle, which)
     assert np.abs(seen.t - 1).max() < 0.1 / distance + 1e-15 * distance
 

@@ -11,7 +11,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays
 
 from .families import FAMILIES, at_any_size, generic, whole_numbers
@@ -66,7 +66,7 @@ def test_t_is_correctly_rounded(rng, shared, lengths, directions):
         d = d * 2.0 ** rng.integers(-8, 9, 400)
         if shared == "direction":
             o, d = target - away[:, :1] * rng.uniform(0.5, 2, 400), d[:, :1]
-        seen = nearest(Rays(o, d), corners)
+        seen = nearest_hits(Rays(o, d), corners)
         o, d = (np.broadcast_to(v, (3, 400)) for v in (o, d))
         result = intersect_pairs(o, d, corners.repeat(400, axis=2))
         hit = np.flatnonzero(result.within() & result.hit)
@@ -118,8 +118,8 @@ def test_the_clip_range_is_exact_at_its_ends(rng):
                 assert decide(*pair, limit).hit.item() == (limit <= exact)
                 assert decide(*pair, 0.0, limit).hit.item() == (exact <= limit)
                 assert decide(*pair, limit, limit).hit.item() == (exact == limit)
-                assert (nearest(*pair, limit).triangle == 0).item() == (limit <= exact)
-                assert (nearest(*pair, -1.0, limit).triangle == 0).item() == (exact <= limit)
+                assert (nearest_hits(*pair, limit).triangle == 0).item() == (limit <= exact)
+                assert (nearest_hits(*pair, -1.0, limit).triangle == 0).item() == (exact <= limit)
             told += exact != near
     assert 50 < told < 200
 
@@ -129,12 +129,12 @@ def test_the_least_and_the_most_that_there_can_be():
     none = np.zeros((3, 0))
     assert decide(Rays(none, none), np.zeros((3, 3, 0))).hit.shape == (0,)
     ray = Rays(np.zeros((3, 1)), np.array([[0], [0], [1.0]]))
-    assert nearest(ray, np.zeros((3, 3, 0))).triangle.tolist() == [-1]
+    assert nearest_hits(ray, np.zeros((3, 3, 0))).triangle.tolist() == [-1]
     corners = np.array([[-1.0, -1, 1], [2, -1, 1], [0, 3, 1]])[:, :, None]
     for o, d in (((0, 0, 0), (0, 0, 0)), ((0, 0, 1), (0, 0, 0)), ((-1, -1, 1), (0, 0, 0))):
         still = Rays(np.array(o, float)[:, None], np.array(d, float)[:, None])
         assert not decide(still, corners).hit.any()
-        assert nearest(still, corners).triangle.tolist() == [-1]
+        assert nearest_hits(still, corners).triangle.tolist() == [-1]
     points = corners[:, :, [0, 0]] * 0
     both = Rays(np.zeros((3, 2)), np.array([[0, 1], [0, 0], [1.0, 0]]))
     assert not decide(both, points).hit.any() and not decide(both, points + 1).hit.any()

@@ -12,7 +12,7 @@ import trimesh
 from reference_tracer.methods import Method
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.study.oracle import intersect_pairs
-from reference_tracer.tracer.any_rays import nearest
+from reference_tracer.tracer.any_rays import nearest_hits
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
@@ -53,7 +53,7 @@ def test_robust_flag(side, turned):
     found = crossings(o, d, corners, all_pairs=True)
     assert (found.counts == 1).all()
     assert found.edge.all() == (not turned)
-    assert np.array_equal(nearest(Rays(o, d), corners).triangle[found.ray], found.triangle)
+    assert np.array_equal(nearest_hits(Rays(o, d), corners).triangle[found.ray], found.triangle)
     plain = crossings(o, d, corners, Method.WATERTIGHT, all_pairs=True)
     assert (plain.counts >= 1).all() and (plain.counts == 2).any()
 
@@ -82,7 +82,7 @@ def test_stairs(make):
         rays = of_pixels(camera)
         o = rays.origins
         x, y = o[:2].reshape(2, rows, n)
-        naive = nearest(rays, corners_of(vertices, triangles))
+        naive = nearest_hits(rays, corners_of(vertices, triangles))
         any_hit = crossings(
             o, rays.directions.repeat(x.size, axis=1), corners_of(vertices, triangles)
         )

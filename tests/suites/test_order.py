@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import sights
-from reference_tracer.tracer.any_rays import nearest
+from reference_tracer.tracer.any_rays import nearest_hits
 from reference_tracer.tracer.camera import Rays
 
 from .families import FAMILIES, SIZES, at_any_size
@@ -58,7 +58,7 @@ def test_the_order_of_hits(rng, kind, share, start, count):
     seen = behind = open_answers = 0
     for _ in range(count):
         o, d, corners = layers(rng, kind, share, start < 0)
-        hits = nearest(Rays(o, d), corners, start)
+        hits = nearest_hits(Rays(o, d), corners, start)
         o, d = (np.broadcast_to(v, (3, 40)) for v in (o, d))
         expected = sights(o, d, corners, start=start)
         off = np.array([not begins_on(o[:, k], corners) for k in range(40)]) | (start == 0)
@@ -93,7 +93,7 @@ def test_surfaces_through_where_the_rays_begin(rng, share, start):
         d = rng.normal(size=(3, 1 if share == "direction" else 20))
         if share != "origin":
             o = o + rng.integers(-2, 3, (3, 20)) * 2.0**-53
-        hits = nearest(Rays(o, d), corners, start)
+        hits = nearest_hits(Rays(o, d), corners, start)
         o, d = (np.broadcast_to(v, (3, 20)) for v in (o, d))
         off = [k for k in range(20) if start == 0 or not begins_on(o[:, k], corners)]
         expected = sights(o, d, corners, start=start)
@@ -108,7 +108,7 @@ def test_ties_name_all_that_moved_rays_see(rng, kind, share):
     """`ties` misses nothing that some infinitesimally moved ray sees, and makes nothing up."""
     for _ in range(20):
         o, d, corners = layers(rng, kind, share)
-        hits = nearest(Rays(o, d), corners)
+        hits = nearest_hits(Rays(o, d), corners)
         o, d = (np.broadcast_to(v, (3, 40)) for v in (o, d))
         for ray, sight in enumerate(sights(o, d, corners)):
             ties = hits.ties.get(ray, frozenset((sight.seen,)))
@@ -130,7 +130,7 @@ def test_batches_at_any_size(share, count):
                     o = o[:, :1]
                 if share == "direction":
                     d = d[:, :1]
-                hits = nearest(Rays(o, d), corners[:, :, ::2])
+                hits = nearest_hits(Rays(o, d), corners[:, :, ::2])
                 o, d = (np.broadcast_to(v, (3, 24)) for v in (o, d))
                 expected = [s.seen[1] for s in sights(o, d, corners[:, :, ::2])]
                 assert hits.triangle.tolist() == expected

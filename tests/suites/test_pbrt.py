@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.vector import cross, dot
 
@@ -66,7 +66,7 @@ def test_watertight_without_a_cull_and_by_the_nearest(rng):
         assert (found.winding() == 1).all()
         assert np.array_equal(found.ray, culled.ray)
         assert np.array_equal(found.triangle, culled.triangle)
-        seen = nearest(Rays(o, d), corners)
+        seen = nearest_hits(Rays(o, d), corners)
         assert (seen.triangle >= 0).all() and (seen.instance == 0).all()
         clear = np.isin(np.arange(500), found.ray[found.edge], invert=True)
         assert np.array_equal(seen.triangle[clear], found.nearest()[clear])
@@ -167,7 +167,7 @@ def test_behind_its_first_hit_a_ray_goes_on_by_the_exact_order(rng):
     for ray in range(300):
         start, layers = 0.0, []
         one = Rays(o[:, [ray]], d[:, [ray]])
-        while (hit := nearest(one, corners, start)).triangle[0] >= 0:
+        while (hit := nearest_hits(one, corners, start)).triangle[0] >= 0:
             layers.append(int(hit.triangle[0]))
             start = np.nextafter(hit.t[0], np.inf)
         assert sorted(layers) == sorted(all_of.triangle[all_of.ray == ray])

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays
 
 from .meshes import box, corners_of, cylinder, on_sphere
@@ -65,7 +65,7 @@ def test_a_grid_of_rays_at_a_box(size):
     # The rule moves rays towards +X, then +Y: those on the lower edges enter the box.
     assert (found.counts == 2).all()
     assert not found.winding().any()
-    seen = nearest(Rays(o, d), BOX * size)
+    seen = nearest_hits(Rays(o, d), BOX * size)
     assert np.array_equal(seen.t, np.full(x.size, 1.5 * size))
     at_upper = np.stack((0.5 + 0 * y.ravel(), y.ravel(), np.full(x.size, -2.0))) * size
     assert not crossings(at_upper, d, BOX * size, all_pairs=True).counts.any()
@@ -91,18 +91,18 @@ def test_together_as_one_by_one(rng):
     """What shares a batch, an origin or a direction does not matter to any ray."""
     o = on_sphere(rng, 60, 3.0)
     target = rng.uniform(-0.7, 0.7, (3, 60))
-    together = nearest(Rays(o, target - o), BOX)
+    together = nearest_hits(Rays(o, target - o), BOX)
     assert 10 < (together.triangle < 0).sum() < 50
     for k in range(60):
-        one = nearest(Rays(o[:, [k]], (target - o)[:, [k]]), BOX)
+        one = nearest_hits(Rays(o[:, [k]], (target - o)[:, [k]]), BOX)
         assert (one.triangle, one.t) == (together.triangle[k], together.t[k])
     shared = o[:, :1], target - o[:, :1]
     spread = np.broadcast_to(shared[0], shared[1].shape)
-    given, wanted = nearest(Rays(*shared), BOX), nearest(Rays(spread, shared[1]), BOX)
+    given, wanted = nearest_hits(Rays(*shared), BOX), nearest_hits(Rays(spread, shared[1]), BOX)
     assert np.array_equal(given.triangle, wanted.triangle) and np.array_equal(given.t, wanted.t)
     parallel = np.array([[0.25], [0.5], [1]])
     spread = np.broadcast_to(parallel, o.shape)
-    given, wanted = nearest(Rays(o, parallel), BOX), nearest(Rays(o, spread), BOX)
+    given, wanted = nearest_hits(Rays(o, parallel), BOX), nearest_hits(Rays(o, spread), BOX)
     assert np.array_equal(given.triangle, wanted.triangle) and np.array_equal(given.t, wanted.t)
 
 

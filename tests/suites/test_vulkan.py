@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.scene import Mesh, ViewWindow
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
@@ -89,7 +89,7 @@ def test_closed_fan(rng, count, how, snap):
     o, d = fan_rays(vertices, how, rng)
     found = crossings(o, d, corners)
     assert (found.counts == 1).all()
-    seen = nearest(Rays(o, d), corners)
+    seen = nearest_hits(Rays(o, d), corners)
     assert np.array_equal(seen.triangle[found.ray], found.triangle)
     if snap is not None and how != "any":
         decision = decide(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.certainty import Certainty
 
@@ -32,7 +32,7 @@ def test_a_closed_mesh_has_no_holes():
     ambiguous = 0
     for o in inside.T[::5]:
         rays = Rays(o[:, None], targets - o[:, None])
-        hits = nearest(rays, corners)
+        hits = nearest_hits(rays, corners)
         assert (hits.t == 1).all()
         ray, row = np.divmod(np.arange(targets.shape[1] * 12), 12)
         crossed = decide(rays.take(ray), corners[..., row]).hit

@@ -6,7 +6,7 @@ import re
 
 import pytest
 from reference_tracer.tracer import memory
-from reference_tracer.tracer.frame import BYTES_PER_PIXEL, Frame
+from reference_tracer.tracer.frame import FRAME_BYTES_PER_PIXEL, Frame
 from reference_tracer.tracer.memory import PictureTooLargeError, check_memory, free_memory
 from reference_tracer.tracer.render import render
 
@@ -14,7 +14,7 @@ from reference_tracer.tracer.render import render
 def test_the_share_of_a_pixel_is_that_of_the_arrays(make):
     arrays = Frame.empty(make.scene(make.camera(7, 5))).arrays()
     del arrays["rows_done"]
-    assert sum(a.nbytes for a in arrays.values()) == 7 * 5 * BYTES_PER_PIXEL
+    assert sum(a.nbytes for a in arrays.values()) == 7 * 5 * FRAME_BYTES_PER_PIXEL
 
 
 def test_free_memory_is_known_here():

@@ -26,7 +26,7 @@ _SUM = "s₁ + s₂ + s₃"
 def blocks(name: str) -> list[str]:
     """The Markdown of a pixel: that of docs/pixel.json, or of a lesson."""
     found = derive(scene(name), *OF_LESSONS[name]) if name else derive_pixel(reproducer.read(PIXEL))
-    return document.markdown(found).split("\n\n")
+    return document.document_markdown(found).split("\n\n")
 
 
 def after(name: str, heading: str, *which: int) -> str:

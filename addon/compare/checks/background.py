@@ -71,7 +71,7 @@ def find_background(
         yield 0.0
     if not np.isfinite(color).all() or same < NEARLY_ALL * nothing.sum():
         return None
-    found = yield from colors.find(frame, picture, interior, curves)
+    found = yield from colors.find_transform(frame, picture, interior, curves)
     transform = found.of if found else None
     one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
     if not one.other_color(own[None])[0]:

@@ -51,7 +51,9 @@ def check(pixels: OpenPixels) -> Work[None]:
         return
     else:
         interior = pixels.open & ~boundary(pixels.frame)
-        found = yield from find(pixels.frame, pixels.picture, interior, pixels.case.curves)
+        found = yield from find_transform(
+            pixels.frame, pixels.picture, interior, pixels.case.curves
+        )
         if found is None:
             return
         pixels.out.transform = found.name
@@ -69,7 +71,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         yield 1.0
 
 
-def find(
+def find_transform(
     frame: Frame, picture: Picture, interior: NDArray[np.bool_], more: Sequence[Curve] = ()
 ) -> Work[Curve | None]:
     """Return the transform that makes a picture's (h, w) differing surfaces agree, or None.

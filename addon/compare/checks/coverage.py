@@ -26,7 +26,7 @@ INWARD = 2.0**-20
 # A triangle is only taken to have been missed near its edge where it is higher than this, in widths
 # of the band. Else every triangle of a fine mesh, or of a fan of needles, would be near its edge,
 # and a fault could hide behind that. (That a sliver was missed is seen by the samples around it.)
-LARGE = 16
+LEAST_HEIGHT = 16
 
 
 @dataclass(eq=False)
@@ -60,7 +60,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
         longest = np.max([np.hypot(*(corners[i] - corners[i - 1])) for i in range(3)], axis=0)
         (ux, uy), (vx, vy) = corners[1] - corners[0], corners[2] - corners[0]
         with np.errstate(invalid="ignore"):
-            thin = np.abs(ux * vy - uy * vx) < LARGE * own * longest  # its least height is
+            thin = np.abs(ux * vy - uy * vx) < LEAST_HEIGHT * own * longest  # its least height is
             certain = np.flatnonzero((rim > own) | thin | np.isnan(rim))
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
         test_pairs(scene, settings, centres, some.take(certain), sure)

@@ -53,7 +53,7 @@ def size(value: Any) -> int:
 
 
 @dataclass(frozen=True, eq=False)
-class Surfaces:
+class SeenSurfaces:
     """The k surfaces that are seen, and which of them each pixel sees."""
 
     number: NDArray[np.int32]  # (h, w): 0 for none, else one more than the index into the others
@@ -61,20 +61,20 @@ class Surfaces:
     triangle: NDArray[np.int32]
 
 
-def seen(frame: Frame) -> Surfaces:
+def seen(frame: Frame) -> SeenSurfaces:
     """Return the surfaces that a frame sees, each once."""
     instance, triangle = (a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index))
     names = np.where(instance == NOTHING, -1, (instance << 32) | (triangle + 1))
     unique, number = np.unique(np.append(names.ravel(), -1), return_inverse=True)
     number = number.ravel()[:-1].reshape(names.shape)
-    return Surfaces(
+    return SeenSurfaces(
         number.astype(np.int32),
         (unique[1:] >> 32).astype(np.int32),
         ((unique[1:] & 0xFFFFFFFF) - 1).astype(np.int32),
     )
 
 
-def table(scene: Scene, surfaces: Surfaces) -> dict[str, Any]:
+def surface_table(scene: Scene, surfaces: SeenSurfaces) -> dict[str, Any]:
     """Return the surfaces as the page has them: whose they are, and their corners.
 
     Vertices are in object space, those that a seen triangle has; `matrices` are the rows of
@@ -106,7 +106,7 @@ def table(scene: Scene, surfaces: Surfaces) -> dict[str, Any]:
     }
 
 
-def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.uint64]:
+def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.uint64]:
     """Return by how many ulp the traced t is above that of the textbook's formula, (h, w).
 
     The page computes the formula's t by itself. With these small numbers it has the traced t to the
@@ -129,7 +129,7 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: Surfaces) -> NDArray[np.uint
     return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
 
 
-def _textbook_t(scene: Scene, rays: Rays, surfaces: Surfaces, number: NDArray) -> NDArray:
+def _textbook_t(scene: Scene, rays: Rays, surfaces: SeenSurfaces, number: NDArray) -> NDArray:
     """Return the textbook's t of each ray (n,) with the surface of its number; 0 for none."""
     out = np.zeros(len(number))
     count = len(scene.instances)

@@ -18,7 +18,7 @@ from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import MissingLibraryError, data_uri, to_display
 from ...scene import Camera
-from ...study.extremes import Row
+from ...study.extremes import ExtremesRow
 from ...study.trade import Trade
 from ...tracer.certified.certainty import Certainty
 from ...tracer.frame import Frame
@@ -30,7 +30,7 @@ from .arrays import packed
 from .extras import Extras
 
 SCHEMA = "reference_tracer.page/1"
-LIMIT = 32 << 20  # characters of the packed arrays: what a browser still opens at once
+MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser still opens at once
 
 _CERTAINTY = {
     Certainty.NOT_CERTIFIED: "floating point alone decided, without a proof",
@@ -41,7 +41,7 @@ _CERTAINTY = {
 
 
 def content(
-    comparison: Comparison, extras: Extras | None = None, limit: int = LIMIT
+    comparison: Comparison, extras: Extras | None = None, limit: int = MOST_CHARACTERS
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
@@ -167,7 +167,7 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
 
 
 def _by_priority(
-    comparison: Comparison, seen: arrays.Surfaces
+    comparison: Comparison, seen: arrays.SeenSurfaces
 ) -> list[tuple[str, str, Callable[[], dict[str, Any]]]]:
     """Return the name, description and maker of each optional array, the most useful first."""
     scene, frame = comparison.scene, comparison.frame
@@ -175,17 +175,17 @@ def _by_priority(
     colors = "The linear colours of every pixel (those of the screen are there)"
     both = {"traced": frame.color, "blender": comparison.picture}
     return [
-        ("surfaces", triangles, lambda: arrays.table(scene, seen)),
+        ("surfaces", triangles, lambda: arrays.surface_table(scene, seen)),
         ("t_offset", "The last bits of t", lambda: packed(arrays.t_offsets(scene, frame, seen))),
         ("colors", colors, lambda: {side: packed(color) for side, color in both.items()}),
     ]
 
 
 def _trade_plots(trade: Trade) -> Iterable[tuple[str, NDArray[np.uint8]]]:
-    yield "tradeoff", trade_report.picture(trade)
+    yield "tradeoff", trade_report.plot_picture(trade)
 
 
-def _extremes_dict(rows: Sequence[Row]) -> dict[str, Any]:
+def _extremes_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
     """Return what `extremes.json` holds, without its thousands of rows, which the plots show."""
     return {k: v for k, v in extremes_report.to_dict(rows).items() if k != "rows"}
 

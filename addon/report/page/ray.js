@@ -6,6 +6,29 @@ const camera = page.camera;
 const column = (k, sign = 1) => camera.world_from_camera.slice(0, 3).map((row) => sign * row[k]);
 const AXES = { right: column(0), up: column(1), forward: column(2, -1), origin: column(3) };
 
+// What tells the types of cameras apart, by their `orthographic`: how their rays begin and where they
+// go, as formulas and as arithmetic. `across` is u right + v up.
+const CAMERAS = new Map([
+  [
+    false,
+    {
+      origin: "o = camera",
+      direction: "d = u right + v up + forward",
+      ray: (axes, across, plus) => [axes.origin, plus(across, axes.forward)],
+    },
+  ],
+  [
+    true,
+    {
+      origin: "o = camera + u right + v up",
+      direction: "d = forward",
+      ray: (axes, across, plus) => [plus(axes.origin, across), axes.forward],
+    },
+  ],
+]);
+const projection = CAMERAS.get(camera.orthographic);
+if (!projection) throw new Error(`this page has no rays of a ${camera.orthographic} camera`);
+
 /** The ray x = o + t d through the centre of a pixel; t is the depth along the view axis. */
 function cameraRay(x, y, precision) {
   const { round, add, mul, plus, times } = arithmetic(precision);
@@ -16,9 +39,8 @@ function cameraRay(x, y, precision) {
   const v = add(round(bottom), mul(round(film[1]), size[1]));
   const axes = Object.fromEntries(Object.entries(AXES).map(([name, a]) => [name, a.map(round)]));
   const across = plus(times(u, axes.right), times(v, axes.up));
-  return camera.orthographic
-    ? { film, size, u, v, origin: plus(axes.origin, across), direction: axes.forward }
-    : { film, size, u, v, origin: axes.origin, direction: plus(across, axes.forward) };
+  const [origin, direction] = projection.ray(axes, across, plus);
+  return { film, size, u, v, origin, direction };
 }
 
 /** A surface by its number (1 is the first): whose it is, and its corners in the world. */

@@ -23,15 +23,10 @@ function formula(text) {
 
 /** The steps: a name, a formula, and what its value is in a result. */
 function stepsOf(surface) {
-  const { orthographic } = camera;
   const steps = [
     ["Through the film at", "u, v", (r) => [r.ray.u, r.ray.v]],
-    ["Origin", orthographic ? "o = camera + u right + v up" : "o = camera", (r) => r.ray.origin],
-    [
-      "Direction",
-      orthographic ? "d = forward" : "d = u right + v up + forward",
-      (r) => r.ray.direction,
-    ],
+    ["Origin", projection.origin, (r) => r.ray.origin],
+    ["Direction", projection.direction, (r) => r.ray.direction],
   ];
   if (!surface) return steps;
   if (surface.plane) {

@@ -83,7 +83,7 @@ def sheet(
     points = np.broadcast_to(rays.at(t), (3, len(x))).T
     triangles = lattice(columns, rows, rng.integers(0, 2, columns * rows))
     behind = view.origin - 2 * near * view.forward if around else None
-    return closed(points, triangles, boundary(columns, rows), behind)
+    return closed(points, triangles, lattice_rim(columns, rows), behind)
 
 
 def closed(points: NDArray, triangles: NDArray, rim: NDArray, apex: NDArray | None) -> Mesh:
@@ -109,7 +109,7 @@ def lattice(columns: int, rows: int, split: NDArray | int = 0) -> NDArray[np.int
     return np.stack((first.T, second.T), axis=1).reshape(-1, 3)
 
 
-def boundary(columns: int, rows: int) -> NDArray[np.int64]:
+def lattice_rim(columns: int, rows: int) -> NDArray[np.int64]:
     """Return the corners around a lattice, in order."""
     index = np.arange((columns + 1) * (rows + 1)).reshape(rows + 1, columns + 1)
     return np.concatenate((index[0, :-1], index[:-1, -1], index[-1, :0:-1], index[:0:-1, 0]))
@@ -147,7 +147,7 @@ def grid(
     """Return a flat lattice of cells: its first corner, and what spans the whole of it."""
     v, u = (w.ravel()[:, None] for w in np.mgrid[: rows + 1, : columns + 1])
     points = corner + (u / columns) * across + (v / rows) * along
-    return closed(points, lattice(columns, rows, split), boundary(columns, rows), apex)
+    return closed(points, lattice(columns, rows, split), lattice_rim(columns, rows), apex)
 
 
 def scene(view: Camera, *meshes: Mesh, matrices: tuple[NDArray, ...] = ()) -> Scene:
@@ -158,7 +158,7 @@ def scene(view: Camera, *meshes: Mesh, matrices: tuple[NDArray, ...] = ()) -> Sc
     return Scene(view, meshes, instances, background=(0.0, 0.0, 0.0, 1.0), objects=names)
 
 
-def moved(by: NDArray | tuple[float, float, float]) -> NDArray[np.float64]:
+def translation(by: NDArray | tuple[float, float, float]) -> NDArray[np.float64]:
     """Return the matrix of an object that is moved."""
     matrix = np.eye(4)
     matrix[:3, 3] = by

@@ -14,16 +14,16 @@ from .parts import (
     BESIDE,
     TURNED,
     TURNED_39,
-    boundary,
     camera,
     closed,
     generator,
     grid,
     lattice,
-    moved,
+    lattice_rim,
     scene,
     sheet,
     sphere,
+    translation,
 )
 
 RIGHT, UP, BACKWARD = TURNED.T
@@ -137,7 +137,7 @@ def degenerate_faces(copies: float, width: int, height: int) -> Scene:
     points = corner + j * across + i * up
     meshes = [Mesh(points, lattice(columns, rows, split), name="Wall")]
     if copies:
-        rim = boundary(columns, rows)[:columns]
+        rim = lattice_rim(columns, rows)[:columns]
         line = (rim[:-2, None] + np.arange(rows)[None] * (columns + 1)).ravel()
         empty = np.stack((line, line + 1, line + 2), axis=1)  # three corners in a row
         point = np.stack((line, line + 1, line), axis=1)
@@ -167,7 +167,7 @@ def far_from_origin(distance: float, width: int, height: int, size: float = 1.0)
     """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
     centre = distance * AWAY
     view = camera(width, height, 1.0, eye=centre + size * EYE, near=1e-3 * size, far=1e3 * size)
-    return scene(view, sphere(2.0 * size, 8), matrices=(moved(centre),))
+    return scene(view, sphere(2.0 * size, 8), matrices=(translation(centre),))
 
 
 def far_corners(distance: float, width: int, height: int) -> Scene:
@@ -240,4 +240,4 @@ def stored_float32(offset: float, width: int, height: int) -> Scene:
     view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
     points = (ball.vertices + centre).astype(np.float32)
     mesh = Mesh(points, ball.triangles, name="Sphere")
-    return scene(view, mesh, matrices=(moved(-centre),))
+    return scene(view, mesh, matrices=(translation(-centre),))

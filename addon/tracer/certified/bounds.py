@@ -24,15 +24,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..vector import Vectors, cross, dot, largest
+from ..vector import Floats, Vectors, cross, dot, largest
 
 U = 2.0**-53
 BOUND = 12 * U
 SLACK = 2.0**-1060
 # Of the bound on t: its own few roundings, relative.
 _LOOSE = 1 + 2.0**-48
-
-Floats = NDArray[np.float64]
 
 
 def bound(magnitude: Floats, w: Vectors) -> Floats:

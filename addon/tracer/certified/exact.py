@@ -67,7 +67,7 @@ class Hit(NamedTuple):
         return signs in ({1}, {-1})
 
 
-def compare(first: Hit, second: Hit, moves: Moves = PERTURBATION) -> int:
+def sign_of_difference(first: Hit, second: Hit, moves: Moves = PERTURBATION) -> int:
     """Return the sign of t1 - t2 for the moved ray; 0 only for what lies in one plane."""
     apart = first.numerator * second.denominator - second.numerator * first.denominator
     sign = _sign(apart, *crossing(first, second), first.direction, moves)
@@ -83,7 +83,7 @@ def crossing(first: Hit, second: Hit) -> tuple[Integers, Integers]:
     return w, ZERO if first.numerator else _cross(first.normal, second.normal)
 
 
-class Batch:
+class IntegerBatch:
     """Rays, triangles and planes as integers. Surfaces are the planes, then the triangles.
 
     Parameters

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ..camera import Rays
 from ..vector import dot
 from .bounds import bound
-from .exact import Batch
+from .exact import IntegerBatch
 
 NEARER, COPLANAR, FARTHER, UNDECIDED = -1, 0, 1, 2
 
@@ -33,8 +33,8 @@ def applies(rays: Rays, start: float) -> bool:
     return start >= 0 if from_one_point else parallel
 
 
-def compare(
-    around: Rays, rays: Rays, batch: Batch, first: NDArray[np.intp], second: NDArray[np.intp]
+def order_of(
+    around: Rays, rays: Rays, batch: IntegerBatch, first: NDArray[np.intp], second: NDArray[np.intp]
 ) -> NDArray[np.int8]:
     """Return how the first of two surfaces lies, of n rays that surely hit both.
 
@@ -68,7 +68,9 @@ def compare(
     return np.where(coplanar, COPLANAR, order).astype(np.int8)
 
 
-def _difference(batch: Batch, first: int, second: int, shared_origin: bool) -> tuple[float, ...]:
+def _difference(
+    batch: IntegerBatch, first: int, second: int, shared_origin: bool
+) -> tuple[float, ...]:
     """Return f0, v (or 0, w), and the sign of D1 D2, each rounded once; 0 all for one plane.
 
     One power of two scales f0 and v alike, so that the largest of them is near 1.

@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..vector import Vectors, gather, largest, parts
+from ..vector import Floats, Vectors, gather, largest, parts
 from .bounds import U
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
@@ -39,7 +39,6 @@ _LOOSE = 1 + 2.0**-40  # the bounds' own roundings
 BITS = 25  # of the high halves that `halves` leaves
 _SPLITTER = 2.0**27 + 1  # leaves halves of 26 digits, whose products are exact
 
-Floats = NDArray[np.float64]
 Pair = tuple[Floats, Floats]  # high + low, |low| <= u |high|
 Sum = tuple[Floats, Floats, Floats]  # high, low, error
 

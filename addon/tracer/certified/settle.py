@@ -21,7 +21,7 @@ from . import exact, order
 from .certainty import Certainty
 from .reasons import Reason, of_doubts
 from .surfaces import CLIP, EDGE, SURE, TOGETHER, Candidates, Prepared, Surfaces
-from .ties import nearest
+from .ties import seen_and_ties
 
 # Candidates that are decided at a time, which takes some ten milliseconds.
 BY_ORDER = 1 << 14
@@ -116,7 +116,7 @@ class Decisions:
             at = np.flatnonzero(count > number)
             other = start[at] + number
             some = self.rays.take(found.ray[other])
-            result = order.compare(self.around, some, batch, surface[first[at]], surface[other])
+            result = order.order_of(self.around, some, batch, surface[first[at]], surface[other])
             decided[at[result == order.UNDECIDED]] = False
             tied[other] = result == order.COPLANAR
             beaten = result == order.FARTHER
@@ -135,7 +135,7 @@ class Decisions:
         tied = []
         for ray, group in groups.items():
             of_ray = [(names[k], hit) for k, hit in group if hit]
-            seen, ties = nearest(of_ray, (NOTHING, NOTHING))
+            seen, ties = seen_and_ties(of_ray, (NOTHING, NOTHING))
             self.hits.certainty[ray] = Certainty.AMBIGUOUS if ties else Certainty.EXACT
             tied += [(ray, *name) for name in ties]
             firsts[ray] = None
@@ -164,7 +164,7 @@ class Decisions:
                 doubt, of_plane = found.doubt[k], found.surface[k] < planes
                 if doubt == SURE:  # to be hit, but as near as another, for all the bounds know
                     if hit is not first:
-                        same = hit and first and exact.compare(hit, first) == 0
+                        same = hit and first and exact.sign_of_difference(hit, first) == 0
                         out.append(Reason.COPLANAR if same else Reason.CLOSE)
                 elif doubt == EDGE and hit and hit.on_edge:
                     out.append(Reason.EDGE)

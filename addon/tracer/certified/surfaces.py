@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import NOTHING, Hits
-from ..vector import Arrays, Vectors, cross, dot, gather, parts
+from ..vector import Arrays, Index, Vectors, cross, dot, gather, parts
 from ..world import WorldTriangles
 from . import exact
 from .quotient import Quotients
 
-Index = NDArray[np.intp]
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
 TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
@@ -71,11 +70,13 @@ class Surfaces:
 
     def integers(
         self, rays: Rays, ray: Index, surface: Index, start: float = -np.inf, end: float = np.inf
-    ) -> tuple[exact.Batch, list[int], list[int]]:
+    ) -> tuple[exact.IntegerBatch, list[int], list[int]]:
         """Return rays and surfaces as integers, with where pairs of them, (c,) each, are there."""
         which, ray = np.unique(ray, return_inverse=True)
         some, surface = self.only(surface)
-        batch = exact.Batch(rays.take(which), some.triangles.corners, self.planes, start, end)
+        batch = exact.IntegerBatch(
+            rays.take(which), some.triangles.corners, self.planes, start, end
+        )
         return batch, ray.tolist(), surface.tolist()
 
 

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from functools import cmp_to_key
 
 from ..hits import Name
-from .exact import PERTURBATION, Hit, Integers, Moves, compare, crossing, gap, turning
+from .exact import PERTURBATION, Hit, Integers, Moves, crossing, gap, sign_of_difference, turning
 
 
-def nearest(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int, frozenset[Name]]:
+def seen_and_ties(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int, frozenset[Name]]:
     """Return which of these hits of one ray is seen, and whatever else may be.
 
     `nothing` is the name of what is seen where nothing is.
@@ -95,7 +95,7 @@ def _first(hits: Sequence[tuple[Name, Hit]], moves: Moves) -> int:
     best = -1
     for k, (name, m) in enumerate(hits):
         if m.is_hit(moves):
-            order = compare(m, hits[best][1], moves) if best >= 0 else -1
+            order = sign_of_difference(m, hits[best][1], moves) if best >= 0 else -1
             if order < 0 or (order == 0 and name < hits[best][0]):
                 best = k
     return best

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
 from reference_tracer.tracer import any_rays
-from reference_tracer.tracer.any_rays import decide, nearest
+from reference_tracer.tracer.any_rays import decide, nearest_hits
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -77,7 +77,7 @@ def share(o, d, what):
 
 def check(rays, corners, start=0.0, end=np.inf) -> Hits:
     """Assert that all is as the oracle says."""
-    hits = nearest(rays, corners, start, end)
+    hits = nearest_hits(rays, corners, start, end)
     origins, directions = (
         np.broadcast_to(v, (3, len(hits.t))) for v in (rays.origins, rays.directions)
     )
@@ -115,8 +115,8 @@ def test_nearest(rng, family, what):
 def test_the_scale_does_not_matter(rng, family, scale, what):
     """Powers of two: the very same picture, also where every product under- or overflows."""
     o, d, c = family(rng)
-    plain = nearest(share(o, d, what), c)
-    hits = nearest(share(o * 2.0**scale, d, what), c * 2.0**scale)
+    plain = nearest_hits(share(o, d, what), c)
+    hits = nearest_hits(share(o * 2.0**scale, d, what), c * 2.0**scale)
     assert np.array_equal(hits.triangle, plain.triangle) and hits.ties == plain.ties
     assert np.array_equal(hits.t, plain.t * 2.0**scale)
     assert np.allclose(hits.s, plain.s, rtol=0, atol=1e-9)
@@ -223,7 +223,7 @@ def test_batches_and_their_parts_do_not_matter(rng, together, what, monkeypatch)
     """Two batches, each in parts, the second first: as all triangles at once."""
     o, d, c = whole(rng)
     rays = share(o, d, what)
-    expected = nearest(rays, c)
+    expected = nearest_hits(rays, c)
     names = np.arange(TRIANGLES, dtype=np.int32)
     every = WorldTriangles(c, np.zeros_like(names), names)
     ray, row = (v.ravel() for v in np.meshgrid(np.arange(RAYS), np.arange(11), indexing="ij"))
@@ -239,7 +239,7 @@ def test_batches_and_their_parts_do_not_matter(rng, together, what, monkeypatch)
         assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
     assert hits.ties == expected.ties
     monkeypatch.setattr(any_rays, "PAIRS", together)
-    again = nearest(rays, c)
+    again = nearest_hits(rays, c)
     assert np.array_equal(again.t, expected.t) and again.ties == expected.ties
     assert statistics.pairs_exact == sum(statistics.reasons.values()) > 0
     assert statistics.reasons[Reason.EDGE] > 0
@@ -247,6 +247,6 @@ def test_batches_and_their_parts_do_not_matter(rng, together, what, monkeypatch)
 
 def test_no_triangles_and_no_rays():
     some = Rays(np.zeros((3, 1)), np.ones((3, 4)))
-    hits = nearest(some, np.zeros((3, 3, 0)))
+    hits = nearest_hits(some, np.zeros((3, 3, 0)))
     assert np.isinf(hits.t).all() and (hits.certainty == Certainty.BOUND).all()
     assert len(decide(Rays(np.zeros((3, 1)), np.ones((3, 0))), np.zeros((3, 3, 0))).hit) == 0

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.exact import Batch, Hit, compare, integers
-from reference_tracer.tracer.certified.ties import nearest
+from reference_tracer.tracer.certified.exact import Hit, IntegerBatch, integers, sign_of_difference
+from reference_tracer.tracer.certified.ties import seen_and_ties
 
 from ..rational import functions, plane_functions, rational, rounded
 
@@ -30,7 +30,7 @@ def hits(rng, count=PAIRS, scale=0, **clip):
     """Return rays, triangles, and what meets; the rays all begin in their own corner."""
     o, d, c = small(rng, 3, count), small(rng, 3, count), small(rng, 3, 3, count)
     o, c = o * 2.0**scale, c * 2.0**scale
-    batch = Batch(Rays(o, d), c, **clip)
+    batch = IntegerBatch(Rays(o, d), c, **clip)
     return o, d, c, batch, [batch.hit(k, k) for k in range(count)]
 
 
@@ -39,7 +39,7 @@ def one_ray(rng, count, planes=0):
     o, d = small(rng, 3, 1), small(rng, 3, 1)
     c = small(rng, 3, 3, count)
     solids = [(v[:3], v[3:]) for v in small(rng, planes, 6) if v[3:].any()]
-    batch = Batch(Rays(o, d), c, solids)
+    batch = IntegerBatch(Rays(o, d), c, solids)
     names = [(1, k) for k in range(len(solids))] + [(0, k) for k in range(count)]
     found = [(name, batch.hit(0, k)) for k, name in enumerate(names)]
     return o, d, c, solids, [(name, m) for name, m in found if m]
@@ -101,7 +101,7 @@ def test_compare_is_the_order_of_the_moved_rays_t(rng):
         for a, first in hits:
             for b, second in hits:
                 gap = depths[a] - depths[b]
-                assert compare(first, second) == (gap > 0) - (gap < 0)
+                assert sign_of_difference(first, second) == (gap > 0) - (gap < 0)
                 ties += a != b and abs(gap) < Fraction(1, 2**1000)
     assert ties > 20
 
@@ -111,7 +111,7 @@ def test_compare_is_an_order(rng):
     triples = 0
     for _ in range(60):
         found = [m for _, m in one_ray(rng, 10, planes=3)[-1]]
-        signs = [[compare(a, b) for b in found] for a in found]
+        signs = [[sign_of_difference(a, b) for b in found] for a in found]
         count = len(found)
         for a in range(count):
             for b in range(count):
@@ -128,7 +128,7 @@ def test_nearest_is_what_the_moved_ray_sees(rng):
     for _ in range(250):
         o, d, c, solids, found = one_ray(rng, 12, planes=2)
         rng.shuffle(found)
-        seen, ties = nearest(found, NOTHING)
+        seen, ties = seen_and_ties(found, NOTHING)
         hits = [(moved_t(o, d, c, solids, name), name) for name, _ in found]
         hits = sorted((t, name) for t, name in hits if t is not None)
         name = found[seen][0] if seen >= 0 else NOTHING
@@ -144,9 +144,9 @@ def sight(corners, direction=(0, 0, -1)):
     """Return what the one ray from the origin sees, its ties, and the oracle's answer."""
     o, d = np.zeros((3, 1)), np.array(direction, float)[:, None]
     c = np.array(corners, float).transpose(1, 2, 0)
-    batch = Batch(Rays(o, d), c)
+    batch = IntegerBatch(Rays(o, d), c)
     found = [((0, k), batch.hit(0, k)) for k in range(c.shape[2])]
-    seen, ties = nearest([(name, m) for name, m in found if m], NOTHING)
+    seen, ties = seen_and_ties([(name, m) for name, m in found if m], NOTHING)
     return seen, {k if i == 0 else None for i, k in ties}, sights(o, d, c)[0]
 
 
@@ -183,7 +183,7 @@ def test_t_is_correctly_rounded(rng, scale):
     with np.errstate(under="ignore"):
         o, c = o * 2.0**scale, c * 2.0**scale
     d *= 2.0 ** rng.integers(-60, 60, 400)
-    batch = Batch(Rays(o, d), c, start=-np.inf)
+    batch = IntegerBatch(Rays(o, d), c, start=-np.inf)
     _, depth, towards = functions(o, d, c)
     checked = 0
     for k in range(400):
@@ -201,9 +201,9 @@ def test_t_too_large_or_too_small_for_a_float():
         (2.0**-600, 2.0**474, 2.0**-1074),
     ):
         d = np.array([[0], [0], [direction]])
-        batch = Batch(Rays(np.zeros((3, 1)), d), corners * length)
+        batch = IntegerBatch(Rays(np.zeros((3, 1)), d), corners * length)
         assert batch.t(batch.hit(0, 0)) == expected
-        behind = Batch(Rays(np.zeros((3, 1)), -d), corners * length, start=-np.inf)
+        behind = IntegerBatch(Rays(np.zeros((3, 1)), -d), corners * length, start=-np.inf)
         assert behind.t(behind.hit(0, 0)) == -expected
 
 
@@ -222,7 +222,7 @@ def test_the_clip_range_is_inclusive_and_exact(rng, scale):
 
 
 def hits_of_all(o, d, c) -> list[Hit | None]:
-    batch = Batch(Rays(o, d), c, start=-np.inf)
+    batch = IntegerBatch(Rays(o, d), c, start=-np.inf)
     return [batch.hit(k, k) for k in range(o.shape[1])]
 
 
@@ -237,5 +237,5 @@ def test_clip_ends_a_rounding_away(rng):
             (0, z[k], True),
             (0, np.nextafter(z[k], 0), False),
         ):
-            batch = Batch(rays, np.zeros((3, 3, 0)), [(point, normal)], start, end)
+            batch = IntegerBatch(rays, np.zeros((3, 3, 0)), [(point, normal)], start, end)
             assert (batch.hit(0, 0) is not None) == seen

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from ....scene import Region, Scene
 from ...candidates import pixel_bounds
-from ...vector import Vectors, gather, grouped, largest, parts, transform_points
+from ...vector import Index, Vectors, gather, grouped, largest, parts, transform_points
 from ...world import world_corners
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
@@ -25,8 +25,6 @@ from .film import Film, Vertices
 BINS = 256  # of nearness, into which triangles are sorted
 _MARGIN = 1.0  # pixels around the region that count as in view, and around a box as its own
 _TOGETHER = 1 << 15  # triangles at a time
-
-Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)

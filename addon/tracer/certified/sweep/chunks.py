@@ -14,12 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Scene
-from ...vector import Vectors, grouped, groups, transform_points
+from ...vector import Index, Vectors, grouped, groups, transform_points
 from .film import Film, Vertices
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
-
-Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,13 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Camera, Region
-from ...vector import Arrays, gather
+from ...vector import Arrays, Index, gather
 from ..bounds import U
 
 ROUNDING = 4 * U  # relative, of a nearness that was computed from t
 FINE, COARSE = 8, 64  # pixels along the side of a cell: the sizes of `farthest`
-
-Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)

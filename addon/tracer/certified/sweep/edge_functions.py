@@ -32,7 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import Arrays, gather, largest, parts
+from ...vector import Arrays, Floats, Index, gather, largest, parts
 from ..bounds import U
 from .film import Film, Vertices
 
@@ -42,9 +42,6 @@ _MORE = 1.01  # for the roundings of the bounds themselves
 # decided elsewhere.
 _TINY = 2.0**-1000
 _HUGE = 2.0**1000  # nothing that is smaller than this has overflown
-
-Floats = NDArray[np.float64]
-Index = NDArray[np.integer]
 
 
 @dataclass(frozen=True, eq=False)

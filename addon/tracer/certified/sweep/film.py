@@ -20,14 +20,12 @@ from numpy.typing import NDArray
 from ....scene import Camera
 from ...camera import dual_axes, pixel_size
 from ...candidates import SAFETY, has_sound_axes
-from ...vector import Vectors, largest
+from ...vector import Floats, Vectors, largest
 
 _EPS = 2.0**-52
 # Added to a vertex's size: its share in the bounds is far above what gradual underflow may lose.
 _TINY = 2.0**-960
 _OFF = 2  # pixels beyond the picture where boxes end
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

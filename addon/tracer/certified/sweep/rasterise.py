@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import Arrays, gather, groups, spread
+from ...vector import Arrays, Index, gather, groups, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 
@@ -26,9 +26,7 @@ _CELLS = 1 << 14  # cells tested together
 # Boxes are evaluated in blocks of few sizes, by their extent less 1: what is done for each block
 # weighs more than a few pixels in vain.
 _PADDED = np.array([1, 2, 3, 4, 6, 6, 8, 8], np.uint8)
-LARGE = np.uint8(255)  # the shape of what is larger than a cell of FINE pixels
-
-Index = NDArray[np.integer]
+LARGE_SHAPE = np.uint8(255)  # the shape of what is larger than a cell of FINE pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +47,11 @@ class Boxes:
 
     @property
     def shape(self) -> NDArray[np.uint8]:
-        """Which size of block each is evaluated in, (b,): 16 height + width, or LARGE."""
+        """Which size of block each is evaluated in, (b,): 16 height + width, or LARGE_SHAPE."""
         width, height = self.high - self.low
         large = np.maximum(width, height) >= FINE
         shape = _PADDED.take(height, mode="clip") * np.uint8(16) + _PADDED.take(width, mode="clip")
-        return np.where(large, LARGE, shape)
+        return np.where(large, LARGE_SHAPE, shape)
 
 
 @dataclass(frozen=True, eq=False)

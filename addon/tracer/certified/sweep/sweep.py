@@ -17,22 +17,20 @@ from ....scene import Plane, Region, Scene
 from ...camera import camera_rays, film_positions
 from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, timed
-from ...vector import gather
+from ...vector import Index, gather
 from ..bounds import plane_fractions
 from .boxes import InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
 from .depth_buffer import FINE, ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
-from .rasterise import LARGE, Boxes, Rasterised, rasterised, split
+from .rasterise import LARGE_SHAPE, Boxes, Rasterised, rasterised, split
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
 _PIXELS = 1 << 15  # of a plane, at a time
 _PAIRS = 1 << 16  # that the depth buffer is asked about together
 _BYTES_PER_TRIANGLE = 128  # of a chunk, with its vertices
-
-Index = NDArray[np.integer]
 
 
 def sweep(
@@ -189,7 +187,7 @@ class Sweep:
         self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
     ) -> Iterator[Rasterised]:
         """Yield the blocks of sorted boxes, the large ones last, each with its edge functions."""
-        large = int(np.searchsorted(shape, LARGE))
+        large = int(np.searchsorted(shape, LARGE_SHAPE))
         reached = np.arange(boxes.low.shape[1]) < large
         self._count_pixels(boxes.take(slice(0, large)))
         yield from rasterised(found, boxes, shape[:large], self._depths)

@@ -17,7 +17,7 @@ from ...camera import Rays, camera_rays, corner_rays, film_positions
 from ...candidates import Pairs
 from ...hits import NOTHING, Hits, Statistics, Ties
 from ...progress import Steps, mapped
-from ...vector import gather, grouped, parts
+from ...vector import Index, gather, grouped, parts
 from ...world import WorldTriangles, world_corners
 from ..certainty import Certainty
 from ..contest import Contest
@@ -30,8 +30,6 @@ _PAIRS = 1 << 15  # that a contest tests at a time
 _FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
 _RAYS = 1 << 14  # of a contest
 _PIXELS = 1 << 17  # whose surfaces are prepared together: what that takes is some MiB
-
-Index = NDArray[np.integer]
 
 
 class Verdict:

@@ -8,7 +8,7 @@ from reference_tracer.scene import Region
 from reference_tracer.tracer.certified.sweep import rasterise
 from reference_tracer.tracer.certified.sweep.depth_buffer import FINE, DepthBuffer
 from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
-from reference_tracer.tracer.certified.sweep.rasterise import LARGE, Boxes, rasterised, split
+from reference_tracer.tracer.certified.sweep.rasterise import LARGE_SHAPE, Boxes, rasterised, split
 
 CASES = 40
 COUNT = 25  # triangles of each
@@ -100,11 +100,11 @@ def all_pairs(found, boxes, depths) -> list:
     """Return what a sweep asks for."""
 
     def by_shape(some: Boxes) -> list:
-        assert (some.shape != LARGE).all()
+        assert (some.shape != LARGE_SHAPE).all()
         order = np.argsort(some.shape, kind="stable")
         return list(rasterised(found, some.take(order), some.shape[order], depths))
 
-    small = boxes.shape != LARGE
+    small = boxes.shape != LARGE_SHAPE
     parts = by_shape(boxes.take(np.flatnonzero(small)))
     for some in split(found, boxes.take(np.flatnonzero(~small)), depths):
         parts += by_shape(some)
@@ -138,7 +138,7 @@ def test_every_pixel_of_every_box_bit_for_bit(name, value, monkeypatch):
             nearness = np.array([expected[key][1] for key in sorted(missing)])
             nearest = nearness + found.nearness_error[owner]
             assert (nearest < depths.nearness[depths.places(pixel)]).all(), seed
-            assert (boxes.take(owner).shape == LARGE).all()
+            assert (boxes.take(owner).shape == LARGE_SHAPE).all()
         seen, hidden = seen + len(got), hidden + len(missing)
         empty += sum(owner not in {k for _, k in expected} for owner in range(COUNT))
     assert seen > 20_000 and hidden > 2_000 and empty > 50
