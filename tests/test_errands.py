@@ -136,6 +136,7 @@ def test_a_camera_type_is_a_file_and_a_record(tmp_path):
     seen(tmp_path, CAMERA, SEES_CAMERA)
 
 
+@pytest.mark.blender
 @pytest.mark.parametrize(
     ("changes", "script"),
     [(METHOD, SEES_METHOD_IN_BLENDER), (PASS, SEES_PASS_IN_BLENDER)],
