@@ -59,6 +59,9 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
+    run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
+    plot = PROJECT / "out" / "docs" / "extremes" / "breaking_points.png"
+    shutil.copy(plot, DOCS / "images" / "extremes.png")
     if not options.no_browser:
         from documents import browser
 

@@ -19,6 +19,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.render import render, sample_offsets, steps, tiles
 from reference_tracer.tracer.settings import Precision, Settings
+from reference_tracer.tracer.triangle import textbook
 from trimesh.ray.ray_triangle import RayMeshIntersector
 
 TURN = trimesh.transformations.rotation_matrix(0.7, (0.3, -0.5, 0.8), (0.1, 0, 0.2))
@@ -133,14 +134,26 @@ def test_passes_stay_at_the_centre(make):
         assert values.tobytes() == four[name].tobytes(), name
 
 
-def test_float32_and_methods_reach_the_picture(make):
-    """Each choice makes a picture of its own, so none is lost on the way."""
+def test_float32_and_methods_reach_the_picture(make, monkeypatch):
+    """Each precision makes a picture of its own, and each method's own function makes it."""
     scene = make.scene(
         make.camera(eye=(2, -2.6, 1.9), target=(0, 0, 0)), make.mesh(SHAPES["torus"])
     )
-    choices = [Settings(m, p) for m in Method if m.is_plain for p in Precision]
-    frames = [render(scene, s) for s in (*choices, Settings("certified"))]
-    assert len({f.t.tobytes() for f in frames}) == len(frames)
+    plain = [m for m in Method if m.is_plain]
+    for method in plain:
+        frames = [render(scene, Settings(method, p)) for p in Precision]
+        assert len({f.t.tobytes() for f in (*frames, render(scene))}) == 3
+    pictures = {m: render(scene, Settings(m)).t.tobytes() for m in plain}
+    for method in plain:
+        with monkeypatch.context() as patched:
+            patched.setattr(method, "function", _never)
+            changed = {m for m in plain if render(scene, Settings(m)).t.tobytes() != pictures[m]}
+        assert changed == {method}
+
+
+def _never(rays, p1, p2, p3):
+    hit, t, s = textbook(rays, p1, p2, p3)
+    return np.zeros_like(hit), t, s
 
 
 @pytest.mark.slow
