@@ -312,7 +312,7 @@ def check_size(width: int, height: int) -> None:
     """Raise a SceneError if a picture of this size has no pixel, or part of one."""
     for name, value in (("width", width), ("height", height)):
         if not isinstance(value, (int, np.integer)):
-            raise SceneError(f"The {name} of the picture is {value!r}; it must be a whole number.")
+            raise SceneError(f"The {name} of the picture is {value!r}; it must be an integer.")
     if width < 1 or height < 1:
         raise SceneError(
             f"The picture has {width} x {height} pixels: raise the resolution or its percentage, "

@@ -76,7 +76,7 @@ def _drill(x: float, y: float, radius: float, height: float) -> bpy.types.Mesh:
 def _sheet() -> bpy.types.Mesh:
     """Return the sheet's lines, in pixels from the lower left corner: x, y, width, height.
 
-    Whole numbers lie on pixel boundaries, halves on pixel centres.
+    Integers lie on pixel boundaries, halves on pixel centres.
     """
     border = [(10, 10, 620, 2), (10, 468, 620, 2), (10, 12, 2, 456), (628, 12, 2, 456)]
     title = [(500, 12, 1, 48), (500, 60, 128, 1), (500, 36, 128, 1)]

@@ -152,6 +152,6 @@ def test_no_meshes():
 @pytest.mark.parametrize("size, word", [((6.5, 4), "width .* is 6.5"), ((6, 4.0), "height .* 4.0")])
 def test_a_part_of_a_pixel(size, word):
     box = Mesh(np.eye(3), [[0, 1, 2]])
-    with pytest.raises(SceneError, match=rf"{word}; it must be a whole number"):
+    with pytest.raises(SceneError, match=rf"{word}; it must be an integer"):
         scene_of_meshes([(box, np.eye(4))], None, *size)
     assert scene_of_meshes([(box, np.eye(4))], None, np.int64(6), 4).camera.width == 6

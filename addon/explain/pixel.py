@@ -130,7 +130,7 @@ def check_pixel(camera: Camera, x: int, y: int) -> None:
     width, height = camera.region.width, camera.region.height
     for name, value, count in (("x", x, width), ("y", y, height)):
         if not isinstance(value, (int, np.integer)):
-            raise SceneError(f"{name} of the pixel is {value!r}; it must be a whole number.")
+            raise SceneError(f"{name} of the pixel is {value!r}; it must be an integer.")
         if not 0 <= value < count:
             raise SceneError(
                 f"There is no pixel ({x}, {y}) in a picture of {width} x {height}: {name} must "

@@ -159,7 +159,7 @@ def _get(content: dict, key: str, where: str, kind: type) -> Any:
         raise SceneError(f"{where}{key} is missing")
     value = content[key]
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
-        names = {dict: "an object in braces", list: "a list", str: "text", int: "a whole number"}
+        names = {dict: "an object in braces", list: "a list", str: "text", int: "an integer"}
         raise SceneError(f"{where}{key} must be {names.get(kind, 'true or false')}")
     return value
 

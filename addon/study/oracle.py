@@ -109,7 +109,7 @@ def scaled_integers(values: NDArray[np.float64]) -> tuple[NDArray[np.object_], N
     return shifted, np.where(least == 5000, 0, least - 53)
 
 
-class Meeting(NamedTuple):
+class Crossing(NamedTuple):
     """One surface that the stored ray meets within the clip range."""
 
     t: Fraction
@@ -208,7 +208,7 @@ def sights(
     """
     count, n = corners.shape[2], origins.shape[1]
     names = names or [(0, k) for k in range(count)]
-    found: list[list[Meeting]] = [[] for _ in range(n)]
+    found: list[list[Crossing]] = [[] for _ in range(n)]
     step = max(1, AT_ONCE // max(count, 1))
     for at in range(0, n if count else 0, step):
         ray = np.repeat(np.arange(at, min(at + step, n)), count)
@@ -216,24 +216,24 @@ def sights(
         result = intersect_pairs(origins[:, ray], directions[:, ray], corners[:, :, triangle])
         for k in np.flatnonzero(result.within(start, end)):
             surface = Surface(names[triangle[k]], corners[:, :, triangle[k]])
-            meeting = Meeting(result.t(k), result.side[k] == EDGE, bool(result.hit[k]), surface)
-            found[ray[k]].append(meeting)
-    for k, meetings in enumerate(found):
+            crossing = Crossing(result.t(k), result.side[k] == EDGE, bool(result.hit[k]), surface)
+            found[ray[k]].append(crossing)
+    for k, crossings in enumerate(found):
         o, d = ([Fraction(float(x)) for x in v[:, k]] for v in (origins, directions))
         for name, point, normal in planes:
             p, w = ([Fraction(float(x)) for x in v] for v in (point, normal))
             if dot(d, w) and _within(t := dot(sub(p, o), w) / dot(d, w), start, end):
-                meetings.append(Meeting(t, False, True, Surface(name, [p], w)))
+                crossings.append(Crossing(t, False, True, Surface(name, [p], w)))
     return [_sight(origins[:, k], directions[:, k], m) for k, m in enumerate(found)]
 
 
-def _sight(o: NDArray[np.float64], d: NDArray[np.float64], meetings: list[Meeting]) -> Sight:
-    sure = min((m.t for m in meetings if not m.at_edge), default=None)
-    front = [m for m in meetings if sure is None or m.t == sure or (m.at_edge and m.t < sure)]
+def _sight(o: NDArray[np.float64], d: NDArray[np.float64], crossings: list[Crossing]) -> Sight:
+    sure = min((m.t for m in crossings if not m.at_edge), default=None)
+    front = [m for m in crossings if sure is None or m.t == sure or (m.at_edge and m.t < sure)]
     surfaces = tuple(m.surface for m in front)
     if len(front) == 1 and sure is not None:
         seen = front[0].surface.name
     else:
         seen = nearest_of_moved(*in_integers(o, d, surfaces), THE_RULE) if front else NOWHERE
     t = next((m.t for m in front if m.surface.name == seen), None)
-    return Sight(o, d, seen, t, sum(m.hit for m in meetings), surfaces, sure is not None)
+    return Sight(o, d, seen, t, sum(m.hit for m in crossings), surfaces, sure is not None)

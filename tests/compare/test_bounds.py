@@ -145,7 +145,7 @@ def test_a_depth_buffer_tells_apart_what_is_farther_than_the_resolution(make, or
 
 
 def buffer(camera, depth, orthographic):
-    """Return depth buffer values, (n,) whole numbers."""
+    """Return depth buffer values, (n,) integers."""
     n, f, z = F(camera.clip_start), F(camera.clip_end), depth.astype(F)
     if orthographic:
         value = (F(2) / (f - n)) * z + -(f + n) / (f - n)

@@ -155,7 +155,7 @@ def test_outside_the_picture(one_triangle, x, y, name):
 
 
 def test_half_a_pixel_is_none(one_triangle):
-    with pytest.raises(SceneError, match="whole number"):
+    with pytest.raises(SceneError, match="integer"):
         derive(one_triangle(FACING), 0.5, 1)
 
 

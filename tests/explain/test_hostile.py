@@ -45,7 +45,7 @@ def test_hostile_scenes(make, tmp_path: Path, seed):
                 kept += found.pixel.left_out > 0
             assert certified.seen == (hits.instance[index], hits.triangle[index])
             assert certified.t == hits.t[index]
-            # A picture may ask whole numbers about a triangle whose box the derivation rules out.
+            # A picture may ask integers of a triangle whose box the derivation rules out.
             certainty = Certainty(int(hits.certainty[index]))
             assert certified.certainty == certainty or {certified.certainty, certainty} == {*PROVEN}
             assert certified.ties == hits.ties.get(index, frozenset())

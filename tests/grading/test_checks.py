@@ -1,4 +1,4 @@
-"""The checks and the bounds: what is said to be true of them is, by whole numbers."""
+"""The checks and the bounds: what they say is held against integers."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ def closed_fan(count: int, snap: int | None = None) -> tuple[NDArray, NDArray]:
 
 
 def box(low=-0.5, high=0.5) -> tuple[NDArray, NDArray]:
-    """Return a box of 12 triangles; with whole numbers, rays to its corners are true ties."""
+    """Return a box of 12 triangles; with integers, rays to its corners are true ties."""
     low, high = np.broadcast_to(low, 3), np.broadcast_to(high, 3)
     bits = np.array([[k >> 2 & 1, k >> 1 & 1, k & 1] for k in range(8)])
     faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))

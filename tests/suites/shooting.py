@@ -41,7 +41,7 @@ class Crossings:
         """Signed crossings of each ray, (n,): a hit from behind, on the way out, counts +1.
 
         Of a mesh whose triangles are counter-clockwise from outside it is 1 inside, 0 outside.
-        The sign is that of det in whole numbers: the side from which the ray as stored comes.
+        The sign is that of det in integers: the side from which the ray as stored comes.
         """
         result = intersect_pairs(
             self.origins[:, self.ray],

@@ -1,4 +1,4 @@
-"""The certified decisions against whole numbers: no pair, no order, no t may be wrong.
+"""The certified decisions against integers: no pair, no order, no t may be wrong.
 
 Over a million pairs always (1,048,576), and a hundred times as many under `make torture`: at the 20
 microseconds a pair that this took when it was written, 35 minutes on one core.

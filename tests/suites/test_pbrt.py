@@ -7,7 +7,7 @@ those at vertices and edges too, has to leave the mesh exactly once more than it
 the hit's error, does not meet that surface again. A certified tracer moves no origins: it answers
 for the stored ray, and a rounded hit point truly lies on one side of the surface or the other. What
 corresponds: where the stored point lies *on* the surface (t = 0) it is not met again, in no
-direction; where it lies beside it, it is met exactly where whole numbers say so; and behind the
+direction; where it lies beside it, it is met exactly where integers say so; and behind the
 first hit, a ray goes on by the exact order of t, neither meeting that surface again nor losing
 another.
 """

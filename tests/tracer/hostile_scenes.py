@@ -56,7 +56,7 @@ def _any(make, rng) -> Scene:
 
 
 def _whole(make, rng) -> Scene:
-    """Small whole numbers: rays through edges and corners, equal depths, clip ends at surfaces."""
+    """Small integers: rays through edges and corners, equal depths, clip ends at surfaces."""
     count = int(rng.integers(1, 16))
     corners = (
         np.stack(

@@ -18,7 +18,7 @@ CERTIFIED = Settings("certified")
 def mess(make, rng, orthographic: bool, whole: bool, scale: float = 1.0) -> Scene:
     """Return instances through one another, duplicates, planes twice, all times `scale`.
 
-    With whole numbers many rays meet edges, corners, surfaces in one plane, and the clip range's
+    With integers many rays meet edges, corners, surfaces in one plane, and the clip range's
     ends; the rays' own origins and directions are on the grid, too.
     """
     points = rng.integers(-2, 3, (24, 3)) * 1.0 if whole else rng.normal(size=(24, 3))

@@ -81,7 +81,7 @@ def test_film_of_inverts_camera_rays(camera, rng):
 
 
 def test_project_bounds_its_error(camera, rng):
-    """Against whole numbers: what `magnitude` allows is not exceeded, and is not idle talk."""
+    """Against integers: what `magnitude` allows is not exceeded, and is not idle talk."""
     points = rng.normal(size=(3, 200)) * 10.0 ** rng.uniform(-3, 6, 200)
     xyz, magnitude = project(camera, points)
     axes = np.stack((camera.right, camera.up, camera.forward), axis=1).astype(np.longdouble)

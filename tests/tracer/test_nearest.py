@@ -97,7 +97,7 @@ def test_brute_force(mess, settings):
 
 @pytest.mark.slow
 def test_certified_and_auto_against_exact_brute_force(mess):
-    """Every ray with every triangle in whole numbers, with a rule written apart."""
+    """Every ray with every triangle in integers, with a rule written apart."""
     truth = scene_sights(mess)
     names = [s.seen for s in truth]
     t = t_of_pixels(mess, names)

@@ -76,7 +76,7 @@ function filled(sentence, values) {
   });
 }
 
-/** A whole number with commas. */
+/** An integer with commas. */
 const count = (value) => value.toLocaleString("en-US");
 
 /** A part of a whole in per cent; 100 and 0 only where it is all or nothing. */

@@ -17,7 +17,7 @@ from ...tracer.camera import camera_rays
 SEED = 20240611
 
 # No axis of the world is one of these: an ordinary view, all of whose numbers have to be rounded.
-# Columns are right, up, backward. Times 39 they are whole numbers: what lies in one plane across
+# Columns are right, up, backward. Times 39 they are integers: what lies in one plane across
 # this view can do so exactly.
 TURNED_39 = np.array([[13.0, -34.0, -14.0], [26.0, 19.0, -22.0], [26.0, -2.0, 29.0]])
 TURNED = TURNED_39 / 39

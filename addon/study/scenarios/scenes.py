@@ -96,7 +96,7 @@ def close_planes(ulps: float, width: int, height: int) -> Scene:
 
 
 def integer_cube(cells: float, width: int, height: int) -> Scene:
-    """Return a cube of whole numbers, its camera inside, with rays that are binary fractions.
+    """Return a cube with integer corners, its camera inside, with rays that are binary fractions.
 
     Pixels are 1/4 wide at depth 1, so that rays meet the wall 16 m away at even numbers.
     """
@@ -105,7 +105,7 @@ def integer_cube(cells: float, width: int, height: int) -> Scene:
 
 
 def integer_cube_ortho(cells: float, width: int, height: int) -> Scene:
-    """Return a cube of whole numbers from outside, with rays at whole numbers along its sides."""
+    """Return such a cube from outside, with rays at integers along its sides."""
     eye = (0.5 * (width % 2 == 0), 0.5 * (height % 2 == 0), 40.0)
     view = camera(width, height, width / 2, eye=eye, axes=np.eye(3), projection=ORTHOGRAPHIC)
     return scene(view, _cube(int(cells), np.array((-8.0, -8.0, -8.0)), 16.0))
@@ -128,7 +128,7 @@ def _cube(cells: int, least: np.ndarray, side: float) -> Mesh:
 def degenerate_faces(copies: float, width: int, height: int) -> Scene:
     """Return a wall, and `copies` of its faces split otherwise, with others of no area."""
     columns, rows, copies = 16, 12, int(copies)
-    across, up, backward = TURNED_39.T / 4  # of a cell; all whole numbers of quarters
+    across, up, backward = TURNED_39.T / 4  # a quarter cell: all corners are multiples of it
     corner = -20 * backward - columns / 2 * across - rows / 2 * up
     rng = generator()
     split = rng.integers(0, 2, columns * rows)

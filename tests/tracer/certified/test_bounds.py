@@ -56,7 +56,7 @@ def uneven(rng):
 
 
 def whole(rng):
-    """Small whole numbers: many exact zeros, and corners that coincide."""
+    """Small integers: many exact zeros, and corners that coincide."""
     return tuple(rng.integers(-2, 3, v.shape).astype(float) for v in ordinary(rng))
 
 

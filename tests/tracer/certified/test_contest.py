@@ -37,7 +37,7 @@ def ordinary(rng):
 
 
 def whole(rng):
-    """Small whole numbers: edges, corners, ties, triangles without area, rays in their planes."""
+    """Small integers: edges, corners, ties, triangles without area, rays in their planes."""
     o, d = rng.integers(-3, 4, (3, RAYS)), rng.integers(-2, 3, (3, RAYS))
     d[:, ~d.any(axis=0)] = 1
     return o * 1.0, d * 1.0, rng.integers(-3, 4, (3, 3, TRIANGLES)) * 1.0
@@ -147,7 +147,7 @@ def test_rays_where_surfaces_cross(rng, shared):
 
 
 def test_subnormal_scenes(rng):
-    """Whole numbers times the smallest float there is."""
+    """Integers times the smallest float there is."""
     o, d, c = whole(rng)
     hits = check(Rays(o * 5e-324, d), c * 5e-324)
     assert np.isfinite(hits.t).sum() > 10

@@ -1,4 +1,4 @@
-"""Whole numbers: they are the floats, and the ray of the rule is a ray that is truly moved."""
+"""Integers: they are the floats, and the ray of the rule is a ray that is truly moved."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from ..rational import functions, plane_functions, rational, rounded
 
 pytestmark = pytest.mark.filterwarnings("error")
 NOTHING = (-1, -1)
-TINY = Fraction(1, 2**2000)  # beside whole numbers of a few digits: infinitesimal
+TINY = Fraction(1, 2**2000)  # beside integers of a few digits: infinitesimal
 BY = rational(np.array([TINY, TINY**2, TINY**3], object))
 PAIRS = 2000
 
 
 def small(rng, *shape):
-    """Whole numbers so small that rays often meet edges, corners and two surfaces at once."""
+    """Integers so small that rays often meet edges, corners and two surfaces at once."""
     return rng.integers(-2, 3, shape).astype(float)
 
 

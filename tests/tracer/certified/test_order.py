@@ -1,4 +1,4 @@
-"""Order by what two surfaces are, once: as by every ray's own whole numbers."""
+"""Order by what two surfaces are, once: as by every ray's own integers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Why whole numbers had to decide: each reason in a scene that was built for it."""
+"""Why integers had to decide: each reason in a scene that was built for it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def turned(rng, points, triangles):
 
 
 def reasons_of(make, rng, points, triangles, turn=True, **options):
-    """Return why a 4 x 4 picture of triangles needed whole numbers.
+    """Return why a 4 x 4 picture of triangles needed integers.
 
     The rays of the orthographic camera pass x, y = -1.5, -0.5, 0.5, 1.5.
     """

@@ -91,7 +91,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
 
 
 def test_only_instances_that_no_ray_hits_are_left_out(make):
-    """Judged by whole numbers: all rays with all triangles of whatever is left out."""
+    """Judged by integers: all rays with all triangles of whatever is left out."""
     judged, instances, kept = 0, 0, 0
     for seed in range(220):
         rng = np.random.default_rng(seed)

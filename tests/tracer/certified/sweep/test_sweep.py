@@ -82,7 +82,7 @@ def test_as_a_contest_of_every_ray_with_every_triangle(make, part):
 
 
 def test_as_the_oracle_has_it(make):
-    """In whole numbers, by a rule written apart; every pixel of every scene."""
+    """In integers, by a rule written apart; every pixel of every scene."""
     ambiguous, hits = 0, 0
     for seed in range(10_000, 10_000 + SAMPLE):
         rng = np.random.default_rng(seed)
