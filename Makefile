@@ -8,7 +8,7 @@ PYTHON_IN_VENV := .venv/bin/python
 # Two workers for two cores, and one more, since the tests in a window mostly wait.
 WORKERS := 3
 PYTEST := $(PYTHON_IN_VENV) -m pytest
-SHARED := -n $(WORKERS) --no-loadscope-reorder
+SHARED = -n $(WORKERS) --no-loadscope-reorder
 
 .PHONY: help demo check test test-browser test-gui torture bench docs lint extension clean
 
@@ -18,8 +18,9 @@ help: ## list the commands
 demo: .venv/.stamp ## trace a sample scene, have Blender render it, compare: out/demo/page.html
 	.venv/bin/reftrace compare sample_scenes/suzanne.blend --trade --out out/demo
 
+check: WORKERS := 2
 check: lint ## check the style, run the fast tests that need neither Blender nor a browser: a minute
-	$(PYTEST) $(SHARED) -n 2 --ignore tests/blender -q \
+	$(PYTEST) $(SHARED) --ignore tests/blender -q \
 		-m "not blender and not browser and not gui and not slow and not torture"
 
 # What the tests in a browser and in a window need, only root can install: where that is not

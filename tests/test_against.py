@@ -58,7 +58,6 @@ def test_its_own_picture_agrees(scene, against, name):
     assert found["scene"]["objects"][1]["triangles"] == 12
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
 def test_a_missing_object_is_found(scene, against, name):
     color = render(replace(scene, instances=scene.instances[:1])).color

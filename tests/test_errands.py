@@ -3,14 +3,14 @@
 Only the files that the errand names are changed in the copy; a Python of its own then looks at it.
 """
 
-import shutil
-import subprocess
-import sys
+import re
 from pathlib import Path
 
 import pytest
 
-ADDON = Path(__file__).parent.parent / "addon"
+from .copied import copied, run
+
+CONTRIBUTING = (Path(__file__).parent.parent / "CONTRIBUTING.md").read_text(encoding="utf-8")
 
 METHOD = {
     "tracer/triangle.py": (
@@ -31,7 +31,6 @@ from reference_tracer.arguments import add_settings
 from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import extreme_plots
 from reference_tracer.study import tradeoff
-from reference_tracer.tracer.settings import Settings
 import argparse
 parser = argparse.ArgumentParser()
 add_settings(parser)
@@ -45,6 +44,8 @@ try:
     Settings("none")
 except ValueError as error:
     assert "never" in str(error)
+else:
+    raise AssertionError("'none' was taken")
 from reference_tracer.explain.derivation import derive
 assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
 """
@@ -53,15 +54,24 @@ from reference_tracer.blender.properties import METHOD_ITEMS
 assert ("never", "Never", "Misses", 77) in METHOD_ITEMS
 """
 PASS = {
-    "tracer/frame.py": ('    Pass("rows_done"),\n', '    Pass("t", "T Again"),\n'),
+    "tracer/frame.py": (
+        "    @property\n    def depth(",
+        "    @property\n    def twice(self):\n        return 2 * self.t\n\n",
+        '    Pass("rows_done"),\n',
+        '    Pass("twice", "Twice"),\n',
+    ),
 }
+SEES_PASS = """
+frame = render(scene, Settings("textbook"))
+assert np.array_equal(frame.passes()["twice"], 2 * frame.t)
+"""
 SEES_PASS_IN_BLENDER = """
 from reference_tracer.blender import engine
-assert "T Again" in {p.label for p in engine._IN_BLENDER}
+assert "Twice" in {p.label for p in engine._IN_BLENDER}
 """
 CAMERA = {
     "projections/mirrored.py": (
-        None,
+        "",
         "from dataclasses import dataclass\n"
         "from .perspective import Perspective\n\n\n"
         "@dataclass(frozen=True)\n"
@@ -81,7 +91,6 @@ from reference_tracer.compare.certificate import known_points
 from reference_tracer.explain.derivation import derive
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene_files import load_scene, save_scene
-from reference_tracer.tracer.settings import Settings
 new = replace(scene, camera=replace(scene.camera, projection=PROJECTIONS["mirrored"]))
 assert (render(new, Settings("certified")).t == render(scene, Settings("certified")).t).all()
 save_scene("scene.npz", new)
@@ -96,6 +105,7 @@ SCENE = """
 import numpy as np
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
 from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
 camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 8, 8)
 mesh = Mesh(np.array([[-9.0, -9, -5], [9, -9, -5], [0, 9, -5]]), [[0, 1, 2]])
 scene = Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), objects=("A",))
@@ -104,36 +114,38 @@ scene = Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), objects=("A",))
 
 def seen(tmp_path: Path, changes: dict, script: str) -> None:
     """Run a script beside a copy of the add-on to which the changes were made."""
-    copy = tmp_path / "reference_tracer"
-    shutil.copytree(ADDON, copy, ignore=shutil.ignore_patterns("__pycache__"))
-    for name, (before, text) in changes.items():
+    copy = copied(tmp_path)
+    for name, parts in changes.items():
         file = copy / name
-        if before is None:
-            file.write_text(text, encoding="utf-8")
-            continue
-        whole = file.read_text(encoding="utf-8")
-        assert whole.count(before) == 1, name
-        file.write_text(whole.replace(before, text + before), encoding="utf-8")
-    check = f"import reference_tracer\nassert {str(copy)!r} in reference_tracer.__file__\n"
-    done = subprocess.run(
-        [sys.executable, "-c", check + SCENE + script],
-        cwd=tmp_path,
-        env={"PYTHONPATH": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+        whole = file.read_text(encoding="utf-8") if file.exists() else ""
+        for before, text in zip(parts[::2], parts[1::2], strict=True):
+            assert whole.count(before) == 1, name
+            whole = whole.replace(before, text + before)
+        file.write_text(whole, encoding="utf-8")
+    done = run(tmp_path, SCENE + script)
     assert done.returncode == 0, done.stderr
 
 
+def named(errand: str) -> set[str]:
+    """The files of the add-on that CONTRIBUTING.md names for an errand."""
+    [row] = re.findall(rf"^\| {errand} \|.*$", CONTRIBUTING, re.M)
+    return set(re.findall(r"`addon/([^`]+)`", row))
+
+
 def test_a_method_is_its_function_and_its_record(tmp_path):
-    assert len(METHOD) == 2
+    assert METHOD.keys() == named("an intersection method")
     seen(tmp_path, METHOD, SEES_METHOD)
 
 
 def test_a_camera_type_is_a_file_and_a_record(tmp_path):
-    assert len(CAMERA) == 2
+    files = {f.replace("mirrored.py", "") for f in CAMERA}
+    assert files == named("a camera's type") and len(CAMERA) == 2
     seen(tmp_path, CAMERA, SEES_CAMERA)
+
+
+def test_a_pass_is_its_property_and_its_record(tmp_path):
+    assert PASS.keys() == named("a pass")
+    seen(tmp_path, PASS, SEES_PASS)
 
 
 @pytest.mark.blender
@@ -143,5 +155,4 @@ def test_a_camera_type_is_a_file_and_a_record(tmp_path):
     ids=["method", "pass"],
 )
 def test_blender_shows_a_new_record(tmp_path, changes, script):
-    pytest.importorskip("bpy")
     seen(tmp_path, changes, script)

@@ -299,7 +299,8 @@ PROOF = ADDON / "tracer" / "certified"
 
 def is_empty(file: Path) -> bool:
     """Whether a file holds nothing but a docstring."""
-    return len(ast.parse(file.read_text(encoding="utf-8")).body) <= 1
+    module = ast.parse(file.read_text(encoding="utf-8"))
+    return len(module.body) == (ast.get_docstring(module) is not None)
 
 
 def needed_by(file: Path) -> set[Path]:

@@ -3,8 +3,9 @@
     python tools/make_docs.py [--no-browser] [--no-window] [FILE.md ...]
 
 Fills in what stands between the markers (`documents/markers.py` says which there are), draws
-docs/images/lessons, takes the README's picture of out/demo/page.html in Chromium, and the
-tutorial's in a real Blender window (which needs root, Chromium, and the extension in dist/).
+docs/images/lessons and docs/images/extremes.png, takes the README's picture of out/demo/page.html
+in Chromium, and the tutorial's in a real Blender window (which needs root, Chromium, and the
+extension in dist/).
 """
 
 from __future__ import annotations
@@ -59,9 +60,10 @@ def main() -> None:
     for folder in MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
     pictures.write(DOCS / "images" / "lessons")
-    run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
-    plot = PROJECT / "out" / "docs" / "extremes" / "breaking_points.png"
-    shutil.copy(plot, DOCS / "images" / "extremes.png")
+    if not options.files:  # it takes a minute
+        run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
+        plot = PROJECT / "out" / "docs" / "extremes" / "breaking_points.png"
+        shutil.copy(plot, DOCS / "images" / "extremes.png")
     if not options.no_browser:
         from documents import browser
 

@@ -1,7 +1,7 @@
 """Trace and Compare, up to where Blender is no longer needed, and from where it is again.
 
-`gather` makes everything that only Blender can give, in one uninterrupted call. What it returns
-holds no reference to Blender's data, so that tracing may go on while the user works.
+`gather_case` makes everything that only Blender can give, in one uninterrupted call. What it
+returns holds no reference to Blender's data, so that tracing may go on while the user works.
 """
 
 from __future__ import annotations

@@ -103,7 +103,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
             writer = _writer(self.filepath)
             found = derive_here(context, self.x, self.y, self.source, self.limit)
             if writer:
-                folders.write_text(Path(bpy.path.abspath(self.filepath)), writer(found))
+                _write(self.filepath, writer(found))
         except (SceneError, OSError, MemoryError, RuntimeError) as error:
             self.report({"ERROR"}, words(error))
             return {"CANCELLED"}
@@ -121,6 +121,10 @@ def _writer(filepath: str) -> Any:
     if filepath and suffix not in WRITERS:
         raise SceneError(f"'{filepath}' must end in {' or '.join(WRITERS)}")
     return WRITERS.get(suffix)
+
+
+def _write(filepath: str, text: str) -> None:
+    folders.write_text(Path(bpy.path.abspath(filepath)), text)
 
 
 class _OfLatest:
@@ -190,7 +194,7 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
             writer = _writer(self.filepath)
             is_json = Path(self.filepath).suffix.lower() == ".json"
             text = reproducer.text(found.pixel) if is_json else writer(found)
-            folders.write_text(Path(bpy.path.abspath(self.filepath)), text)
+            _write(self.filepath, text)
         except (SceneError, OSError) as error:
             self.report({"ERROR"}, words(error))
             return {"CANCELLED"}

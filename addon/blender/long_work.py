@@ -20,9 +20,7 @@ from ..tracer.progress import Work, result_of
 from .compare import made_folder
 from .results import redraw
 
-SECONDS_A_STEP = (
-    0.04  # seconds of work between two looks at the events: Esc is answered within 0.2 s
-)
+SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
 

@@ -58,7 +58,7 @@ def write(report: Any, folder: Path | None, found: Any) -> None:
         if folder:
             report.write(folder, found)
     except MissingLibraryError as error:
-        print(f"Reference Tracer: {error}")
+        say(str(error))
 
 
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):

@@ -11,7 +11,7 @@ import bpy
 
 from ..explain.derivation import Derivation, Test
 from ..explain.digits import exact_text, marked, off_text, ulps
-from ..explain.pixel import SENTENCES
+from ..explain.pixel import CERTAINTY_SENTENCES
 from ..explain.textbook import Arithmetic
 from ..methods import MEASURED, PLAIN, Method
 from ..study.extremes import BreakingPoint, written
@@ -58,7 +58,7 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
     box = layout.box()
     box.label(text=f"Pixel ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
     wrapped(box, context, said)
-    wrapped(box, context, f"This is {SENTENCES[derivation.certified.certainty]}.")
+    wrapped(box, context, f"This is {CERTAINTY_SENTENCES[derivation.certified.certainty]}.")
     seen = next((t for t in derivation.tests if t.candidate is derivation.seen), None)
     if seen:
         _numbers(layout.box(), seen)

@@ -56,7 +56,7 @@ class Case:
     self_check: bool = False
     next_frame: Scene | None = None
 
-    def exported(self, change: Callable[[Scene], Scene]) -> Case:
+    def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
         """Return the same with the scene and the alternatives changed alike."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
         return replace(self, scene=change(self.scene), alternatives=others)
@@ -66,4 +66,4 @@ class Case:
         behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)
-        return replace(self.exported(behind), picture=picture, next_frame=then)
+        return replace(self.with_scenes(behind), picture=picture, next_frame=then)

@@ -46,7 +46,7 @@ class Comparison:
     frame: Frame
     causes: Causes
     pixels: dict[str, Any]  # see count_pixels
-    metrics: dict[str, Any]  # see measure
+    metrics: dict[str, Any]  # see image_metrics
     methods: tuple[MethodRow, ...] = ()
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # known faults, and whether they were found

@@ -23,7 +23,7 @@ Make = Callable[[Case, Frame], Case | None]  # of a comparison's case, and what 
 
 def _camera(case: Case, **changes: object) -> Case:
     camera = replace(case.scene.camera, **changes)
-    return case.exported(lambda scene: replace(scene, camera=camera))
+    return case.with_scenes(lambda scene: replace(scene, camera=camera))
 
 
 def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) -> Case:
@@ -67,10 +67,9 @@ def _seen(case: Case, frame: Frame) -> list[int]:
 
 def _in(other: Scene, scene: Scene, number: int) -> int | None:
     """Return which instance of another export is a scene's: the same one of its object's."""
-    index = scene.instances[number].object
-    name, of_object = scene.objects[index], [i.object == index for i in scene.instances]
+    *before, name = (scene.objects[i.object] for i in scene.instances[: number + 1])
     there = [n for n, i in enumerate(other.instances) if other.objects[i.object] == name]
-    rank = sum(of_object[:number])
+    rank = before.count(name)
     return there[rank] if rank < len(there) else None
 
 
@@ -83,7 +82,7 @@ def _instance(case: Case, number: int, change: Callable[[Instance], Instance | N
             instances[own : own + 1] = [i for i in [change(instances[own])] if i is not None]
         return replace(scene, instances=tuple(instances))
 
-    return case.exported(changed)
+    return case.with_scenes(changed)
 
 
 def sensor_fit(case: Case, _: Frame) -> Case:
@@ -102,7 +101,7 @@ def clip_start(case: Case, frame: Frame) -> Case | None:
 
 def flipped_winding(case: Case, _: Frame) -> Case:
     """Turn the normals of all triangles over."""
-    return case.exported(lambda s: replace(s, meshes=tuple(_flipped(m) for m in s.meshes)))
+    return case.with_scenes(lambda s: replace(s, meshes=tuple(_flipped(m) for m in s.meshes)))
 
 
 def _flipped(mesh: Mesh) -> Mesh:
@@ -135,7 +134,7 @@ def dropped_triangle(case: Case, frame: Frame) -> Case | None:
             meshes[number] = _less(meshes[number], triangle)
         return replace(scene, meshes=tuple(meshes))
 
-    return case.exported(less)
+    return case.with_scenes(less)
 
 
 def _less(mesh: Mesh, triangle: int) -> Mesh:

@@ -115,7 +115,7 @@ def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
         Of the traced picture, the camera's region; (0, 0) is its lower left pixel.
     limit : int
         Show at most so many triangles, unless the answer needs more: see
-        :func:`candidates.gather`.
+        :func:`candidates.gather_pixel`.
     source : str
         What a reader calls the scene.
 

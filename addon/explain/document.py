@@ -12,7 +12,7 @@ from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
 from .derivation import Derivation, Test
 from .digits import digits_text
 from .formulas import ERRATA
-from .pixel import SENTENCES
+from .pixel import CERTAINTY_SENTENCES
 from .textbook import FLOATS, Arithmetic, Judgement
 
 READING = (
@@ -223,7 +223,7 @@ def _color(derivation: Derivation) -> list[Block]:
 
 def _certain(derivation: Derivation) -> list[Block]:
     certified = derivation.certified
-    said = SENTENCES[certified.certainty]
+    said = CERTAINTY_SENTENCES[certified.certainty]
     out: list[Block] = [
         Heading(2, "5. How certain this is", "5"),
         Paragraph(f"{answer_sentence(derivation)} This is {said}.", "answer"),

@@ -1,8 +1,8 @@
-"""What one pixel's ray may meet: all that its derivation needs of a scene, and nothing else.
+"""What one pixel's ray may meet, and what the tracer says of it.
 
-It stands alone: `reproducer.py` writes it to a file, and what is derived from that is the same. And
-what the tracer says of it: every plain method in both precisions, and the proof. These `Answer`s
-are by the tracer's own functions, not by the steps that the derivation shows.
+A `Pixel` has all that its derivation needs of a scene, and stands alone: `reproducer.py` writes it
+to a file, and what is derived from that is the same. An `Answer` is that of a plain method in one
+precision, or the proof, by the tracer's own functions, not by the steps that the derivation shows.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ def check_pixel(camera: Camera, x: int, y: int) -> None:
             )
 
 
-SENTENCES = {
+CERTAINTY_SENTENCES = {
     Certainty.NOT_CERTIFIED: "by floating point alone: this machine's arithmetic allows no proof",
     Certainty.BOUND: "proven by the error bound of float64: no rounding could change it",
     Certainty.EXACT: "proven by integers: float64's error bound left some doubt",

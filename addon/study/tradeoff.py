@@ -39,10 +39,10 @@ MORE_REPEATS = 7  # where one is so short that the machine's noise shows
 SHORT = 0.25  # seconds
 
 # Samples a pixel and direction of the converged picture. With 16, a straight edge along the pixels
-# is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are MANY
-# rays, but at least twice as many as what is held against it.
+# is off by at most 1/32 of a pixel's coverage. A large picture takes fewer, so that there are
+# about CONVERGED_RAYS, but at least twice as many as what is held against it.
 CONVERGED = 16
-MOST_SAMPLES = 4_000_000
+CONVERGED_RAYS = 4_000_000
 BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 
@@ -97,7 +97,7 @@ def measure(
     choices = choose(scene, min(WIDTH, scene.camera.width) if width is None else width, samples)
     camera = choices[0].scene.camera
     pixels, each = camera.width * camera.height, sum(c.cost for c in choices)
-    k = max(2 * samples, min(CONVERGED, int((MOST_SAMPLES / pixels) ** 0.5)))
+    k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
     rays = k * k * pixels
     first, second = (cost / (rays + 6 * each) for cost in (rays, 2 * each))
     truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)

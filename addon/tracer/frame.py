@@ -28,7 +28,7 @@ class Pass(NamedTuple):
     """One output: what EXR files and arrays call it, and how Blender shows it.
 
     `name` is the attribute of `Frame` that has it, `label` Blender's name (none: not in Blender),
-    `letters` those of its channels, `shown` what Blender is given of its values.
+    `letters` those of its channels there, `shown` what Blender is given of its values.
     """
 
     name: str

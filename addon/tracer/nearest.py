@@ -92,18 +92,22 @@ def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
 def _keep_nearest(hits: Hits, after: Hits | None, pixel: NDArray[np.intp], found: Hits) -> None:
     """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
     if after is not None:
-        behind = np.flatnonzero(_before(after.take(pixel), found))
+        behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)
     # Of several writes to one pixel the last one stays: so those that are nearer come again, the
     # other way round, as many may be sorted.
     while len(pixel):
-        nearer = np.flatnonzero(_before(found, hits.take(pixel)))[::-1]
+        nearer = np.flatnonzero(_before(found, slice(None), hits, pixel))[::-1]
         pixel, found = pixel[nearer], found.take(nearer)
         hits.enter(pixel, found)
 
 
-def _before(first: Hits, second: Hits) -> NDArray[np.bool_]:
-    """Return where the first come before the second, in the order of t, instance, triangle."""
-    lower = first.triangle < second.triangle
-    lower = (first.instance < second.instance) | ((first.instance == second.instance) & lower)
-    return (first.t < second.t) | ((first.t == second.t) & lower)
+def _before(
+    first: Hits, rays: NDArray | slice, second: Hits, others: NDArray | slice
+) -> NDArray[np.bool_]:
+    """Return where hits of `rays` come before others, in the order of t, instance, triangle."""
+    t, instance, triangle = first.t[rays], first.instance[rays], first.triangle[rays]
+    other_t, other_instance = second.t[others], second.instance[others]
+    lower = triangle < second.triangle[others]
+    lower = (instance < other_instance) | ((instance == other_instance) & lower)
+    return (t < other_t) | ((t == other_t) & lower)

@@ -62,12 +62,13 @@ class Arrays:
     @classmethod
     def together(cls, parts: Iterable[Self], size: int) -> Iterator[Self]:
         """Yield them all, small parts joined, at least `size` at a time but at the end."""
-        some: list[Self] = []
+        some, count = [], 0
         for part in parts:
             some.append(part)
-            if sum(map(len, some)) >= size:
+            count += len(part)
+            if count >= size:
                 yield cls.joined(some)
-                some = []
+                some, count = [], 0
         if some:
             yield cls.joined(some)
 

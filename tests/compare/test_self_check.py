@@ -43,6 +43,15 @@ def case(room):
     return case_of(room, picture)
 
 
+def test_objects_of_one_name_are_told_apart(make):
+    """Two nodes of a file may share a name; the first of them is out of view."""
+    quads = make.quad(50, 51, 0, 1, -2), make.quad(-0.7, 0.6, -0.3, 0.5, -2)
+    scene = replace(make.scene(make.camera(40, 30), *quads), objects=("Chair", "Chair"))
+    names = ("dropped_instance", "dropped_triangle", "moved_object")
+    rows = checked(case_of(scene, render(scene).color), names)
+    assert [rows[name].result for name in names] == ["caught"] * 3
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("known", [True, False], ids=["identity", "colours alone"])
 def test_every_fault_is_caught_but_those_that_change_nothing(case, known):

@@ -159,6 +159,13 @@ def test_advice_without_a_plot_is_text(show, differing):
     assert trade.advice in show(differing, held=held).locator("#tables").inner_text()
 
 
+def test_a_camera_of_a_third_type_is_refused_in_words(show, differing):
+    held = json.loads(page.json_text(content(differing)))
+    held["camera"]["orthographic"] = "mirrored"
+    notice = show(differing, held=held, ready="[role=alert]").locator("[role=alert]").inner_text()
+    assert notice == "This page cannot be shown: it has no rays of a mirrored camera."
+
+
 def test_the_causes_are_seen_without_scrolling(show, differing):
     tab = show(differing, viewport={"width": 1366, "height": 768})
     box = tab.locator("#legend").bounding_box()

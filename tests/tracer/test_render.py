@@ -108,7 +108,6 @@ def test_samples_are_spread_evenly(samples):
     assert np.allclose(np.diff(np.unique(offsets[:, 0].round(12))), 1 / samples)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("samples", [1, 2, 4, 8])
 @pytest.mark.parametrize("covered", [0.25, 0.5, 0.75])
 def test_an_edge_becomes_the_mean(make, samples, covered):

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +11,8 @@ from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
-ADDON = Path(__file__).parent.parent.parent / "addon"
+from ..copied import copied, run
+
 SCRIPT = """
 import numpy as np
 from reference_tracer.scene_files import load_scene
@@ -25,24 +24,10 @@ np.savez("frame.npz", **frame.passes(), **vars(frame.ties))
 """
 
 
-def run(folder: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", SCRIPT],
-        cwd=folder,
-        env={"PYTHONPATH": str(folder)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
 @pytest.fixture
 def sweep(tmp_path: Path) -> Path:
     """The folder `sweep/` of a copy of the add-on."""
-    shutil.copytree(
-        ADDON, tmp_path / "reference_tracer", ignore=shutil.ignore_patterns("__pycache__")
-    )
-    return tmp_path / "reference_tracer" / "tracer" / "certified" / "sweep"
+    return copied(tmp_path) / "tracer" / "certified" / "sweep"
 
 
 @pytest.mark.parametrize("leftovers", [False, True], ids=["deleted", "emptied"])
@@ -53,7 +38,7 @@ def test_without_the_sweep_the_picture_is_the_same(make, sweep, tmp_path, leftov
     shutil.rmtree(sweep)
     if leftovers:
         (sweep / "__pycache__").mkdir(parents=True)
-    done = run(tmp_path)
+    done = run(tmp_path, SCRIPT)
     assert done.returncode == 0, done.stderr
     frame = render(scene, Settings("certified", samples=2))
     expected = frame.passes() | vars(frame.ties)
@@ -66,7 +51,7 @@ def test_without_the_sweep_the_picture_is_the_same(make, sweep, tmp_path, leftov
 
 def test_a_file_that_the_sweep_misses_is_an_error(sweep, tmp_path):
     (sweep / "film.py").unlink()
-    done = run(tmp_path)
+    done = run(tmp_path, SCRIPT)
     assert done.returncode and "No module named 'reference_tracer.tracer.certified.sweep.film'" in (
         done.stderr
     )

@@ -1,7 +1,7 @@
 """A `Comparison`, and what else was measured -> all that a page shows, for JSON.
 
 `page.schema.json` describes each entry. Pictures are PNG images; the numbers behind them are packed
-arrays. The least useful arrays are left out where the page would grow beyond LIMIT.
+arrays. The least useful arrays are left out where the page would grow beyond MOST_CHARACTERS.
 """
 
 from __future__ import annotations

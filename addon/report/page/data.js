@@ -15,7 +15,7 @@ const TYPES = {
   float64: Float64Array,
 };
 
-/** Undo `packing.packed`: base64, deflate, and the bytes sorted by their place in a number. */
+/** Undo `arrays.packed`: base64, deflate, and the bytes sorted by their place in a number. */
 async function unpack({ type, data }) {
   const letters = atob(data);
   const deflated = new Uint8Array(letters.length);

@@ -31,7 +31,7 @@ class Extras:
     """What a page shows beside a comparison, as far as it was found out."""
 
     trade: Trade | None = None
-    extremes: Sequence[extremes.Row] | None = None
+    extremes: Sequence[extremes.ExtremesRow] | None = None
     literal: Frame | None = None  # the same scene by the textbook's test taken literally
     derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)  # by pixel (x, y)
     left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why

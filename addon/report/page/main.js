@@ -104,6 +104,7 @@ function begin() {
 }
 
 async function main() {
+  if (!projection) throw new Error(`it has no rays of a ${camera.orthographic} camera`);
   await loadPixels();
   await loadLayers();
   fillChoices();
@@ -114,7 +115,8 @@ async function main() {
 }
 
 main().catch((error) => {
-  const why = `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`;
+  const advice = projection ? " It needs a browser of 2023 or later." : "";
+  const why = `This page cannot be shown: ${error.message}.${advice}`;
   document.querySelector("main").prepend(element("p", { class: "notice", role: "alert" }, why));
 });
 

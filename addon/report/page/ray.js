@@ -27,7 +27,6 @@ const CAMERAS = new Map([
   ],
 ]);
 const projection = CAMERAS.get(camera.orthographic);
-if (!projection) throw new Error(`this page has no rays of a ${camera.orthographic} camera`);
 
 /** The ray x = o + t d through the centre of a pixel; t is the depth along the view axis. */
 function cameraRay(x, y, precision) {

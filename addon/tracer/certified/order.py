@@ -43,7 +43,7 @@ def order_of(
     around : Rays
         To which the above :func:`applies`: they say what the rays share, and the first of them
         has o0.
-    batch : Batch
+    batch : IntegerBatch
         The surfaces as integers, with the first of the rays around.
     first, second : (n,) int
         Surfaces, as the batch numbers them.

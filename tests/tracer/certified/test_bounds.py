@@ -153,7 +153,6 @@ def test_many_rays_of_one_direction(family, scaled, rng):
     check(prepared, rows, Rays(o, d[:, :1]), exact)
 
 
-@pytest.mark.slow
 @EVERY_FAMILY
 def test_planes(family, scaled, rng):
     o, d, c = scaled(family)

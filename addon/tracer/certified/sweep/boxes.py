@@ -170,4 +170,4 @@ def by_depth(
     depth = ((last - nearest) * scale).astype(np.uint8)
     area = np.cumsum(np.bincount(depth, area, BINS))
     own = (area * (count / area[-1])).astype(np.uint8)[depth]
-    return [seen.take(part) for part in grouped(own, count) if len(part)], bottom, top
+    return [seen.take(part) for part in grouped(own, count + 1) if len(part)], bottom, top

@@ -24,7 +24,7 @@ FLOATS = ("p", "q", "w", "depth", "size", "nearest", "ahead", "finite")
 LIMITS = (1, 2, 5, 13, 10**9)
 
 
-def all_pieces(scene: Scene, film: Film, limit: int) -> list[Chunk]:
+def all_chunks(scene: Scene, film: Film, limit: int) -> list[Chunk]:
     if not scene.instances:
         return []
     around = InstanceBoxes.of(scene, film)
@@ -34,7 +34,7 @@ def all_pieces(scene: Scene, film: Film, limit: int) -> list[Chunk]:
 def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     """Return the names of all chunks' triangles, in their order."""
     names = []
-    for chunk in all_pieces(scene, film, limit):
+    for chunk in all_chunks(scene, film, limit):
         expanded = expand(scene, film, chunk)
         count = expanded.corners.shape[1]
         assert count == expanded.names.count <= limit
@@ -56,7 +56,7 @@ def test_every_triangle_is_in_one_piece(make, part):
         for names in found:
             assert sorted(names) == [(i, k) for i in sorted(shown) for k in range(counts[i])], seed
         left_out += sum(bool(n) for n in counts) - len(shown)
-        several += len(all_pieces(scene, film, 5)) > 1
+        several += len(all_chunks(scene, film, 5)) > 1
     assert left_out > 3 and several > 20
 
 
@@ -70,7 +70,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
         scene = hostile_scene(make, rng)
         film = Film(scene.camera, *offsets(rng))
         for limit in LIMITS:
-            for chunk in all_pieces(scene, film, limit):
+            for chunk in all_chunks(scene, film, limit):
                 expanded = expand(scene, film, chunk)
                 instance, triangle = expanded.names.of(np.arange(expanded.names.count))
                 for i in np.unique(instance).tolist():
@@ -142,7 +142,7 @@ def test_instances_come_from_the_front_to_the_back_and_none_that_is_out_of_view(
     scene = Scene(camera, (make.quad(-0.1, 0.1, -0.1, 0.1, 0),), instances, objects=("A",))
     names = names_of(scene, Film(camera), 2)
     assert [i for i, _ in names] == [k for k in np.argsort(depths) for _ in range(2)]
-    grouped = all_pieces(scene, Film(camera), 20)
+    grouped = all_chunks(scene, Film(camera), 20)
     nearest = [depths[p.instances].min() for p in grouped]
     farthest = [depths[p.instances].max() for p in grouped]
     assert len(grouped) == 4 and all(a < b for a, b in zip(farthest, nearest[1:], strict=False))
@@ -160,7 +160,7 @@ def test_a_part_of_a_mesh_takes_its_own_vertices(make, rng, spread):
     scene = make.scene(make.camera(), Mesh(vertices, triangles))
     film = Film(scene.camera)
     at = project(film, vertices.T)
-    for chunk in all_pieces(scene, film, 40):
+    for chunk in all_chunks(scene, film, 40):
         expanded = expand(scene, film, chunk)
         own = triangles[chunk.first : chunk.last].T
         assert np.array_equal(expanded.vertices.p[expanded.corners], at.p[own])
@@ -199,6 +199,6 @@ def test_refused_triangles_are_counted(make):
 
 def test_nothing_to_see(make):
     camera = make.camera()
-    assert all_pieces(make.scene(camera), Film(camera), 10) == []
+    assert all_chunks(make.scene(camera), Film(camera), 10) == []
     empty = Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))
-    assert all_pieces(make.scene(camera, empty), Film(camera), 10) == []
+    assert all_chunks(make.scene(camera, empty), Film(camera), 10) == []
