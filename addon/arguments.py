@@ -28,7 +28,7 @@ INTERRUPTED = 130  # as shells have it: 128 and the number of the signal
 
 EXIT_CODES_HELP = """exit codes:
   0  the pictures agree
-  1  warnings: something is not modelled, or not decidable
+  1  warnings: something is not modelled, or not decidable; or so much that it is not comparable
   2  differences that no cause explains
   3  the sizes of the pictures do not match
   4  the input is wrong, or cannot be read

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
+from enum import Enum
 from typing import Any
 
 import numpy as np
@@ -34,27 +35,54 @@ class ObjectEntry:
     diagnosis: dict[str, Any] | None = None  # see scene_files.diagnose and merged
 
 
+class Effect(Enum):
+    """What a feature that the tracer does not model does to the picture of the other side."""
+
+    NONE = "it changes nothing that is compared"
+    UNPLACED = "it may change the picture, and nobody knows where"
+    COLOR = "the object's surfaces have colours that the tracer does not know"
+    DRAWN = "it draws itself, over what is traced"
+    IN_FRONT = "the object is drawn over what is before it"
+    UNSEEN = "the object is not drawn, and what is behind it is"
+    HOLDOUT = "the object cuts a hole into the picture"
+    LIGHT = "every colour may be another; whose surface a pixel shows stays as it is"
+    PICTURE = "every pixel may be another"
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether it can change the picture anywhere."""
+        return self in (Effect.LIGHT, Effect.PICTURE)
+
+
 @dataclass(frozen=True, eq=False)
 class Unmodelled:
-    """A feature of the scene that the tracer does not model."""
+    """A feature of the scene that the tracer does not model.
+
+    `bounds` is the world-space box, (2, 3) metres, inside which it can change a picture; None where
+    it cannot be placed.
+    """
 
     object: str
     feature: str
     detail: str = ""
-    # The world-space box, (2, 3) metres, inside which the feature can change Blender's picture;
-    # None where it changes nothing that is compared, or cannot be placed.
     bounds: NDArray[np.float64] | None = None
-    everywhere: bool = False  # it can change the picture anywhere
-    recolours: bool = False  # it changes shades alone: whose surface a pixel shows stays as it is
+    effect: Effect = Effect.DRAWN
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():
             object.__setattr__(self, "bounds", None)  # a box without an end explains nothing
 
+    def __str__(self) -> str:
+        whose = self.object if self.object.startswith("scene '") else f"'{self.object}'"
+        return f"{self.feature} of {whose}"
+
     def to_dict(self) -> dict[str, Any]:
         """Return the feature as JSON can hold it."""
-        out = {k: v for k, v in vars(self).items() if k != "bounds"}
-        return out | {"bounds": None if self.bounds is None else np.asarray(self.bounds).tolist()}
+        return vars(self) | {
+            "bounds": None if self.bounds is None else np.asarray(self.bounds).tolist(),
+            "effect": self.effect.name.lower(),
+            "everywhere": self.effect.everywhere,
+        }
 
 
 @dataclass(frozen=True)
@@ -98,7 +126,7 @@ class Manifest:
             False,
         )
         if not exported:
-            yield "  note: nothing is exported, so the picture is empty", False
+            yield "  nothing is exported, so the picture is empty", True
         for e in exported:
             if e.left_out:
                 yield f"  {e.name}: {e.left_out} triangles left out (not finite)", True
@@ -116,6 +144,6 @@ class Manifest:
             )
         for u in self.unmodelled:
             detail = f" ({u.detail})" if u.detail else ""
-            yield f"  not modelled: {u.object}: {u.feature}{detail}", True
+            yield f"  not modelled: {u.object}: {u.feature}{detail}", u.effect is not Effect.NONE
         for note in self.notes:
             yield f"  note: {note}", False

@@ -111,7 +111,7 @@ def test_an_empty_scene_has_a_manifest():
     empty = Manifest("", "Scene", "ViewLayer", 1, "FILE", "Camera")
     assert empty.lines() == [
         "0 of 0 objects exported, 0 triangles, file evaluation, camera 'Camera'",
-        "  note: nothing is exported, so the picture is empty",
+        "  nothing is exported, so the picture is empty",
     ]
     assert empty.to_dict()["objects"] == []
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -25,8 +26,10 @@ from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.settings import Settings
 from .compare import export_open_file
+from .drawings import Drawing, drawn_by_others
 from .engine import export_for_render
 from .export import export
+from .judges import JUDGES
 from .temporary import temporary_scene, values_kept
 from .viewport import read, set_format
 
@@ -46,11 +49,14 @@ def gather_against(
         If the scene cannot be traced.
     """
     scene, manifest, _ = export_open_file(context)
+    drawing = Drawing(
+        context.scene, context.view_layer.name, JUDGES["workbench"], True, None, scene, manifest
+    )
     return Case(
         scene,
         manifest,
         settings,
-        picture,
+        replace(picture, drawn=drawn_by_others(drawing)),
         alternatives=alternatives(context, scene, manifest),
         curves=view_transforms(context.scene, scene),
         self_check=self_check,

@@ -16,7 +16,7 @@ from ..arguments import words
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
-from ..compare.picture import Picture, Source, numbered
+from ..compare.picture import Picture, Source
 from ..manifest import Manifest
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
@@ -26,14 +26,15 @@ from ..scene_files import diagnosed
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
 from .camera import export_camera
+from .drawings import Drawing, with_identity, with_what_draws_itself
 from .engine import export_for_judge, export_for_render
 from .judges import JUDGES, Judge, judge_named
 from .planes import stand_ins
+from .rasteriser import snapping_of
 from .temporary import temporary_scene, values_kept
 from .unmodelled import of_shading
 from .viewport import (
     anti_aliasing,
-    draw_identity,
     picture,
     prepare_scene,
     solid_shading,
@@ -76,7 +77,7 @@ def gather_case(
     of_view = engine.needs_window and not like_for_like
     view_shading = solid_shading(context) if of_view else None
     checked = stored.self_check if self_check is None else self_check
-    found, later = None, None
+    later = None
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
     with temporary_scene(scene, layer, engine) as tmp:
         if view_shading:
@@ -94,24 +95,24 @@ def gather_case(
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
         if checked:
             later = _a_frame_later(tmp, layer, engine)
+        snapping = snapping_of(engine)  # its drawing is the first, which may be another
         of_planes = manifest.owners[len(exported.instances) :]
-        with stand_ins(tmp, layer, exported, of_planes) as exported:
+        with stand_ins(tmp, layer, exported, of_planes) as with_planes:
             drawn = picture(tmp, layer, engine, exported.camera, like_for_like)
-            if stored.identity if identity is None else identity:
-                found = draw_identity(tmp, layer, engine, exported.camera)
-    names, owner = found or ((), None)
     shown = Picture(
         drawn,
         Source(engine.name, bpy.app.version_string, settings=used),
-        owner,
-        numbered(names, manifest.owners) if found else None,
-        names,
-        engine.sample_radius,
-        0.0 if smooth == "OFF" else engine.filter_radius,
+        sample_radius=engine.sample_radius,
+        filter_radius=0.0 if smooth == "OFF" else engine.filter_radius,
         sums=int(smooth) if smooth.isdigit() else 0,
+        snapping=snapping,
     )
+    drawing = Drawing(scene, layer, engine, like_for_like, view_shading, exported, manifest)
+    if stored.identity if identity is None else identity:
+        shown = with_identity(drawing, shown)
+    shown, manifest = with_what_draws_itself(drawing, shown)
     return Case(
-        exported, manifest, settings, shown, certificate, self_check=checked, next_frame=later
+        with_planes, manifest, settings, shown, certificate, self_check=checked, next_frame=later
     )
 
 

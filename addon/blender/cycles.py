@@ -15,7 +15,7 @@ import numpy as np
 
 from ..scene import GREY, SceneError
 from .colors import WITHOUT_ATTRIBUTE, random_color
-from .temporary import colored_copies, drawn
+from .temporary import drawn, in_colors
 
 SLOTS = 32  # material slots that are told apart: each is some nodes
 
@@ -36,10 +36,8 @@ def constant_colors(scene: Any, layer: str, sample_radius: float) -> Iterator[No
         objects = drawn(scene, layer)
         colors = np.array([random_color(o)[:3] for o in objects]).reshape(-1, 3)
         scene.display.shading.color_type = "OBJECT"
-        with colored_copies(scene, layer, objects, colors):
-            with constant_colors(scene, layer, sample_radius):
-                yield
-        scene.view_layers[layer].update()  # or its list still has the copies
+        with in_colors(objects, colors), constant_colors(scene, layer, sample_radius):
+            yield
         return
     scene.cycles.samples = 1
     scene.cycles.use_denoising = False

@@ -19,7 +19,7 @@ from ..scene import Camera, Instance, Mesh, Plane, Scene
 from .camera import export_camera
 from .colors import background
 from .planes import outside
-from .temporary import user_scene
+from .temporary import judge_of, user_scene
 from .unmodelled import of_scene
 from .visible import Met, Seen, Shown, export_mesh, visible
 
@@ -115,11 +115,10 @@ def _read(
     for item in depsgraph.object_instances if wanted else ():
         if item.object.type != "MESH":
             continue
-        mesh = item.object.data
-        key = mesh.as_pointer()
+        key = item.object.data.as_pointer()
         if key in wanted:
             wanted.remove(key)
-            meshes[key] = export_mesh(mesh, met[key].vertices, met[key].name, with_colors)
+            meshes[key] = export_mesh(item.object, met[key].vertices, met[key].name, with_colors)
             if not wanted:
                 break
     return meshes
@@ -170,7 +169,7 @@ def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
         evaluation=depsgraph.mode,
         camera=camera,
         objects=tuple(entries),
-        unmodelled=(*features, *of_scene(scene)),
+        unmodelled=(*features, *of_scene(scene, judge_of(depsgraph.scene))),
     )
 
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..scene import Camera, Plane, Scene, ViewWindow
 from ..tracer.camera import pixel_size
 from .colors import random_color
-from .temporary import STANDS_FOR, replace_objects
+from .temporary import STANDS_FOR, leave_out
 
 BEYOND = 2  # pixels beyond the picture: a comparison looks half a pixel beside a pixel's centre
 DEPTHS = 0.99, 1.01  # of the clip range, so that Blender's own clipping decides, in float32
@@ -131,7 +131,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iter
     planes: list[Plane] = []
     try:
         if marked:
-            replace_objects(tmp, layer, dict.fromkeys(marked))
+            leave_out(tmp, layer, marked)
         for plane, owner in zip(scene.planes, owners, strict=True):
             corners = polygon(scene.camera, plane)
             if len(corners):

@@ -1,8 +1,8 @@
 """A copy of the user's scene, on which everything that a picture needs is set.
 
 Its objects are the user's own; its settings, view layers and top collection are its own, and go
-with it. Objects are replaced in it, by others or by nothing: collections that hold such an object
-are replaced by copies. The user's scene, view and Render Result stay as they are.
+with it. Objects are left out of it: collections that hold such an object are replaced by copies.
+The user's scene, view and Render Result stay as they are.
 
 A render evaluates the animation of the frame and writes the result into the user's own objects.
 What he has moved but not keyed yet would be lost: `values_kept` puts it back.
@@ -10,7 +10,7 @@ What he has moved but not keyed yet would be lost: `values_kept` puts it back.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -88,24 +88,18 @@ def _leave_out_drawings(parent: Any) -> None:
             _leave_out_drawings(child)
 
 
-def replace_objects(tmp: Any, layer: str, objects: Mapping[Any, Any]) -> None:
-    """Replace objects in a temporary scene, each by another or by None for nothing.
-
-    What was hidden in its view layer stays so.
-    """
-    view_layer = tmp.view_layers[layer]
-    hidden = [new for old, new in objects.items() if new and old.hide_get(view_layer=view_layer)]
-    _replace(tmp.collection, view_layer.layer_collection, objects, _copies[tmp.name_full][2])
-    for obj in hidden:
-        obj.hide_set(True, view_layer=view_layer)
+def leave_out(tmp: Any, layer: str, objects: Collection[Any]) -> None:
+    """Take objects out of a temporary scene."""
+    top = tmp.view_layers[layer].layer_collection
+    _leave_out(tmp.collection, top, objects, _copies[tmp.name_full][2])
 
 
-def _replace(collection: Any, layer: Any, objects: Mapping[Any, Any], copies: list[Any]) -> None:
+def _leave_out(collection: Any, layer: Any, objects: Collection[Any], copies: list[Any]) -> None:
     for child in list(collection.children):
-        if objects.keys().isdisjoint(child.all_objects):
+        if not any(obj in objects for obj in child.all_objects):
             continue
         if child in copies:
-            _replace(child, layer.children[child.name], objects, copies)
+            _leave_out(child, layer.children[child.name], objects, copies)
             continue
         copy = child.copy()
         copies.append(copy)
@@ -114,10 +108,8 @@ def _replace(collection: Any, layer: Any, objects: Mapping[Any, Any], copies: li
         new = layer.children[copy.name]
         _copy_flags(old, new)
         collection.children.unlink(child)
-        _replace(copy, new, objects, copies)
+        _leave_out(copy, new, objects, copies)
     for obj in [o for o in collection.objects if o in objects]:
-        if objects[obj] is not None:
-            collection.objects.link(objects[obj])
         collection.objects.unlink(obj)
 
 
@@ -134,30 +126,43 @@ def drawn(tmp: Any, layer: str) -> list[Any]:
 
 
 @contextmanager
-def colored_copies(
-    tmp: Any, layer: str, objects: list[Any], colors: NDArray[np.float32]
-) -> Iterator[None]:
-    """Show copies of a temporary scene's objects, in object colours (n, 3), for a while.
-
-    A copy shares its mesh, materials and animation with the original, so that it costs little.
-    Stand-ins of infinite planes are ours, and are coloured themselves.
-    """
-    copies: dict[Any, Any] = {}
-    try:
-        for obj, color in zip(objects, colors, strict=True):
-            if STANDS_FOR in obj:
-                obj.color = (*color, 1.0)
-                continue
-            copies[obj] = copy = obj.copy()
-            copy.color = (*color, 1.0)
-        for copy in copies.values():  # whose corners or faces carry what is parented to it
-            if copy.parent in copies and copy.parent.instance_type in ("VERTS", "FACES"):
-                copy.parent = copies[copy.parent]
-        replace_objects(tmp, layer, copies)
+def in_colors(objects: Sequence[Any], colors: NDArray[np.float32]) -> Iterator[None]:
+    """Show objects in object colours (n, 3), for a while."""
+    opaque = np.column_stack((colors, np.ones(len(colors)))).astype(np.float32)
+    rows = dict(zip(objects, opaque, strict=True))
+    with untold(bpy.data.objects, "color", rows):
         yield
-        replace_objects(tmp, layer, {copy: obj for obj, copy in copies.items()})
+
+
+@contextmanager
+def untold(blocks: Any, name: str, values: Mapping[Any, Any]) -> Iterator[None]:
+    """Give a property of some of the user's data-blocks other values, for a while.
+
+    Blender is not told: as it is set for all at once, nothing is tagged. If it were, particles that
+    are not baked would be reset, for good; and a copy of an object has no simulation at all. So it
+    shows where a scene is evaluated for the first time: in a render, or in a new temporary scene.
+    """
+    before = _set(blocks, name, values) if values else {}
+    try:
+        yield
     finally:
-        bpy.data.batch_remove(list(copies.values()))
+        if before:
+            _set(blocks, name, before)
+
+
+def _set(blocks: Any, name: str, values: Mapping[Any, Any]) -> dict[Any, Any]:
+    """Set a property of some data-blocks, and return what it was."""
+    some = np.asarray(next(iter(values.values())))
+    held = np.zeros((len(blocks), *some.shape), some.dtype)
+    flat = held.reshape(-1)
+    blocks.foreach_get(name, flat)
+    before = {}
+    for number, block in enumerate(blocks):
+        if block in values:
+            before[block] = held[number].copy()
+            held[number] = values[block]
+    blocks.foreach_set(name, flat)
+    return before
 
 
 @contextmanager

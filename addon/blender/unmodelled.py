@@ -1,7 +1,7 @@
 """What a Blender scene contains that the tracer does not model, by object and name.
 
-In come an evaluated scene and its objects; out go `manifest.Unmodelled` entries. Those with bounds
-can change the picture that Blender draws, and explain a pixel inside them.
+In come an evaluated scene and its objects; out go `manifest.Unmodelled` entries, with what each
+does to the picture of the judge.
 """
 
 from __future__ import annotations
@@ -12,9 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..manifest import Unmodelled
+from ..manifest import Effect, Unmodelled
 from .colors import slot_materials
 from .judges import Judge
+
+HAIR = "hair"  # of particles: the object that has it is drawn without it, too
 
 # Object types that Blender draws, but not as triangles.
 _DRAWN_OTHERWISE = {
@@ -52,53 +54,63 @@ def of_object(
 ) -> Iterator[Unmodelled]:
     """Yield what is not modelled of an evaluated object as it appears with a world_from_object.
 
-    The mode is 'VIEWPORT' or 'RENDER'. Only what the judge draws has bounds; with None, all has.
+    The mode is 'VIEWPORT' or 'RENDER'. What the judge does not draw has no effect, and no bounds.
     """
     bounds = None
 
-    def found(feature: str, detail: str = "") -> Unmodelled:
+    def found(feature: str, effect: Effect, detail: str = "") -> Unmodelled:
         nonlocal bounds
         if judge and feature in judge.ignores:
-            return Unmodelled(obj.original.name_full, feature, detail)
+            return Unmodelled(obj.original.name_full, feature, detail, None, Effect.NONE)
         bounds = world_bounds(obj, matrix) if bounds is None else bounds
-        return Unmodelled(obj.original.name_full, feature, detail, bounds)
+        return Unmodelled(obj.original.name_full, feature, detail, bounds, effect)
 
     if obj.type in _DRAWN_OTHERWISE:
-        yield found(_DRAWN_OTHERWISE[obj.type], "Blender draws it, but not as triangles")
+        detail = "Blender draws it, but not as triangles"
+        yield found(_DRAWN_OTHERWISE[obj.type], Effect.DRAWN, detail)
     if obj.type != "MESH":
         return
     color_type = shading.color_type
     if color_type in ("OBJECT", "VERTEX") and obj.color[3] < 1:
-        yield found("transparency", f"the object's colour has alpha {obj.color[3]:.3g}")
+        detail = f"the object's colour has alpha {obj.color[3]:.3g}"
+        yield found("transparency", Effect.COLOR, detail)
     if color_type in ("MATERIAL", "TEXTURE"):
         for material in {m.name: m for m in slot_materials(obj) if m}.values():
             name, alpha = f"material '{material.name}'", material.diffuse_color[3]
             if alpha < 1:
-                yield found("transparency", f"{name} has a viewport alpha of {alpha:.3g}")
+                detail = f"{name} has a viewport alpha of {alpha:.3g}"
+                yield found("transparency", Effect.COLOR, detail)
             nodes = material.node_tree.nodes if material.node_tree else ()
             if color_type == "TEXTURE" and any(node.type == "TEX_IMAGE" for node in nodes):
-                yield found("texture", name)
+                yield found("texture", Effect.COLOR, name)
     attributes = obj.data.color_attributes
     if color_type == "VERTEX" and len(attributes) and attributes.active_color is None:
-        yield found("colour attribute", "it has some, but none is the active one")
+        detail = "it has some, but none is the active one"
+        yield found("colour attribute", Effect.COLOR, detail)
     if obj.show_in_front:
-        yield found("in-front drawing")
+        yield found("in-front drawing", Effect.IN_FRONT)
     original = obj.original
     if obj.is_holdout or original.holdout_get(view_layer=layer):
-        yield found("holdout")
+        yield found("holdout", Effect.HOLDOUT)
     if original.indirect_only_get(view_layer=layer):
-        yield found("indirect only", "its collection is seen by indirect rays alone")
+        detail = "its collection is seen by indirect rays alone"
+        yield found("indirect only", Effect.UNSEEN, detail)
     if not original.visible_camera:
-        yield found("not visible to the camera")
+        yield found("not visible to the camera", Effect.UNSEEN)
     if mode == "VIEWPORT" and obj.display_type in ("WIRE", "BOUNDS"):
-        yield found("display type", f"{obj.display_type.lower()}: the viewport draws no surface")
+        detail = f"{obj.display_type.lower()}: the viewport draws no surface"
+        yield found("display type", Effect.UNPLACED, detail)
     for system in obj.particle_systems:
         if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
-            yield found("hair", f"particle system '{system.name}'")
+            yield found(HAIR, Effect.DRAWN, f"particle system '{system.name}'")
 
 
-def of_scene(scene: Any) -> Iterator[Unmodelled]:
-    """Yield what is not modelled of the scene and its camera as a whole; it has no bounds."""
+def of_scene(scene: Any, judge: Judge | None) -> Iterator[Unmodelled]:
+    """Yield what is not modelled of the scene and its camera as a whole; it has no bounds.
+
+    A judge draws a temporary scene, in which it is switched off.
+    """
+    effect = Effect.NONE if judge else Effect.UNPLACED
     camera, render, shading = scene.camera, scene.render, scene.display.shading
     sequence = scene.sequence_editor
     strips = sequence and getattr(sequence, "strips_all", getattr(sequence, "sequences_all", ()))
@@ -121,7 +133,7 @@ def of_scene(scene: Any) -> Iterator[Unmodelled]:
         (name, "mist", "", scene.world and scene.world.mist_settings.use_mist),
     ):
         if has:
-            yield Unmodelled(of, feature, detail)
+            yield Unmodelled(of, feature, detail, None, effect)
 
 
 def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
@@ -131,22 +143,22 @@ def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodel
     """
     shading, name = scene.display.shading, f"scene '{scene.name}'"
     if not judge.solid:
-        yield Unmodelled(name, "materials and light", f"of {judge.label}", None, True, True)
+        yield Unmodelled(name, "materials and light", f"of {judge.label}", None, Effect.LIGHT)
         return
-    detail, found = "Blender's picture is made with it", False
+    detail, aa = "Blender's picture is made with it", Effect.NONE
     studio = shading.light == "STUDIO"
-    for feature, shown, recolours in (
-        (f"{shading.light.lower()} light", shading.light != "FLAT", True),
-        ("specular highlights", studio and shading.show_specular_highlight, True),
-        ("shadows", shading.show_shadows, True),
-        ("cavity", shading.show_cavity, True),
-        ("object outline", shading.show_object_outline, True),
-        ("x-ray", shading.show_xray, False),
-        ("backface culling", shading.show_backface_culling, False),
-        ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof, False),
+    for feature, shown, effect in (
+        (f"{shading.light.lower()} light", shading.light != "FLAT", Effect.LIGHT),
+        ("specular highlights", studio and shading.show_specular_highlight, Effect.LIGHT),
+        ("shadows", shading.show_shadows, Effect.LIGHT),
+        ("cavity", shading.show_cavity, Effect.LIGHT),
+        ("object outline", shading.show_object_outline, Effect.LIGHT),
+        ("x-ray", shading.show_xray, Effect.PICTURE),
+        ("backface culling", shading.show_backface_culling, Effect.PICTURE),
+        ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof, Effect.PICTURE),
     ):
         if shown:
-            found = True
-            yield Unmodelled(name, feature, detail, None, True, recolours)
+            aa = Effect.LIGHT
+            yield Unmodelled(name, feature, detail, None, effect)
     if anti_aliasing != "OFF":
-        yield Unmodelled(name, "anti-aliasing", detail, None, found, found)
+        yield Unmodelled(name, "anti-aliasing", detail, None, aa)

@@ -2,9 +2,6 @@
 
 Everything is set on a temporary copy of the user's scene. What cannot live on a copy, the
 preference for the viewport's anti-aliasing and the mark that preferences were changed, is put back.
-
-Whose surface each pixel shows is found by drawing the scene again, a colour an object. What is
-instanced shows the colour of the object that instances it, and counts as that.
 """
 
 from __future__ import annotations
@@ -20,10 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import SizeError
-from ..compare.identity import MOST_OBJECTS, colors_of, decode
 from ..scene import Camera
 from .judges import Judge
-from .temporary import STANDS_FOR, colored_copies, drawn, values_kept
+from .temporary import values_kept
 
 # What a picture that can be compared needs: property of the scene, and value.
 _ALWAYS = {
@@ -165,29 +161,6 @@ def _viewport_aa(value: str) -> Iterator[None]:
     finally:
         preferences.system.viewport_aa = before
         preferences.is_dirty = dirty
-
-
-def draw_identity(
-    tmp: Any, layer: str, judge: Judge, camera: Camera
-) -> tuple[tuple[str, ...], NDArray[np.int32]] | None:
-    """Return the names of what may be shown, and which of them each pixel shows, (h, w).
-
-    None where there are more objects than colours tell apart. The temporary scene is a prepared
-    one, with the stand-ins of infinite planes; it is not as it was afterwards: it is to be the last
-    drawing. Raises what :func:`picture` does.
-    """
-    objects = drawn(tmp, layer)
-    owners = [o.get(STANDS_FOR) or o.name_full for o in objects]
-    names = tuple(dict.fromkeys(owners))
-    if len(names) > MOST_OBJECTS:
-        return None
-    number = {name: n for n, name in enumerate(names)}
-    numbers = [number[owner] for owner in owners]
-    prepare_scene(tmp, True)
-    tmp.display.shading.color_type = "OBJECT"
-    with colored_copies(tmp, layer, objects, colors_of(len(names))[numbers]):
-        found = decode(picture(tmp, layer, judge, camera, True), len(names))
-    return names, found
 
 
 def read(path: Path, colorspace: str = "") -> NDArray[np.float32]:

@@ -11,7 +11,9 @@ such. The plain properties (`vertices[i].co` and the like) are asked for one by 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -99,8 +101,9 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
             continue
         else:
             if key not in met:
-                faces = len(mesh.polygons)
-                met[key] = Met(name, read_vertices(mesh) if faces else np.zeros((0, 3)))
+                with plain_mesh(obj) as own:
+                    faces = len(own.polygons)
+                    met[key] = Met(name, read_vertices(own) if faces else np.zeros((0, 3)))
             if not len(met[key].vertices):
                 continue
         if look not in all_colors:
@@ -119,33 +122,44 @@ def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
     if key in features and found.bounds is not None and features[key].bounds is not None:
         both = np.stack((features[key].bounds, found.bounds))
         bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
-        found = Unmodelled(found.object, found.feature, found.detail, bounds)
+        found = replace(found, bounds=bounds)
     features[key] = found
+
+
+@contextmanager
+def plain_mesh(obj: Any) -> Iterator[Any]:
+    """Give an evaluated object's mesh with all of its faces and attributes.
+
+    In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
+    """
+    if not obj.data.is_editmode:
+        yield obj.data
+        return
+    try:
+        yield obj.to_mesh()
+    finally:
+        obj.to_mesh_clear()
 
 
 def read_vertices(mesh: Any) -> NDArray[np.float32]:
     """Return the vertices of an evaluated `bpy.types.Mesh` that has some, (v, 3) object space."""
-    if mesh.is_editmode:  # its attributes are those of the mesh in the editor
-        return _read(mesh.vertices, "co", 3, np.float32)
     return _read(mesh.attributes["position"].data, "vector", 3, np.float32)
 
 
 def export_mesh(
-    mesh: Any, vertices: NDArray[np.float32], name: str, with_colors: bool
+    obj: Any, vertices: NDArray[np.float32], name: str, with_colors: bool
 ) -> tuple[Mesh, int]:
-    """Return the loop triangles of an evaluated `bpy.types.Mesh`, and how many were left out.
+    """Return the loop triangles of an evaluated object's mesh, and how many were left out.
 
     They are numbered as `mesh.loop_triangles`, but for those that touch a vertex that is not
     finite, which are left out. The vertices (v, 3) are its own, as :func:`read_vertices` gives
     them; `with_colors` says whether its active colour attribute is what will be shown.
     """
-    loops = _read(mesh.loop_triangles, "loops", 3, np.int32)
-    if mesh.is_editmode:
-        triangles = _read(mesh.loop_triangles, "vertices", 3, np.int32)
-    else:
+    with plain_mesh(obj) as mesh:
+        loops = _read(mesh.loop_triangles, "loops", 3, np.int32)
         triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
-    slots = _slots(mesh)
-    colors = _corner_colors(mesh, triangles, loops) if with_colors else None
+        slots = _slots(mesh)
+        colors = _corner_colors(mesh, triangles, loops) if with_colors else None
     vertices, keep = drop_non_finite(vertices, triangles)
     left_out = len(keep) - int(keep.sum())
     if left_out:
@@ -157,11 +171,11 @@ def export_mesh(
 
 def _slots(mesh: Any) -> NDArray[np.int32] | None:
     """Return each triangle's material slot, (n,); None where all show the first."""
-    attribute = None if mesh.is_editmode else mesh.attributes.get("material_index")
+    attribute = mesh.attributes.get("material_index")
     if attribute and (attribute.domain, attribute.data_type) == ("FACE", "INT"):
         face = _read(mesh.loop_triangle_polygons, "value", 1, np.int32)
         slots = _read(attribute.data, "value", 1, np.int32)[face.ravel()]
-    elif attribute or mesh.is_editmode:  # Blender converts another kind, which is rare
+    elif attribute:  # Blender converts another kind, which is rare
         slots = _read(mesh.loop_triangles, "material_index", 1, np.int32)
     else:
         return None

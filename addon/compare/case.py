@@ -9,8 +9,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from ..manifest import Manifest
+from ..manifest import Effect, Manifest
 from ..scene import Scene
+from ..tracer.hits import NOTHING
 from ..tracer.settings import Settings
 from .certificate import CameraCertificate
 from .picture import Curve, Picture
@@ -56,6 +57,17 @@ class Case:
     self_check: bool = False
     next_frame: Scene | None = None
 
+    def feature_of(self, *effects: Effect) -> NDArray[np.int16]:
+        """Return which feature with one of the effects each instance's object has, each plane's.
+
+        It is an index into the manifest's `unmodelled`; NOTHING for none, and at the end: (k + 1,).
+        """
+        number = {
+            u.object: n for n, u in enumerate(self.manifest.unmodelled) if u.effect in effects
+        }
+        found = [number.get(name, NOTHING) for name in self.scene.objects]
+        return np.array([*found, NOTHING], np.int16)[self.scene.instance_objects]
+
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
         """Return the same with the scene and the alternatives changed alike."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
@@ -67,3 +79,8 @@ class Case:
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)
         return replace(self.with_scenes(behind), picture=picture, next_frame=then)
+
+
+def colorless(case: Case) -> NDArray[np.bool_]:
+    """Return the colours of which instances, then planes, the tracer does not know, (k + 1,)."""
+    return case.feature_of(Effect.COLOR) != NOTHING

@@ -115,6 +115,7 @@ class Cause(IntEnum):
         "index",
         (0.3, 0.08, 0.9),
         explains=True,
+        warns=True,
     )
     HIDDEN = Record(
         10,
@@ -167,6 +168,19 @@ class Cause(IntEnum):
         return {"number": int(self), **told}
 
 
+class Shade(NamedTuple):
+    """An object that the picture shows in another shade, by a transform if one was found."""
+
+    object: str
+    pixels: int
+    transform: str = ""
+
+    def line(self) -> str:
+        """Return it as a sentence without its full stop."""
+        how = f": {self.transform}" if self.transform else ""
+        return f"'{self.object}' is shown in another shade ({self.pixels:,} px){how}"
+
+
 class Hidden(NamedTuple):
     """An object that only one side shows, and why."""
 
@@ -181,17 +195,26 @@ class Causes:
     `cause` is (h, w) uint8, a `Cause` each; `figure` (h, w) float64, NaN where there is none, and
     `allowed` (h, w) the bound that it was held against: the cause's sentence says what they mean.
     An index is one into the manifest's `unmodelled`, or into `hidden`. `transform` is what was
-    found to turn the traced colours into those of the picture, in words; "" for nothing.
+    found to turn the traced colours into those of the picture, in words; "" for nothing. `blind`
+    (h, w) int16 is the feature of `unmodelled` that keeps a pixel from being judged, else -1.
     """
 
     cause: NDArray[np.uint8]
     figure: NDArray[np.float64]
     allowed: NDArray[np.float64]
+    blind: NDArray[np.int16]
     hidden: list[Hidden] = field(default_factory=list)
     transform: str = ""
+    shades: list[Shade] = field(default_factory=list)
     passed_over: int = 0  # differing pixels that no check looked at
 
     @classmethod
     def none(cls, shape: tuple[int, int]) -> Causes:
         """Return those of a picture (h, w) that agrees."""
-        return cls(np.zeros(shape, np.uint8), np.full(shape, np.nan), np.full(shape, np.nan))
+        figures = np.full(shape, np.nan), np.full(shape, np.nan)
+        return cls(np.zeros(shape, np.uint8), *figures, np.full(shape, -1, np.int16))
+
+    @property
+    def unjudged(self) -> NDArray[np.bool_]:
+        """Which pixels (h, w) cannot be judged: whatever were shown there would not be found."""
+        return (self.blind >= 0) | (self.cause == Cause.NOT_DECIDABLE)

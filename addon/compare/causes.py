@@ -2,7 +2,7 @@
 
 In come two pictures of one scene and what was traced; out goes a cause for every pixel that
 differs. A cause is only given where the tracer itself, asked again, sees what Blender shows, or
-where the manifest names something in that place that the tracer does not model.
+where something is drawn in that very pixel that the tracer does not model.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps, tiles
-from .bounds import sample_band
+from .bounds import SNAPPING, sample_band
 from .case import Case
 from .cause import Cause, Causes
-from .checks import anti_aliasing, clip, color, edges, hidden
+from .checks import anti_aliasing, clip, color, edges, hidden, identity, unmodelled
 from .checks.background import Background, find_background
 from .checks.probe import OpenPixels
 
@@ -32,12 +32,13 @@ DECIDABLE = 0.5  # pixels: within a larger band, what lies there explains nothin
 # that accounts for a pixel gives it its cause; what none accounts for is unexplained.
 CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
     (color.check, 0.02),
+    (unmodelled.check_in_place, 0.01),
     (anti_aliasing.check, 0.1),
     (edges.check, 0.6),
     (clip.check, 0.1),
-    (hidden.unmodelled_in_its_place, 0.01),
-    (hidden.check, 0.16),
-    (hidden.unmodelled_everywhere, 0.01),
+    (unmodelled.check_otherwise, 0.05),
+    (hidden.check, 0.1),
+    (unmodelled.check_everywhere, 0.01),
 ]
 _OPENING = 0.1  # of the work, before the checks
 
@@ -62,7 +63,8 @@ def explain(case: Case, frame: Frame, at_most: int | None = None) -> Work[Explai
     if background:
         case = case.before(np.array(background.picture, np.float32))
         frame = yield from scaled(_before(case, frame), 0.1, 0.1)
-    causes = yield from scaled(find_causes(case, frame, at_most), 0.2, 0.8)
+    case = yield from scaled(identity.without_contradictions(case, frame), 0.2, 0.05)
+    causes = yield from scaled(find_causes(case, frame, at_most), 0.25, 0.75)
     return Explained(case, frame, background, causes)
 
 
@@ -83,10 +85,9 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     No more than `at_most` differing pixels are looked at, if given, spread over the picture; the
     others keep AGREE, and are counted in `Causes.passed_over`.
     """
-    picture = case.picture
-    if any(u.everywhere and u.recolours for u in case.manifest.unmodelled):
-        picture = replace(picture, lit=True)
     out, shape = Causes.none(frame.t.shape), frame.t.shape
+    out.blind = unmodelled.blind(case, frame)
+    picture = unmodelled.as_known(case)
     pixels = OpenPixels(case, frame, picture, out, np.zeros(shape, bool), np.zeros(shape))
     yield from scaled(_open(pixels), 0.0, _OPENING)
     if at_most is not None:
@@ -97,6 +98,8 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
         yield from scaled(check(pixels), done, share)
         done += share
     pixels.settle(pixels.open, Cause.UNEXPLAINED)
+    yield from unmodelled.settle_drawn(pixels)
+    yield from color.name_shades(pixels)
     return out
 
 
@@ -105,7 +108,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
     scene, frame, region = pixels.case.scene, pixels.frame, pixels.case.scene.camera.region
     all_rows = [slice(t.y0 - region.y0, t.y1 - region.y0) for t in tiles(scene.camera)]
     pixels.band = yield from sample_band(scene, frame, all_rows)
-    pixels.band += pixels.picture.sample_radius
+    pixels.band += pixels.picture.sample_radius + max(pixels.picture.snapping - SNAPPING, 0.0)
     for rows in all_rows:
         part, seen = pixels.rows(rows), frame.instance_index[rows]
         ramp = shading.interpolated(scene, seen)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..manifest import Manifest
+from ..manifest import Effect, Manifest
 from ..scene import Scene
 from ..tracer.certified.certainty import Certainty
 from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from .case import Case
@@ -30,8 +32,11 @@ _TRACING, _METHODS, _COMPARING = 0.4, 0.35, 0.25
 _CHECKING = 0.8  # with a self-check, of the comparing
 _CAUSES = 0.8  # of what is left
 
-# What a verdict is to a shell: 3 (sizes do not match) and 4 (input error) never get this far.
-EXIT_CODES = {"agree": 0, "warnings": 1, "differences": 2, "cancelled": 1}
+# What a verdict is to a shell, the gravest last: 3 (sizes do not match) and 4 (input error) never
+# get this far.
+EXIT_CODES = {"agree": 0, "warnings": 1, "not comparable": 1, "cancelled": 1, "differences": 2}
+
+COMPARABLE = 0.5  # so much of a picture may be such that no fault would be found in it
 
 
 class SizeError(ValueError):
@@ -75,14 +80,23 @@ class Comparison:
         pixels, certificate = self.pixels, self.case.certificate
         if pixels["unexplained"] or (certificate and not certificate.passed):
             return "differences"
+        if pixels["not_judged"]["share"] > COMPARABLE:
+            return "not comparable"
         doubtful = (
             *(pixels["by_cause"][c.key] for c in Cause if c.warns),
-            self.manifest.unmodelled,
+            pixels["not_judged"]["pixels"],
+            self.empty,
+            *(u.effect is Effect.UNPLACED for u in self.manifest.unmodelled),
             *(o.left_out for o in self.manifest.objects),
             *(row.missed for row in self.self_check),
             self.background and not self.background.transparent,
         )
         return "warnings" if any(doubtful) else "agree"
+
+    @property
+    def empty(self) -> bool:
+        """Whether no ray met anything: then there is nothing that could have been wrong."""
+        return bool((self.frame.instance_index == NOTHING).all())
 
     @property
     def required(self) -> list[str]:
@@ -115,6 +129,7 @@ class Comparison:
             "pixels": self.pixels,
             "causes": {c.key: c.to_dict() for c in Cause},
             "transform": self.causes.transform,
+            "shades": [shade._asdict() for shade in self.causes.shades],
             "background": self.background and self.background.to_dict(),
             "hidden": [h._asdict() for h in self.causes.hidden],
             "identity": self.identity and self.identity.to_dict(),
@@ -162,12 +177,37 @@ class Comparison:
             f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
             f"{rim['total']:,} boundary pixels differ",
             self.background and self.background.line(),
+            self.empty and "the picture is empty: no ray meets anything",
+            *self._not_judged(),
             causes.transform and f"colours: {causes.transform}",
+            *(shade.line() for shade in causes.shades),
             *(f"only one side shows '{h.object}': {h.reason}" for h in hidden),
             told,
             certificate and certificate.line(),
         )
         return [fact for fact in facts if fact]
+
+    def _not_judged(self) -> Iterator[str]:
+        """Say what share of the picture cannot be judged, why, and what would help."""
+        by_feature, total = self.pixels["not_judged"]["by_feature"], self.pixels["total"]
+        if by_feature:
+            of = ", ".join(str(self.manifest.unmodelled[n]) for n in by_feature)
+            share = _share(sum(by_feature.values()), total)
+            yield f"{share} of this picture cannot be judged: {of}"
+        if undecided := self.pixels["not_decidable"]:
+            yield (
+                f"{_share(undecided, total)} of this picture is not decidable: so far from the "
+                "origin, or at such a scale, float32 moves Blender's surfaces by more than half a "
+                "pixel; move the scene to the origin, or apply the objects' scale"
+            )
+
+
+def _share(pixels: int, total: int) -> str:
+    """Return a share in per cent; what is not all or nothing is said to be neither."""
+    share = 100 * pixels / total
+    if 1 <= share <= 99 or pixels == total:
+        return f"{share:.0f} %"
+    return f"{min(max(share, 0.1), 99.9):.1f} %"
 
 
 def _at(pixels: list[list[int]]) -> str:

@@ -73,7 +73,7 @@ def _name(names: Sequence[str], index: int) -> str:
 def worst(rows: Sequence[EngineRow]) -> str:
     """Return the gravest verdict; an engine that made no picture is a warning."""
     verdicts = [row.verdict if row.verdict in EXIT_CODES else "warnings" for row in rows]
-    return max(verdicts, key=lambda v: (EXIT_CODES[v], v))
+    return max(verdicts, key=list(EXIT_CODES).index)
 
 
 def to_dict(rows: Sequence[EngineRow]) -> dict[str, Any]:

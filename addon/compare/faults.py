@@ -20,6 +20,8 @@ from .case import Case
 
 Make = Callable[[Case, Frame], Case | None]  # of a comparison's case, and what was traced of it
 
+_BGRA = [2, 1, 0, 3]
+
 
 def _camera(case: Case, **changes: object) -> Case:
     camera = replace(case.scene.camera, **changes)
@@ -50,9 +52,12 @@ def _picture(change: Callable[[NDArray], NDArray], moves: bool = False) -> Make:
 
     def make(case: Case, _: Frame) -> Case:
         picture = case.picture
-        color = np.ascontiguousarray(change(picture.color.copy()))
-        owner = change(picture.owner) if moves and picture.owner is not None else picture.owner
-        return replace(case, picture=replace(picture, color=color, owner=owner))
+        names = ("color", "beneath", "owner", "drawn") if moves else ("color", "beneath")
+        held = {name: getattr(picture, name) for name in names}
+        changed = {
+            n: np.ascontiguousarray(change(v.copy())) for n, v in held.items() if v is not None
+        }
+        return replace(case, picture=replace(picture, **changed))
 
     return make
 
@@ -172,6 +177,20 @@ def swapped_colors(case: Case, frame: Frame) -> Case | None:
     return None
 
 
+def _recolored(change: Callable[[NDArray], NDArray]) -> Make:
+    """Change the colours of the largest object that they change."""
+
+    def make(case: Case, frame: Frame) -> Case | None:
+        for number in _seen(case, frame):
+            of = case.scene.instances[number]
+            plain = case.scene.meshes[of.mesh].corner_colors is None
+            if plain and not np.allclose(colors := change(of.colors), of.colors):
+                return _instance(case, number, lambda i, c=colors: replace(i, colors=c))
+        return None
+
+    return make
+
+
 def wrong_frame(case: Case, _: Frame) -> Case | None:
     """Trace the scene a frame later."""
     if case.next_frame is None or len(case.next_frame.instances) != len(case.scene.instances):
@@ -205,9 +224,11 @@ FAULTS = (
     Fault("dropped_triangle", "the largest triangle left out", dropped_triangle),
     Fault("moved_object", "the largest object moved by a pixel", moved_object),
     Fault("swapped_colors", "two objects with one another's colours", swapped_colors),
+    Fault("one_shade", "one object half as bright", _recolored(lambda c: c * (0.5, 0.5, 0.5, 1))),
+    Fault("one_channels", "one object's red and blue swapped", _recolored(lambda c: c[:, _BGRA])),
     Fault("wrong_frame", "the scene a frame later", wrong_frame),
     Fault("border", "the border off by one row", _picture(lambda v: np.roll(v, 1, axis=0), True)),
     Fault("rows", "the picture's rows from top to bottom", _picture(np.flipud, moves=True)),
-    Fault("channels", "red and blue swapped", _picture(lambda v: v[..., [2, 1, 0, 3]])),
+    Fault("channels", "red and blue swapped", _picture(lambda v: v[..., _BGRA])),
     Fault("gamma", "a gamma of 2.2 applied to the picture", _picture(_gamma)),
 )

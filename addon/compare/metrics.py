@@ -141,7 +141,8 @@ def count_pixels(
     total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
     `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
     lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
-    unexplained is a wrong colour (the same object) or a wrong object.
+    unexplained is a wrong colour (the same object) or a wrong object. `not_judged` counts pixels
+    in which a fault would be excused, and by the number of the feature that excuses it.
     """
     cause = causes.cause
     out = _counts(cause)
@@ -149,6 +150,14 @@ def count_pixels(
     out["boundary"] = _counts(cause[at_boundary])
     out["examples"] = {
         c.key: _positions(cause == c) for c in sorted(Cause) if c.differs and out["by_cause"][c.key]
+    }
+    unjudged, blind = int(causes.unjudged.sum()), causes.blind
+    found, count = np.unique(blind[blind >= 0], return_counts=True)
+    by_feature = {int(n): int(c) for n, c in zip(found, count, strict=True)}
+    out["not_judged"] = {
+        "pixels": unjudged,
+        "share": unjudged / max(cause.size, 1),
+        "by_feature": dict(sorted(by_feature.items(), key=lambda pair: -pair[1])),
     }
     if identity is not None:
         out["unexplained_shows"] = identity.counts(cause == Cause.UNEXPLAINED)

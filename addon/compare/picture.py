@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.nearest import Hits
-from .bounds import difference, differing
+from .bounds import SNAPPING, difference, differing
 from .identity import NOTHING, UNKNOWN
 
 Transform = Callable[[NDArray[np.float64]], NDArray[np.float64]]  # of straight linear RGB
@@ -76,6 +76,17 @@ class Picture:
         What turns traced colours into its own.
     background : (4,) float32, optional
         Its own background, linear RGBA: as it is shown, whatever the transform.
+    snapping : float
+        To what its rasteriser rounds the corners of triangles, in pixels.
+    colorless : (k + 1,) bool, optional
+        Which instances' colours, then planes', the tracer does not know; False at the end.
+    holes : (k + 1,) bool, optional
+        Which of them are shown as if nothing were there.
+    drawn : (...,) int16, optional
+        The number of the unmodelled feature that draws itself there, over what is traced; NOTHING
+        elsewhere.
+    beneath : (..., 4) float32, optional
+        The same picture without these features; NaN where that is not known.
     """
 
     color: NDArray[np.float32]
@@ -92,6 +103,11 @@ class Picture:
     lit: bool = False
     transform: Transform | None = None
     background: NDArray[np.float32] | None = None
+    snapping: float = SNAPPING
+    colorless: NDArray[np.bool_] | None = None
+    holes: NDArray[np.bool_] | None = None
+    drawn: NDArray[np.int16] | None = None
+    beneath: NDArray[np.float32] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Return who made it and how, as JSON can hold it."""
@@ -101,14 +117,16 @@ class Picture:
             "source": source.name,
             **({"picture": source.file} if source.file else {}),
             "sample_radius": self.sample_radius,
+            "snapping": self.snapping,
             "filter_radius": self.filter_radius,
             "settings": source.settings,
         }
 
     def at(self, where: NDArray | slice) -> Picture:
         """Return some of the pixels: rows by a slice, or those where a mask is True."""
-        owner = None if self.owner is None else self.owner[where]
-        return replace(self, color=self.color[where], owner=owner)
+        of_pixels = {name: getattr(self, name) for name in ("owner", "drawn", "beneath")}
+        some = {name: None if v is None else v[where] for name, v in of_pixels.items()}
+        return replace(self, color=self.color[where], **some)
 
     def differ(self, scene: Scene, hits: Hits) -> NDArray[np.bool_]:
         """Return which of n hits show something else than these n pixels."""
@@ -152,11 +170,20 @@ class Picture:
         return self.known(instance) & ~self.same_object(instance)
 
     def same_color(self, scene: Scene, hits: Hits) -> NDArray[np.bool_]:
-        """Return which of n hits have the colour of these n pixels; of lit ones, all may."""
+        """Return which of n hits have the colour of these n pixels.
+
+        Of lit ones, and of surfaces whose colour nobody knows, all may.
+        """
         if self.lit:
             return self.known(hits.instance)
-        ramp = shading.interpolated(scene, hits.instance)
-        return ~self.other_color(shading.colors(scene, hits), ramp)
+        return self.alike(scene, hits.instance, shading.colors(scene, hits))
+
+    def alike(self, scene: Scene, instance: NDArray, colors: NDArray) -> NDArray[np.bool_]:
+        """Return where these pixels may be (..., 4) colours that instances (...) are traced in."""
+        if self.holes is not None:
+            colors = np.where(self.holes[instance][..., None], np.float32(0), colors)
+        same = ~self.other_color(colors, shading.interpolated(scene, instance))
+        return same if self.colorless is None else same | self.colorless[instance]
 
     def known(self, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
         """Return where it is known whose surface is shown, of the shape of `instance`."""

@@ -36,7 +36,8 @@ class FaultRow:
     `changed` pixels of the traced picture (or of Blender's) are others than without the fault;
     `differ` then differ, `looked_at` of these were asked for their cause, and `unexplained` had
     none. All are `within_rounding` where what Blender's own float32 may do accounts for each. A
-    transform of the colours that only the faulty comparison names is in `named`.
+    transform of the colours that only the faulty comparison names is in `named`. It is `blind`
+    where it changes but pixels that cannot be judged.
     """
 
     name: str
@@ -48,14 +49,17 @@ class FaultRow:
     within_rounding: bool = False
     note: str = ""
     named: bool = False
+    blind: bool = False
 
     @property
     def result(self) -> str:
-        """One of 'caught', 'missed', 'within rounding', 'cannot be seen here'."""
+        """What became of it: 'caught', 'missed', or why it could not be caught."""
         if not self.changed:
             return "cannot be seen here"
         if self.unexplained or self.named:
             return "caught"
+        if self.blind:
+            return "cannot be judged here"
         return "within rounding" if self.within_rounding else "missed"
 
     @property
@@ -65,7 +69,7 @@ class FaultRow:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
-        held = {k: v for k, v in vars(self).items() if k != "named"}  # the note says it
+        held = {k: v for k, v in vars(self).items() if k not in ("named", "blind")}
         return held | {"result": self.result}
 
 
@@ -95,8 +99,8 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     if wrong.scene is not case.scene:
         traced = Frame.empty(wrong.scene)
         yield from scaled(steps(wrong.scene, case.settings, traced), 0.0, 0.3)
-    changed = int(_changed(case, frame, wrong, traced).sum())
-    if not changed:
+    changed = _changed(case, frame, wrong, traced)
+    if not changed.any():
         return row
     found = (yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)).causes
     looked_at = int((found.cause != Cause.AGREE).sum())
@@ -104,13 +108,14 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
     return replace(
         row,
-        changed=changed,
+        changed=int(changed.sum()),
         differ=looked_at + found.passed_over,
         looked_at=looked_at,
         unexplained=int((found.cause == Cause.UNEXPLAINED).sum()),
         within_rounding=bool(np.isin(found.cause, rounding).all()),
         note=f"named: {found.transform}" if named else "",
         named=named,
+        blind=not (changed & ~causes.unjudged & ~found.unjudged).any(),
     )
 
 

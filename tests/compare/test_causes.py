@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from reference_tracer.compare.bounds import differing, sample_band
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.checks.hidden import covered
+from reference_tracer.compare.checks.unmodelled import covered
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering

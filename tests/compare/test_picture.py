@@ -10,13 +10,13 @@ from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.identity import NOTHING, UNKNOWN
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.images import decoded, to_display
-from reference_tracer.manifest import Unmodelled
+from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 
 from .cases import find_causes
 
-LIGHT = Unmodelled("scene 'Scene'", "studio light", everywhere=True, recolours=True)
+LIGHT = Unmodelled("scene 'Scene'", "studio light", effect=Effect.LIGHT)
 
 
 @pytest.fixture

@@ -1,8 +1,10 @@
 """Colour only: the same object in another shade, by the light or by a transform of the colours.
 
 A transform is a function of straight linear RGB (..., 3): a curve, an exposure, swapped channels.
-It is sought and believed on surfaces, a sample for each of their colours, so that a large one does
-not outvote the others; the background proves nothing. No pixel at an edge is asked.
+It is sought on the surfaces that differ, a sample for each of their colours, so that a large one
+does not outvote the others; the background proves nothing. No pixel at an edge is asked. It is one
+of the whole picture, or of none: a surface that agrees without it, and would not with it, refutes
+it. Then the objects in another shade are named, and stay unexplained.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
 from ..bounds import difference
-from ..cause import Cause
+from ..cause import Cause, Shade
 from ..metrics import boundary
 from ..picture import MAJORITY, Curve, Picture, Transform, straight
 from .probe import OpenPixels, blocks
@@ -26,6 +28,8 @@ from .probe import OpenPixels, blocks
 FITTED_SHARE = 0.9  # as MAJORITY, of a curve whose number was fitted to the pixels
 ENOUGH = 4096  # pixels on which it is tried
 LEAST_CHANGE = 0.01  # an exposure or gamma nearer to 1 would be one of rounding
+REFUTING = 0.01  # the share of all surfaces' pixels that may agree without a transform alone
+SHADES = 16  # objects that are looked at for one
 _FIT = 0.02  # values from here up to 1 less this are fitted: others say little of a curve
 
 CURVES = (
@@ -50,10 +54,8 @@ def check(pixels: OpenPixels) -> Work[None]:
     elif pixels.case.curves is None or not pixels.open.any():
         return
     else:
-        interior = pixels.open & ~boundary(pixels.frame)
-        found = yield from find_transform(
-            pixels.frame, pixels.picture, interior, pixels.case.curves
-        )
+        where = _judged(pixels) & (pixels.open | (pixels.out.cause == Cause.AGREE))
+        found = yield from find_transform(pixels.frame, pixels.picture, where, pixels.case.curves)
         if found is None:
             return
         pixels.out.transform = found.name
@@ -77,39 +79,109 @@ def find_transform(
     """Return the transform that makes a picture's (h, w) differing surfaces agree, or None.
 
     Only the pixels `interior` (h, w) are asked, which are away from edges, and traced; `more` are
-    tried besides CURVES, such as the scene's own view transform.
+    tried besides CURVES, such as the scene's own view transform. It has to leave right what is.
     """
-    where = interior & (frame.instance_index != NOTHING)
-    for rows in blocks(where.shape):
-        where[rows] &= picture.at(rows).other_color(frame.color[rows])
-        yield 0.0
+    surface = interior & (frame.instance_index != NOTHING)
+    where = surface & (yield from _differing(frame, picture))
+    right = surface & ~where
     asked = np.flatnonzero(where)
     if not len(asked):
         return None
-    where[:] = False
+    where = np.zeros_like(surface)
     where.flat[asked[:: -(-len(asked) // ENOUGH)]] = True
     some, colors = picture.at(where), frame.color[where]
     keys = np.column_stack((frame.instance_index[where], colors))
     _, group = np.unique(keys, axis=0, return_inverse=True)
     group = group.reshape(-1)
-    best, most = None, 0.0
+    found: list[tuple[float, Curve]] = []
     for named in _candidates(*_one_each(colors, some.color, group), picture.levels, more):
         agree = _agreeing(~replace(some, transform=named.of).other_color(colors), group)
         yield 0.0
-        if agree > max(most, named.share):
-            best, most = named, agree
-    return best
+        if agree > named.share:
+            found.append((agree, named))
+    for _, named in sorted(found, key=lambda pair: -pair[0]):
+        after = yield from _differing(frame, replace(picture, transform=named.of))
+        if not _refuted(frame, surface, right & after):
+            return named
+    return None
+
+
+def _judged(pixels: OpenPixels) -> NDArray[np.bool_]:
+    """Return the pixels (h, w) away from edges in which something is known of the colour."""
+    return ~boundary(pixels.frame) & (pixels.out.blind < 0)
+
+
+def _differing(frame: Frame, picture: Picture) -> Work[NDArray[np.bool_]]:
+    """Return where the colours differ, (h, w)."""
+    out = np.zeros(frame.t.shape, bool)
+    for rows in blocks(out.shape):
+        out[rows] = picture.at(rows).other_color(frame.color[rows])
+        yield 0.0
+    return out
+
+
+def _refuted(frame: Frame, surface: NDArray[np.bool_], wrong: NDArray[np.bool_]) -> bool:
+    """Return whether what a transform makes wrong refutes it: most of an instance, or too much."""
+    of, count = frame.instance_index, int(frame.instance_index.max()) + 1
+    many, bad = (np.bincount(of[some], minlength=count) for some in (surface, wrong))
+    return bool((bad > MAJORITY * many).any() or bad.sum() > REFUTING * many.sum())
+
+
+def name_shades(pixels: OpenPixels) -> Work[None]:
+    """Name the objects that stay unexplained because they are shown in another shade as a whole.
+
+    Each of an object's colours must have become one other, which is not what is around it.
+    """
+    frame, picture = pixels.frame, pixels.picture
+    inside = _judged(pixels) & (frame.instance_index != NOTHING)
+    wrong = inside & (pixels.out.cause == Cause.UNEXPLAINED)
+    wrong &= ~picture.other_object(frame.instance_index)
+    if picture.lit or not wrong.any():
+        return
+    count = np.bincount(frame.object_index[wrong])
+    share = count / np.maximum(np.bincount(frame.object_index[inside])[: len(count)], 1)
+    for number in np.argsort(-count, kind="stable")[:SHADES]:
+        if share[number] > MAJORITY:
+            where = wrong & (frame.object_index == number)
+            if _in_another_shade(frame, picture, where):
+                curves = pixels.case.curves or ()
+                found = yield from find_transform(frame, picture, where, curves)
+                name = pixels.case.scene.objects[number]
+                shade = Shade(name, int(count[number]), found.name if found else "")
+                pixels.out.shades.append(shade)
+        yield 1.0
+
+
+def _in_another_shade(frame: Frame, picture: Picture, where: NDArray[np.bool_]) -> bool:
+    """Return whether each traced colour of some pixels (h, w) is shown as one other."""
+    some, colors = picture.at(where), frame.color[where]
+    _, group = np.unique(colors, axis=0, return_inverse=True)
+    group = group.reshape(-1)
+    _, medians = _medians(some.color, group)
+    if not some.known(frame.instance_index[where]).all():  # it may be something else's colour
+        others = np.unique(frame.color[~where & (frame.instance_index >= NOTHING)], axis=0)
+        if len(others) < ENOUGH and any((np.abs(m - others) < _FIT).all(1).any() for m in medians):
+            return False
+    alike = ~replace(some, color=medians[group]).other_color(some.color)
+    return bool(alike.mean() > FITTED_SHARE)
 
 
 def _one_each(
     colors: NDArray, shown: NDArray, group: NDArray[np.integer]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the traced and the median shown straight RGB, (k, 3), of each group of n pixels."""
+    first, median = _medians(shown, group)
+    return straight(colors[first]), straight(median)
+
+
+def _medians(
+    shown: NDArray, group: NDArray[np.integer]
+) -> tuple[NDArray[np.intp], NDArray[np.floating]]:
+    """Return the first of each of k groups of n pixels, (k,), and what is shown of it, (k, 4)."""
     _, first = np.unique(group, return_index=True)
     order = np.argsort(group, kind="stable")
     parts = np.split(shown[order], np.cumsum(np.bincount(group))[:-1])
-    median = np.array([np.median(part, axis=0) for part in parts])
-    return straight(colors[first]), straight(median)
+    return first, np.array([np.median(part, axis=0) for part in parts])
 
 
 def _agreeing(agree: NDArray[np.bool_], group: NDArray[np.integer]) -> float:

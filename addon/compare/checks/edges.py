@@ -7,12 +7,14 @@ off, what Blender shows.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ...scene import Scene
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, plan
 from ...tracer.progress import Work
 from ..cause import Cause
+from ..picture import Picture
 from .coverage import coverage
 from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts
 
@@ -37,12 +39,23 @@ def _look(part: Part) -> Work[None]:
     centre = yield from part.probe.trace()
     # By the picture's method: the centre itself shows what Blender does.
     lost = ~part.picture.differ(part.scene, centre)
+    found = _sides(part.scene, part.picture, centre, 0.0)
     for look in (_beside, _behind, _covering):
         if not part.settled:
-            yield from look(part, centre, lost)
+            yield from look(part, centre, lost, found)
 
 
-def _beside(part: Part, centre: Hits, lost: NDArray[np.bool_]) -> Work[None]:
+def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> NDArray[np.float64]:
+    """Return how far off n hits have the picture's colour, and its owner, (2, n) pixels.
+
+    Infinitely far where they have not. The two come from two drawings, in which an edge or a tie
+    may go either way: each is looked for on its own.
+    """
+    same = picture.same_color(scene, hits), ~picture.other_object(hits.instance)
+    return np.where(same, distance, np.inf)
+
+
+def _beside(part: Part, centre: Hits, lost: NDArray[np.bool_], found: NDArray) -> Work[None]:
     """See whether within the band around a pixel's centre there is what Blender shows.
 
     Where it is seen in the centre itself, the picture's method lost it: on an edge within the band,
@@ -50,25 +63,26 @@ def _beside(part: Part, centre: Hits, lost: NDArray[np.bool_]) -> Work[None]:
     """
     for x, y in OFFSETS:
         hits = yield from part.probe.trace(x * part.band, y * part.band)
+        distance = part.band * max(abs(x), abs(y))
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
-        same = np.where(lost, other, ~part.picture.differ(part.scene, hits))
-        part.settle(same, Cause.EDGE, part.band * max(abs(x), abs(y)), part.band)
+        np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
+        off = np.where(lost, np.where(other, distance, np.inf), found.max(axis=0))
+        part.settle(off < np.inf, Cause.EDGE, off, part.band)
         yield 0.0
         if part.settled:
             return
 
 
-def _behind(part: Part, first: Hits, lost: NDArray[np.bool_]) -> Work[None]:
+def _behind(part: Part, first: Hits, lost: NDArray[np.bool_], found: NDArray) -> Work[None]:
     """Settle open pixels that show a surface which ties with the first one.
 
-    Colours and whose surfaces they are come from two drawings, in which a tie may go either way:
-    each must be found among the surfaces that tie. `first` are the hits of the n centres; `lost`
-    (n,) is where the picture's own method lost what its centre shows.
+    `first` are the hits of the n centres; `lost` (n,) is where the picture's own method lost what
+    its centre shows.
     """
     scene, picture = part.scene, part.picture
     allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
-    hits = first
-    color, owner = picture.same_color(scene, first) & ~lost, ~picture.other_object(first.instance)
+    hits, (color, owner) = first, found < np.inf
+    color &= ~lost
     for _ in range(LAYERS):
         hits = yield from part.probe.trace(after=hits)
         with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
@@ -82,16 +96,16 @@ def _behind(part: Part, first: Hits, lost: NDArray[np.bool_]) -> Work[None]:
             return
 
 
-def _covering(part: Part, _: Hits, lost: NDArray[np.bool_]) -> Work[None]:
+def _covering(part: Part, _: Hits, lost: NDArray[np.bool_], found: NDArray) -> Work[None]:
     """Find what no sample does: a triangle that comes that near, before any surely covered one."""
     scene, width = part.scene, part.band
     may = yield from coverage(part.probe, width)
     farthest = may.behind + part.resolution(may.sure)[may.pixel]
-    visible = (may.hits.t <= farthest) & ~lost[may.pixel]
-    same = visible & ~part.picture.at(may.pixel).differ(scene, may.hits)
-    nearest = np.full(len(width), np.inf)
-    np.minimum.at(nearest, may.pixel[same], may.distance[same])
-    nothing = np.isinf(may.sure.t) & ~part.picture.differ(scene, Hits.none(len(width)))
-    nothing &= ~lost
-    nearest[nothing] = np.minimum(nearest, width)[nothing]
-    part.settle(nearest < np.inf, Cause.EDGE, nearest, width)
+    visible = may.hits.t <= farthest
+    of = _sides(scene, part.picture.at(may.pixel), may.hits, may.distance)
+    for side, off in zip(found, of, strict=True):
+        np.minimum.at(side, may.pixel[visible], off[visible])
+    nothing = _sides(scene, part.picture, Hits.none(len(width)), width)
+    np.minimum(found, np.where(np.isinf(may.sure.t), nothing, np.inf), out=found)
+    off = found.max(axis=0)
+    part.settle((off < np.inf) & ~lost, Cause.EDGE, off, width)

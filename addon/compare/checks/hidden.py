@@ -1,9 +1,8 @@
-"""What only one side has: an object, another frame of the scene, or what the tracer does not model.
+"""What only one side has: an object, or another frame of the scene.
 
 An object that the picture is known to show, and that the tracer was told to leave out, is named by
 the manifest. An alternative is believed where tracing it gives what the picture shows, and only if
-it does so in most of the open pixels that it changes at all. What is not modelled is named by the
-manifest, too, with the box that it may cover.
+it does so in most of the open pixels that it changes at all.
 """
 
 from __future__ import annotations
@@ -13,14 +12,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...scene import Camera, Scene
-from ...tracer import shading
-from ...tracer.camera import film_of
+from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Settings
-from ..case import Alternative
+from ..case import Alternative, colorless
 from ..cause import Cause, Hidden
 from . import edges
 from .probe import OpenPixels, blocks
@@ -55,21 +52,30 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
 
     Whose surfaces are shown is numbered for the traced scene, and not asked for.
     """
-    picture = replace(pixels.picture, owner=None, owners=None)
-    traced = Frame.empty(other.scene)
-    yield from scaled(steps(other.scene, Settings(), traced), 0.0, 0.5)
+    case = replace(pixels.case, scene=other.scene)
+    picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless(case))
+    there = replace(pixels, case=case, picture=picture)
+    traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
     changed = pixels.open & (traced.color != pixels.frame.color).any(axis=-1)
-    same = changed.copy()
-    for rows in blocks(same.shape):
-        ramp = shading.interpolated(other.scene, traced.instance_index[rows])
-        same[rows] &= ~picture.at(rows).other_color(traced.color[rows], ramp)
-        yield 0.5
+    same &= changed
     if same.sum() <= CONFIRMED * changed.sum():
         return
     pixels.settle(same, Cause.HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
     # Its edges are as uncertain as those of the traced scene.
-    there = replace(pixels, case=replace(pixels.case, scene=other.scene), picture=picture)
     yield from scaled(edges.check(there), 0.5, 0.5)
+
+
+def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, NDArray[np.bool_]]]:
+    """Trace the case's scene, which is not the one that was; return which pixels show that."""
+    scene, picture = pixels.case.scene, pixels.picture
+    traced = Frame.empty(scene)
+    yield from steps(scene, Settings(), traced)
+    same = np.zeros(traced.t.shape, bool)
+    for rows in blocks(same.shape):
+        part, seen = picture.at(rows), traced.instance_index[rows]
+        same[rows] = part.alike(scene, seen, traced.color[rows]) & ~part.other_object(seen)
+        yield 1.0
+    return traced, same
 
 
 def without(scene: Scene, name: str) -> Scene:
@@ -97,39 +103,3 @@ def with_object(scene: Scene, other: Scene, name: str) -> Scene:
         planes=(*scene.planes, *planes),
         objects=(*scene.objects, name),
     )
-
-
-def unmodelled_in_its_place(pixels: OpenPixels) -> Work[None]:
-    """Settle open pixels that the box of a feature may cover."""
-    for number, feature in enumerate(pixels.case.manifest.unmodelled):
-        if feature.bounds is not None and not feature.everywhere and pixels.open.any():
-            inside = pixels.open & covered(pixels.case.scene.camera, feature.bounds)
-            pixels.settle(inside, Cause.NOT_MODELLED, float(number))
-            yield 0.0
-
-
-def unmodelled_everywhere(pixels: OpenPixels) -> Work[None]:
-    """Settle open pixels that a feature may change wherever they are."""
-    for number, feature in enumerate(pixels.case.manifest.unmodelled):
-        if feature.everywhere:
-            allowed = pixels.open
-            if feature.recolours:  # light does not put another object there
-                allowed = allowed & ~pixels.picture.other_object(pixels.frame.instance_index)
-            pixels.settle(allowed, Cause.NOT_MODELLED, float(number))
-            yield 0.0
-
-
-def covered(camera: Camera, bounds: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
-    r = camera.region
-    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8)
-    px, py, depth = film_of(camera, corners)
-    out = np.zeros((r.height, r.width), bool)
-    if depth.max() < camera.clip_start or depth.min() > camera.clip_end:
-        return out
-    if not camera.projection.is_parallel and depth.min() <= camera.clip_start:
-        return ~out  # around the eye: anywhere
-    x0, x1 = int(max(np.floor(px.min()) - r.x0, 0)), int(np.ceil(min(px.max(), r.x1)) - r.x0)
-    y0, y1 = int(max(np.floor(py.min()) - r.y0, 0)), int(np.ceil(min(py.max(), r.y1)) - r.y0)
-    out[y0 : max(y1, 0), x0 : max(x1, 0)] = True
-    return out

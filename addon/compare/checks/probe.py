@@ -87,7 +87,8 @@ class OpenPixels:
     def rows(self, rows: slice) -> OpenPixels:
         """Return those of some rows; their causes are written into the whole."""
         o = self.out
-        out = replace(o, cause=o.cause[rows], figure=o.figure[rows], allowed=o.allowed[rows])
+        arrays = {name: getattr(o, name)[rows] for name in ("cause", "figure", "allowed", "blind")}
+        out = replace(o, **arrays)
         open_, band = self.open[rows], self.band[rows]
         return replace(self, picture=self.picture.at(rows), out=out, open=open_, band=band)
 

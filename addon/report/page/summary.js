@@ -9,6 +9,7 @@ const OTHER = page.comparison.blender.version
 const VERDICTS = {
   agree: ["✓", "Agree"],
   warnings: ["!", "Warnings"],
+  "not comparable": ["?", "Not comparable"],
   differences: ["✗", "Differences"],
   cancelled: ["…", "Cancelled"],
 };
@@ -49,6 +50,13 @@ function headline(score) {
         : `All ${count(score.differ)} that differ are explained.`,
     );
   if (score.not_decidable) parts.push(`Of ${count(score.not_decidable)} nothing can be said.`);
+  const blind = Object.entries(score.not_judged.by_feature);
+  if (blind.length) {
+    const { unmodelled } = page.comparison.scene;
+    const of = blind.map(([n]) => `${unmodelled[n].feature} of ${unmodelled[n].object}`);
+    const pixels = blind.reduce((sum, [, many]) => sum + many, 0);
+    parts.push(`${count(pixels)} cannot be judged: ${of.join(", ")}.`);
+  }
   if (score.not_traced) parts.push(`${count(score.not_traced)} were not traced.`);
   return parts.join(" ");
 }
