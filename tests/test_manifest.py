@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
+from reference_tracer.manifest import Effect, Manifest, ObjectEntry, Unmodelled
 
 
 @pytest.fixture
@@ -46,7 +46,7 @@ def manifest():
         ),
         unmodelled=(
             Unmodelled("Glass", "transparency", "alpha 0.5", np.array([[0, 0, 0], [1, 2, 3.0]])),
-            Unmodelled("Cam.001", "depth of field"),
+            Unmodelled("Cam.001", "depth of field", effect=Effect.NONE),
         ),
         notes=("the sequencer is not part of it",),
     )
@@ -92,8 +92,8 @@ def test_json_holds_everything(manifest):
         "object": "Cam.001",
         "feature": "depth of field",
         "detail": "",
+        "effect": "none",
         "everywhere": False,
-        "recolours": False,
         "bounds": None,
     }
     assert again["notes"] == ["the sequencer is not part of it"]
@@ -121,5 +121,5 @@ def test_what_the_picture_lacks_is_a_warning_whatever_it_is_called(manifest):
     cube, *others = manifest.objects
     called = replace(manifest, objects=(replace(cube, name="left out, not modelled"), *others))
     warned = [line for line, warns in called.facts() if warns]
-    assert [line.split()[0] for line in warned] == ["Torn:", "not", "not"]
+    assert [line.split()[0] for line in warned] == ["Torn:", "not"]  # depth of field is no matter
     assert [line for line, _ in called.facts()] == called.lines()

@@ -16,7 +16,6 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare.bounds import differing
 from ..compare.checks.unmodelled import covered
 from ..compare.identity import MOST_OBJECTS, NOTHING, colors_of, decode
 from ..compare.picture import Picture, numbered
@@ -95,10 +94,10 @@ def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, M
         return shown, manifest
     apart = _apart(manifest)
     beneath = drawing.without(apart) if apart else shown.color
-    over = differing(shown.color, beneath)
+    over = (shown.color != beneath).any(axis=-1)  # by however little
     known = np.where(over[..., None], beneath, np.float32(np.nan))
     if len(apart) < len(features):  # what lies beneath goes with it: that is not known
-        over |= differing(beneath, drawing.without(list(features.values())))
+        over |= (beneath != drawing.without(list(features.values()))).any(axis=-1)
     number = np.full(over.shape, NOTHING, np.int16)
     number[over] = min(features)
     for n, feature in reversed(features.items()):
@@ -140,7 +139,9 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
     """
     manifest = drawing.manifest
     with drawing.begun() as tmp, left_out(_apart(manifest)):
-        objects = drawn(tmp, drawing.layer)
+        # The layer's own list has the stand-ins of planes once it is evaluated: that is too early.
+        planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
+        objects = list(dict.fromkeys((*drawn(tmp, drawing.layer), *planes)))
         owners = [o.get(STANDS_FOR) or o.name_full for o in objects]
         names = tuple(dict.fromkeys(owners))
         if len(names) > MOST_OBJECTS:

@@ -191,7 +191,7 @@ class Comparison:
         """Say what share of the picture cannot be judged, why, and what would help."""
         by_feature, total = self.pixels["not_judged"]["by_feature"], self.pixels["total"]
         if by_feature:
-            of = ", ".join(str(self.manifest.unmodelled[n]) for n in by_feature)
+            of = ", ".join(str(self.manifest.unmodelled[int(n)]) for n in by_feature)
             share = _share(sum(by_feature.values()), total)
             yield f"{share} of this picture cannot be judged: {of}"
         if undecided := self.pixels["not_decidable"]:

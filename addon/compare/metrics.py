@@ -153,7 +153,7 @@ def count_pixels(
     }
     unjudged, blind = int(causes.unjudged.sum()), causes.blind
     found, count = np.unique(blind[blind >= 0], return_counts=True)
-    by_feature = {int(n): int(c) for n, c in zip(found, count, strict=True)}
+    by_feature = {str(n): int(c) for n, c in zip(found, count, strict=True)}
     out["not_judged"] = {
         "pixels": unjudged,
         "share": unjudged / max(cause.size, 1),

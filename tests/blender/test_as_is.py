@@ -12,7 +12,7 @@ def test_light_and_anti_aliasing_are_named(build, compare, judge):
     build.corner_camera(lens=40)
     scene.display.shading.light = "STUDIO"
     comparison = compare(as_is=True, judge=judge)
-    named = {u.feature for u in comparison.manifest.unmodelled if u.everywhere}
+    named = {u.feature for u in comparison.manifest.unmodelled if u.effect.everywhere}
     expected = (
         {"studio light", "anti-aliasing"} if judge == "WORKBENCH" else {"materials and light"}
     )
@@ -64,6 +64,7 @@ def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
 def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
     """Blender draws one object less, in studio light: the other shades are no reason."""
     from reference_tracer.blender import compare as compare_module
+    from reference_tracer.blender import drawings
 
     scene = build.scene()
     build.solids()
@@ -75,7 +76,8 @@ def test_light_does_not_excuse_a_missing_object(build, compare, monkeypatch):
         tmp.collection.objects.unlink(tmp.objects["Green"])
         return real(tmp, *rest)
 
-    monkeypatch.setattr(compare_module, "stand_ins", lacking)
+    for module in (compare_module, drawings):
+        monkeypatch.setattr(module, "stand_ins", lacking)
     found = compare(as_is=True)
     assert found.verdict == "differences"
     assert found.pixels["unexplained_shows"]["other_object"] > 100

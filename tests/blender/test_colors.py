@@ -164,7 +164,7 @@ def test_an_attribute_that_nodes_made(domain, build, compare):
         0.1,
         1,
     )
-    build.camera()
+    build.camera((0, 0, 8))  # it is less than half of the picture
     comparison = compare()
     assert [(u.object, u.feature) for u in comparison.manifest.unmodelled] == [
         ("Made", "colour attribute")

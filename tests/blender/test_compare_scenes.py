@@ -216,10 +216,11 @@ def test_camera_setting_has_no_unexplained_pixel(setting, build, compare):
     assert len(seen) >= 2  # or nothing would have been compared
 
 
-def test_an_empty_scene_is_a_valid_picture(build, compare):
+def test_an_empty_scene_is_a_valid_picture_and_a_warning(build, compare):
     build.scene()
     build.camera()
     comparison = compare()
-    assert comparison.verdict == "agree"
+    assert comparison.verdict == "warnings"
+    assert "the picture is empty: no ray meets anything" in comparison.lines()
     assert comparison.pixels["agree"] == comparison.pixels["total"] == 96 * 54
     assert not comparison.frame.color.any()

@@ -44,7 +44,7 @@ def test_instances_show_what_instances_them(build, compare):
 
 
 def test_corners_that_carry_children(build, compare):
-    """The copies are parented to the copy, or nothing would be shown of them."""
+    """What is parented to them shows the parent's colour."""
     build.scene()
     parent = build.square("Parent", 2)
     child = build.cube("Child", 0.4)
@@ -79,7 +79,7 @@ def test_planes_hidden_objects_and_excluded_collections(build, compare):
     assert "In Out" not in found.identity.names
 
 
-def test_copies_of_what_is_linked_animated_and_modified(build, compare):
+def test_what_is_linked_animated_and_modified_stays(build, compare):
     build.scene()
     cube = build.cube("Cube", 1)
     cube.keyframe_insert("location", frame=1)
@@ -116,19 +116,18 @@ def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
 
 def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch):
     """What is drawn for identity lacks an object, and no colour says so."""
-    from reference_tracer.blender import viewport
+    from reference_tracer.blender import drawings
 
     build.scene(color_type="SINGLE")
     build.solids()
     build.corner_camera(lens=40)
-    real = viewport.picture
+    real = drawings.picture
 
     def lacking(tmp, *rest):
-        copy = next(o for o in tmp.objects if o.name.startswith("Green"))
-        copy.hide_render = True
+        tmp.objects["Green"].hide_render = True
         return real(tmp, *rest)
 
-    monkeypatch.setattr(viewport, "picture", lacking)
+    monkeypatch.setattr(drawings, "picture", lacking)
     found = compare()
     shows = found.pixels["unexplained_shows"]
     assert found.verdict == "differences"

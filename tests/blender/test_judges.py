@@ -47,7 +47,7 @@ bpy.context.scene.render.resolution_percentage = 10
 assert bpy.ops.reference_tracer.compare(directory=str(out / "stored")) == {"FINISHED"}
 stored.judge = "AUTO"
 commands.run(["compare", "--judge", "draft", "--out", str(out / "named")])
-assert len(drawn) == 4, drawn  # its picture, and whose surfaces it shows
+assert len(drawn) == 5, drawn  # what it rounds to, then its pictures, and whose they show
 commands.run(["compare", "--judge", "all", "--out", str(out / "all")])
 cli.main(["compare", "--help"])
 """

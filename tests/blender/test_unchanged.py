@@ -190,7 +190,7 @@ def test_a_second_comparison_adds_nothing(user_scene):
 
 
 @pytest.mark.parametrize(
-    "where", ["picture", "export_for_judge", "prepare_scene", "stand_ins", "draw_identity"]
+    "where", ["picture", "export_for_judge", "prepare_scene", "stand_ins", "with_identity"]
 )
 @pytest.mark.parametrize("kind", [RuntimeError, KeyError, MemoryError])
 def test_nothing_is_changed_by_an_error(kind, where, user_scene, monkeypatch):

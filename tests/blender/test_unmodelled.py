@@ -112,7 +112,7 @@ def test_is_named_with_object_and_bounds(mode, make, build, export):
 def test_explains_the_pixels_that_it_changes(make, build, compare):
     build.scene()
     build.square("Floor", 20, location=(0, 0, -3), material=build.material("Grey", 0.3, 0.3, 0.3))
-    build.camera((0, 0, 6))
+    build.camera((0, 0, 9))
     make(build)
     comparison = compare()
     pixels = comparison.pixels

@@ -162,8 +162,15 @@ def test_every_result_of_the_self_check_is_in_the_schema(differing):
         FaultRow("b", "text", 5, 5, 5, 0),
         FaultRow("c", "text", 5, 5, 5, 0, within_rounding=True),
         FaultRow("d", "text", note="there is nothing to get wrong"),
+        FaultRow("e", "text", 5, 5, 5, 0, blind=True),
     ]
-    results = ["caught", "missed", "within rounding", "cannot be seen here"]
+    results = [
+        "caught",
+        "missed",
+        "within rounding",
+        "cannot be seen here",
+        "cannot be judged here",
+    ]
     assert [row.result for row in rows] == results
     held = replace(differing, self_check=tuple(rows)).to_dict()
     own = jsonschema.Draft202012Validator(schema("comparison.schema.json"))
