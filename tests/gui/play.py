@@ -15,6 +15,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
+import hard_stories
 import inspector_stories
 import page_stories
 import stories
@@ -23,7 +24,7 @@ from story import OUT, noted, window
 
 STORIES = {
     story.__name__: (module.SCENE, story)
-    for module in (stories, inspector_stories, page_stories, study_stories)
+    for module in (stories, hard_stories, inspector_stories, page_stories, study_stories)
     for story in module.STORIES
 }
 

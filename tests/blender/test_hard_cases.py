@@ -1,0 +1,291 @@
+"""Scenes that simulate, are edited, grow hair or are of glass: no false alarm, no false excuse.
+
+The scenes are in `hard_cases`. What a scene is hard for is also checked to be there: a verdict on a
+scene that shows nothing hard proves nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.camera import export_camera
+from reference_tracer.blender.compare import gather_case
+from reference_tracer.blender.judges import judge_named
+from reference_tracer.blender.viewport import picture, prepare_scene
+from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.tracer.progress import result_of
+
+from . import hard_cases as hard
+from .test_unchanged import differences, snapshot, state
+
+JUDGES = ("WORKBENCH", "CYCLES")
+SEEN = 20  # pixels: enough to be no edge
+AGREE, WARNINGS, NOT_COMPARABLE = "agree", "warnings", "not comparable"
+
+# What Cycles draws otherwise than Workbench: its constant colours know no transparency, no texture
+# and nothing in front; its hairs are as thin as they are, so that a lawn is mostly seen through.
+NOT_OF_CYCLES = (*hard.GLASS, *hard.IN_FRONT, hard.glass_around)
+OF_CYCLES_ALONE = (hard.unseen_by_camera_rays, hard.holdout)
+WARNED_OF = (
+    *hard.HAIR,
+    *hard.GLASS,
+    *hard.IN_FRONT,
+    *hard.EMPTY,
+    hard.no_active_color,
+    hard.far_from_origin,
+)
+TOO_MUCH = (hard.hair_everywhere, hard.glass_around)
+DRAWN_OTHERWISE = (*hard.HAIR, *hard.GLASS, *hard.IN_FRONT, *TOO_MUCH)
+MAY_BE_UPSET = (*hard.SIMULATIONS, *hard.EDIT_MODE, *hard.HAIR)  # by being drawn
+
+
+def verdict_of(make, judge: str) -> str:
+    if judge == "CYCLES":
+        if make in NOT_OF_CYCLES:
+            return AGREE
+        if make in OF_CYCLES_ALONE or make is hard.hair_everywhere:
+            return WARNINGS
+    if make in TOO_MUCH:
+        return NOT_COMPARABLE
+    return WARNINGS if make in WARNED_OF else AGREE
+
+
+def name_of(make) -> str:
+    return make.__name__
+
+
+def shown_otherwise(comparison) -> np.ndarray:
+    """Return which pixels (h, w) are of another colour than the traced ones, edges or not."""
+    return (np.abs(comparison.frame.color - comparison.picture) > 0.02).any(axis=-1)
+
+
+def around(mask: np.ndarray, pixels: int = 2) -> np.ndarray:
+    """Return a mask widened by so many pixels."""
+    out = np.pad(mask, pixels)
+    for axis in (0, 1):
+        out = np.any([np.roll(out, n, axis) for n in range(-pixels, pixels + 1)], axis=0)
+    return out[pixels:-pixels, pixels:-pixels]
+
+
+def user_state() -> dict:
+    """Everything of `test_unchanged.state`, and what drawing without something could touch."""
+    return state() | {
+        "drawn": {
+            obj.name_full: (
+                list(obj.color),
+                obj.display_type,
+                obj.show_in_front,
+                obj.show_instancer_for_render,
+                obj.show_instancer_for_viewport,
+                obj.mode,
+                [(m.name, m.show_render, m.show_viewport) for m in obj.modifiers],
+            )
+            for obj in bpy.data.objects
+        },
+        "particles": {p.name: snapshot(p, 0) for p in bpy.data.particles},
+        "materials": {m.name: list(m.diffuse_color) for m in bpy.data.materials},
+    }
+
+
+def evaluated_geometry() -> list:
+    """Where everything is and how it is deformed, as the user sees it in the viewport."""
+    bpy.context.view_layer.update()
+    out = []
+    for item in bpy.context.evaluated_depsgraph_get().object_instances:
+        obj, points = item.object, []
+        if obj.type == "MESH":
+            mesh = obj.to_mesh()
+            points = np.empty(len(mesh.vertices) * 3, np.float32)
+            mesh.vertices.foreach_get("co", points)
+            points = [len(points), float(points.sum()), float(np.abs(points).sum())]
+            obj.to_mesh_clear()
+        out.append((obj.name_full, np.array(item.matrix_world).ravel().tolist(), points))
+    return sorted(out)
+
+
+@pytest.mark.parametrize("judge", JUDGES)
+@pytest.mark.parametrize("make", hard.ALL, ids=name_of)
+def test_no_false_alarm(make, judge, build, compare):
+    make(build)
+    found = compare(judge=judge)
+    assert found.pixels["unexplained"] == 0
+    assert found.verdict == verdict_of(make, judge)
+    otherwise = shown_otherwise(found)
+    if judge == "WORKBENCH" and make in DRAWN_OTHERWISE:
+        assert otherwise.sum() > SEEN
+        assert (found.causes.cause[otherwise] == Cause.NOT_MODELLED).mean() > 0.9
+    if judge == "WORKBENCH" and make in TOO_MUCH:
+        assert otherwise.mean() > 0.5
+    if judge == "CYCLES" and make in OF_CYCLES_ALONE:
+        assert otherwise.sum() > SEEN
+    if make is hard.fine_edges:
+        assert found.pixels["boundary"]["total"] > 5000
+    if make in hard.EMPTY:
+        assert not found.picture.any() and not found.frame.color.any()
+
+
+@pytest.mark.parametrize(
+    ("make", "judge"),
+    [(m, "WORKBENCH") for m in MAY_BE_UPSET] + [(m, "CYCLES") for m in hard.SIMULATIONS],
+    ids=lambda value: getattr(value, "__name__", value),
+)
+def test_leaves_the_users_data_and_simulation_alone(make, judge, build, compare):
+    make(build)
+    geometry, before = evaluated_geometry(), user_state()
+    frame = bpy.context.scene.frame_current
+    found = compare(judge=judge)
+    assert differences(before, user_state()) == []
+    assert evaluated_geometry() == geometry
+    assert bpy.context.scene.frame_current == frame
+    again = compare(judge=judge)
+    assert again.pixels == found.pixels
+    np.testing.assert_array_equal(again.picture, found.picture)
+
+
+@pytest.mark.parametrize("make", hard.SIMULATIONS, ids=name_of)
+def test_simulations_have_moved(make, build):
+    """The picture is neither that of the first frame, nor is anything at rest in it."""
+    make(build)
+    case = gather_case(bpy.context, judge="WORKBENCH", identity=False)
+    bpy.context.scene.frame_set(1)
+    first = gather_case(bpy.context, judge="WORKBENCH", identity=False)
+    changed = np.abs(case.picture.color - first.picture.color).max(axis=-1) > 0.02
+    assert changed.sum() > SEEN
+
+
+def own_picture() -> np.ndarray:
+    """The user's own scene, not a copy of it, as Workbench draws it in constant colours."""
+    scene = bpy.context.scene
+    engine = judge_named("WORKBENCH", True)
+    prepare_scene(scene, True)
+    return picture(scene, scene.view_layers[0].name, engine, export_camera(scene), True)
+
+
+@pytest.mark.parametrize("make", MAY_BE_UPSET, ids=name_of)
+def test_compares_what_the_user_would_render(make, build, compare):
+    make(build)
+    found = compare(judge="WORKBENCH").picture
+    np.testing.assert_array_equal(found, own_picture())
+
+
+def test_rigid_bodies_that_are_not_baked(build, compare):
+    """A copy of a scene has no cache of them: they must not be compared where they began."""
+    hard.rigid_body(build)
+    geometry, before = evaluated_geometry(), user_state()
+    found = compare(judge="WORKBENCH")
+    assert differences(before, user_state()) == []
+    assert evaluated_geometry() == geometry
+    assert found.pixels["unexplained"] == 0
+    assert found.verdict != AGREE or (found.picture == own_picture()).all()
+
+
+def test_upset_particles_are_seen_here(build):
+    """Colouring an emitter resets what is not baked: the test above would find that."""
+    hard.particles(build)
+    geometry = evaluated_geometry()
+    bpy.data.objects["Emitter"].color = (1, 0, 0, 1)
+    assert evaluated_geometry() != geometry
+
+
+@pytest.mark.parametrize("make", hard.EDIT_MODE, ids=name_of)
+def test_edited_objects_are_in_edit_mode_and_in_the_picture(make, build):
+    make(build)
+    obj = bpy.data.objects["Edited"]
+    assert obj.mode == "EDIT"
+    case = gather_case(bpy.context, judge="WORKBENCH", identity=False)
+    assert obj.mode == "EDIT"
+    for rgb in (hard.ORANGE, hard.CYAN):
+        assert (np.abs(case.picture.color[..., :3] - rgb).max(axis=-1) < 0.01).sum() > SEEN
+
+
+@pytest.mark.parametrize("judge", JUDGES)
+@pytest.mark.parametrize("make", hard.EDIT_MODE, ids=name_of)
+def test_a_file_saved_in_edit_mode(make, judge, build, compare, tmp_path):
+    make(build)
+    path = str(tmp_path / "edited.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert bpy.data.objects["Edited"].mode == "EDIT"
+    found = compare(judge=judge)
+    assert found.pixels["unexplained"] == 0
+    assert found.verdict == AGREE
+
+
+@pytest.mark.parametrize("make", hard.SWITCHED_OFF, ids=name_of)
+def test_what_is_switched_off_is_named(make, build, export):
+    make(build)
+    _, manifest = export.render()
+    assert make.__name__.replace("_", " ") in " ".join(u.feature for u in manifest.unmodelled)
+
+
+def mirrored(case):
+    """The picture from right to left."""
+    shown = case.picture
+    color, owner = shown.color[:, ::-1].copy(), shown.owner[:, ::-1].copy()
+    return replace(case, picture=replace(shown, color=color, owner=owner))
+
+
+def recoloured(case):
+    """One object of the picture in half its colour."""
+    color = case.picture.color.copy()
+    color[case.picture.owner == case.picture.names.index("Red"), :3] *= 0.5
+    return replace(case, picture=replace(case.picture, color=color))
+
+
+def dropped(case):
+    """One object missing in what is traced."""
+    scene = case.scene
+    [gone] = [n for n, i in enumerate(scene.instances) if scene.objects[i.object] == "Red"]
+    instances = scene.instances[:gone] + scene.instances[gone + 1 :]
+    shown = replace(case.picture, owners=np.delete(case.picture.owners, gone))
+    return replace(case, scene=replace(scene, instances=instances), picture=shown)
+
+
+@pytest.fixture(scope="module")
+def sound_cases():
+    """What was gathered of a scene, and its comparison: neither holds anything of Blender's."""
+    return {}
+
+
+@pytest.mark.parametrize("damage", [mirrored, recoloured, dropped], ids=name_of)
+@pytest.mark.parametrize("make", [*hard.HAIR, *hard.GLASS, *hard.IN_FRONT], ids=name_of)
+def test_no_false_excuse(make, damage, build, sound_cases):
+    """A fault is found wherever the hard thing is not: not only outside of a box around it."""
+    if make not in sound_cases:
+        make(build)
+        case = gather_case(bpy.context, judge="WORKBENCH")
+        sound_cases[make] = case, result_of(trace_and_compare(case))
+    case, sound = sound_cases[make]
+    found = result_of(trace_and_compare(damage(case)))
+    assert found.verdict == "differences"
+    changed = (np.abs(found.picture - sound.picture) > 0.02).any(axis=-1)
+    changed |= (np.abs(found.frame.color - sound.frame.color) > 0.02).any(axis=-1)
+    plain = changed & shown_otherwise(found) & ~around(shown_otherwise(sound))
+    if damage is mirrored:  # what is hard was mirrored, too
+        plain &= ~around(shown_otherwise(sound)[:, ::-1])
+    assert plain.sum() > SEEN
+    assert (found.causes.cause[plain] == Cause.UNEXPLAINED).mean() > 0.9
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        hard.particle_hair,
+        hard.instanced_hair,
+        hard.grease_pencil,
+        hard.glass_pane,
+        hard.textured,
+        hard.in_front,
+    ],
+    ids=name_of,
+)
+def test_the_self_check_misses_nothing(make, build, compare):
+    make(build)
+    found = compare(judge="WORKBENCH", self_check=True)
+    results = {row.name: row.result for row in found.self_check}
+    assert "missed" not in results.values(), results
+    assert sum(result == "caught" for result in results.values()) >= 10
