@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.compare.bounds import difference
+from reference_tracer.compare.bounds import difference, differing
 from reference_tracer.compare.case import Alternative, Case
 from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.checks.hidden import covered
+from reference_tracer.compare.checks.unmodelled import covered
 from reference_tracer.compare.identity import NOTHING, UNKNOWN
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture
@@ -135,7 +135,7 @@ def near_edges(scene: Scene, frame: Frame, band: float) -> NDArray[np.bool_]:
         dx, dy = x * width, y * height
         window = ViewWindow(w.left + dx, w.right + dx, w.bottom + dy, w.top + dy)
         beside = render(replace(scene, camera=replace(scene.camera, window=window)))
-        out |= (beside.color != frame.color).any(axis=-1)
+        out |= differing(beside.color, frame.color, interpolated=True)
         out |= beside.instance_index != frame.instance_index
     return out
 

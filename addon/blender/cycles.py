@@ -39,18 +39,21 @@ def constant_colors(scene: Any, layer: str, sample_radius: float) -> Iterator[No
         with in_colors(objects, colors), constant_colors(scene, layer, sample_radius):
             yield
         return
+    lens = scene.camera.data.dof
+    material, blurred = bpy.data.materials.new("Reference Tracer Constant"), lens.use_dof
+    lens.use_dof = False
     scene.cycles.samples = 1
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.pixel_filter_type = "BOX"
     scene.cycles.filter_width = 2 * sample_radius
-    material = bpy.data.materials.new("Reference Tracer Constant")
     try:
         _emission(material, scene)
         scene.view_layers[layer].material_override = material
         yield
     finally:
         bpy.data.materials.remove(material)
+        lens.use_dof = blurred
 
 
 def _emission(material: Any, scene: Any) -> None:
@@ -93,6 +96,8 @@ def _material_color(tree: Any) -> Any:
     count = max(
         (len(getattr(o, "material_slots", getattr(o, "materials", ()))) for o in owners), default=0
     )
+    if any(m.type == "NODES" for o in bpy.data.objects for m in o.modifiers):
+        count = max(count, min(len(bpy.data.materials), SLOTS))  # a mesh may get any of them
     if count > SLOTS:
         raise SceneError(
             f"A mesh has {count} material slots, and Cycles can be asked for {SLOTS} viewport "

@@ -134,6 +134,11 @@ def of_scene(scene: Any, judge: Judge | None) -> Iterator[Unmodelled]:
     ):
         if has:
             yield Unmodelled(of, feature, detail, None, effect)
+    bodies = scene.rigidbody_world
+    if judge and bodies and bodies.enabled and not bodies.point_cache.is_baked:
+        detail = "what is compared has them as they begin: bake them"
+        if scene.frame_current > bodies.point_cache.frame_start:
+            yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)
 
 
 def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:

@@ -189,11 +189,10 @@ class Comparison:
 
     def _not_judged(self) -> Iterator[str]:
         """Say what share of the picture cannot be judged, why, and what would help."""
-        by_feature, total = self.pixels["not_judged"]["by_feature"], self.pixels["total"]
-        if by_feature:
-            of = ", ".join(str(self.manifest.unmodelled[int(n)]) for n in by_feature)
-            share = _share(sum(by_feature.values()), total)
-            yield f"{share} of this picture cannot be judged: {of}"
+        told, total = self.pixels["not_judged"], self.pixels["total"]
+        if told["pixels"]:
+            of = ", ".join(str(self.manifest.unmodelled[int(n)]) for n in told["by_feature"])
+            yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {of}"
         if undecided := self.pixels["not_decidable"]:
             yield (
                 f"{_share(undecided, total)} of this picture is not decidable: so far from the "

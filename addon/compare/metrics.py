@@ -151,12 +151,12 @@ def count_pixels(
     out["examples"] = {
         c.key: _positions(cause == c) for c in sorted(Cause) if c.differs and out["by_cause"][c.key]
     }
-    unjudged, blind = int(causes.unjudged.sum()), causes.blind
-    found, count = np.unique(blind[blind >= 0], return_counts=True)
+    blind = causes.blind[causes.blind >= 0]
+    found, count = np.unique(blind, return_counts=True)
     by_feature = {str(n): int(c) for n, c in zip(found, count, strict=True)}
     out["not_judged"] = {
-        "pixels": unjudged,
-        "share": unjudged / max(cause.size, 1),
+        "pixels": len(blind),
+        "share": len(blind) / max(cause.size, 1),
         "by_feature": dict(sorted(by_feature.items(), key=lambda pair: -pair[1])),
     }
     if identity is not None:

@@ -278,7 +278,7 @@ def test_no_false_excuse(make, damage, build, sound_cases):
         hard.instanced_hair,
         hard.grease_pencil,
         hard.glass_pane,
-        hard.textured,
+        hard.hair_on_points,
         hard.in_front,
     ],
     ids=name_of,

@@ -1,7 +1,11 @@
 """Anti-aliasing: whether a colour is a mix of what the tracer sees within the filter's radius.
 
 A filter with weights that are not negative gives a point of the convex hull of the colours that it
-mixes. Workbench mixes log2(1 + colour) in place of the colour: the hull of those is tried, too.
+mixes. Its weights are the same on both sides of the centre, or nearly: so it mixes what lies on
+opposite sides, and no neighbour's colour has all of the weight. Where there is one colour alone,
+nothing is mixed; and whose surface a pixel shows must be one that is seen.
+
+Workbench mixes log2(1 + colour) in place of the colour: the hull of those is tried, too.
 The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
 (Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
 2015): weight goes from the colour that is farthest behind to the one that is farthest ahead.
@@ -19,13 +23,18 @@ from ...tracer import shading
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ..cause import Cause
+from . import edges
 from .coverage import coverage
 from .probe import SOUND, OpenPixels, Part, by_parts
 
 # Rings within the radius and directions on each, where the tracer is asked; later ones only of
 # what is left: a sliver passes between the samples.
 DENSITIES = ((2, 8), (4, 16), (12, 32))
-_PIXELS = [(x, y) for x in (-2, -1, 0, 1, 2) for y in (-2, -1, 0, 1, 2) if x or y]
+# Half of the pixels around; the others lie opposite.
+_PIXELS = [(x, y) for x in range(-2, 3) for y in range(3) if y or x > 0]
+# The least weight of what lies opposite. A filter's own is a half; a few samples, which is all that
+# makes up a pixel, lie on one side of the centre by chance.
+OPPOSITE = 0.1
 DISTINCT = 16  # colours of which each three are tried
 ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some an age
 # A mix is stored in half floats after some twenty roundings, and its samples lie between ours.
@@ -51,34 +60,56 @@ def check(pixels: OpenPixels) -> Work[None]:
 def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
     """Ask on ring after ring; after the last of the densest, ask the triangles themselves."""
     (rings, spokes), picture = density, part.picture
-    mixed = [(yield from _seen(part, 0.0, 0.0))]
-    color, found = picture.color[:, : mixed[0].shape[-1]], np.zeros(len(part.band), bool)
+    offsets, mixed, opposite = [(0.0, 0.0)], [], [0]
+    found, owner = np.zeros(len(part.band), bool), (yield from _owner_seen(part))
     for ring in range(1, rings + 1):
         reach = radius * ring / rings
         angles = 2 * np.pi * (np.arange(spokes) + ring / rings) / spokes
-        offsets = [(reach * np.cos(a), reach * np.sin(a)) for a in angles]
+        half = [(reach * np.cos(a), reach * np.sin(a)) for a in angles[: spokes // 2]]
         if ring == rings:  # what smooths edges takes in whole pixels
-            offsets += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
-        for offset in offsets:
-            mixed.append((yield from _seen(part, *offset)))
+            half += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
+        for x, y in half:
+            opposite += [len(opposite) + 1, len(opposite)]
+            offsets += [(x, y), (-x, -y)]
+        for offset in offsets[len(mixed) :]:
+            hits = yield from part.probe.trace(*offset)
+            mixed.append(picture.made_of(shading.colors(part.scene, hits)))
             yield 0.0
-        rest = np.flatnonzero(~found)
-        seen = np.stack([some[rest] for some in mixed])
-        found[rest] = yield from is_mix(color[rest], seen, picture.sums)
+        seen = np.stack(mixed)
+        rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
+        seen = seen[:, rest]
+        color = picture.color[rest, : seen.shape[-1]]
+        found[rest] = yield from is_mix(color, seen, picture.sums, np.array(opposite))
         part.settle(found, Cause.ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
-        left = np.flatnonzero(~found)
-        found[left] = yield from _through_cracks(part, radius, np.stack(mixed), left)
+        left = np.flatnonzero(~found & owner)
+        across = np.array(opposite)
+        found[left] = yield from _through_cracks(part, radius, np.stack(mixed), across, left)
         part.settle(found, Cause.ANTI_ALIASING, radius, radius)
 
 
+def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
+    """Return where the tracer sees whose surface is shown, in the centre or within its band."""
+    hits = yield from part.probe.trace()
+    seen = ~part.picture.other_object(hits.instance)
+    for x, y in edges.OFFSETS if not seen.all() else ():
+        hits = yield from part.probe.trace(x * part.band, y * part.band)
+        seen |= ~part.picture.other_object(hits.instance)
+    return seen
+
+
 def _through_cracks(
-    part: Part, radius: float, mixed: NDArray, left: NDArray[np.intp]
+    part: Part,
+    radius: float,
+    mixed: NDArray,
+    opposite: NDArray[np.intp],
+    left: NDArray[np.intp],
 ) -> Work[NDArray[np.bool_]]:
     """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
 
-    Each of the filter's samples may meet a crack of float32's, and show any triangle that comes
-    within the radius. Where all that is seen is one colour, there is no edge.
+    Some of the filter's samples may meet a crack of float32's, and show any triangle that comes
+    within the radius; so many as others that see what the centre does, at most. Where all that is
+    seen is one colour, there is no edge.
     """
     picture, found = part.picture, np.zeros(len(left), bool)
     may = yield from coverage(part.probe, np.full(len(part.band), radius))
@@ -86,40 +117,53 @@ def _through_cracks(
     behind = picture.made_of(shading.colors(part.scene, may.hits))[order]
     ends = np.searchsorted(may.pixel[order], (left, left + 1))
     for n, (pixel, first, last) in enumerate(zip(left, *ends, strict=True)):
-        seen = np.unique(mixed[:, pixel], axis=0)
-        if len(seen) > 1:
-            near = np.unique(np.concatenate((seen, behind[first:last])), axis=0)
+        seen = mixed[:, pixel]
+        if (seen != seen[0]).any():
+            one, other = np.split(np.unique(np.hstack((seen, seen[opposite])), axis=0), 2, axis=1)
+            cracks = (np.unique(behind[first:last], axis=0) + seen[0]) / 2
+            near = np.concatenate((one, other, cracks))
+            across = np.arange(len(near))
+            across[: 2 * len(one)] = np.roll(across[: 2 * len(one)], len(one))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
-            found[n] = (yield from is_mix(color, near[:, None], picture.sums))[0]
+            found[n] = (yield from is_mix(color, near[:, None], picture.sums, across))[0]
         yield 0.0
     return found
 
 
-def _seen(part: Part, dx: float, dy: float) -> Work[NDArray]:
-    """Return the colours (n, c) that the picture would have of what lies beside the centres."""
-    hits = yield from part.probe.trace(dx, dy)
-    return part.picture.made_of(shading.colors(part.scene, hits))
+def is_mix(
+    color: NDArray,
+    mixed: NDArray,
+    sums: int = 0,
+    opposite: NDArray[np.intp] | None = None,
+) -> Work[NDArray[np.bool_]]:
+    """Return which colours (n, c) are a mix of those of (k, n, c), or near to one.
 
-
-def is_mix(color: NDArray, mixed: NDArray, sums: int = 0) -> Work[NDArray[np.bool_]]:
-    """Return which colours (n, c) lie in the convex hull of those of (k, n, c), or near it.
-
-    Each of `sums` additions in half floats may lose as much as half a unit of every channel.
+    Each of `sums` additions in half floats may lose as much as half a unit of every channel. With
+    each colour goes some of that which is `opposite`, by its index (k,), if given.
     """
     color, count = np.nan_to_num(color).astype(np.float64), len(color)
     allowed = (NEAR + sums * 2.0**-11) * np.maximum(1, np.abs(color).max(axis=-1, initial=0))
+    bright = color.min(axis=-1, initial=0) >= -allowed
     found = np.zeros(count, bool)
     together = max(1, STEP * count // max(mixed.size, 1))
     for first in range(0, count, together):
-        some = slice(first, first + together)
-        points = mixed[:, some].astype(np.float64)
-        found[some] = yield from in_hull(color[some], points, allowed[some])
-        rest = np.flatnonzero(~found[some])
-        logs = [np.log2(1 + np.maximum(v, 0)) for v in (color[some][rest], points[:, rest])]
-        # A colour's own error is up to 1.44 times as large in the logarithm, itself a half float.
-        found[first + rest] = yield from in_hull(*logs, 2 * allowed[some][rest])
+        some = first + np.flatnonzero(bright[first : first + together])
+        for of, slack in ((lambda v: v, 1), (_logarithm, 2)):
+            rest = some[~found[some]]
+            points = of(mixed[:, rest].astype(np.float64))
+            if opposite is not None:
+                points = (1 - OPPOSITE) * points + OPPOSITE * points[opposite]
+            found[rest] = yield from in_hull(of(color[rest]), points, slack * allowed[rest])
         yield 0.0
     return found
+
+
+def _logarithm(color: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what Workbench mixes.
+
+    A colour's own error is up to 1.44 times as large in it, and it is a half float itself.
+    """
+    return np.log2(1 + np.maximum(color, 0))
 
 
 def in_hull(

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...images import encoded
 from ...tracer.frame import Frame
@@ -21,6 +22,7 @@ from ..picture import Curve, Picture
 from . import color as colors
 from .probe import blocks
 
+NEAR = 2.0**-7  # so near a surface's colour is to a background's that these are one
 NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
 _NAMES = {(0, 0, 0): "black", (1, 1, 1): "white"}
 
@@ -71,12 +73,31 @@ def find_background(
         yield 0.0
     if not np.isfinite(color).all() or same < NEARLY_ALL * nothing.sum():
         return None
+    if not (yield from _apart(frame, picture, color, interior & ~nothing)):
+        return None
     found = yield from colors.find_transform(frame, picture, interior, curves)
     transform = found.of if found else None
     one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
     if not one.other_color(own[None])[0]:
         return None
     return Background(tuple(map(float, color)), tuple(map(float, own)), picture.opaque)
+
+
+def _apart(
+    frame: Frame, picture: Picture, color: NDArray[np.float32], surface: NDArray[np.bool_]
+) -> Work[bool]:
+    """Return whether a colour is a background's: surfaces that have it are where they should be.
+
+    A picture upside down shows the floor where the sky is, and the sky where the floor is.
+    """
+    of, shown = 0, 0
+    for rows in blocks(surface.shape):
+        own = surface[rows] & (np.abs(frame.color[rows] - color) <= NEAR).all(axis=-1)
+        there = picture.at(rows).at(own)
+        of += len(there.color)
+        shown += int((~there.other_color(frame.color[rows][own])).sum())
+        yield 0.0
+    return shown >= NEARLY_ALL * of
 
 
 def _name(color: Sequence[float], opaque: bool) -> str:

@@ -6,13 +6,17 @@ off, what Blender shows.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...scene import Scene
+from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, plan
 from ...tracer.progress import Work
+from ...tracer.vector import transform_points
 from ..cause import Cause
 from ..picture import Picture
 from .coverage import coverage
@@ -34,15 +38,30 @@ def check(pixels: OpenPixels) -> Work[None]:
         yield from by_parts(pixels, (yield from plan(pixels.case.scene, SOUND, reach)), _look)
 
 
+@dataclass(eq=False)
+class _Asked:
+    """What is known of the n pixels of a part, more with each way to ask.
+
+    `centre` are the hits of their centres, and `lost` is where the picture's own method lost one of
+    them that shows what Blender does. `found` (2, n) is how far off the picture's colour is seen,
+    and its owner, in pixels; `beside` are the hits of the samples in the band.
+    """
+
+    centre: Hits
+    lost: NDArray[np.bool_]
+    found: NDArray[np.float64]
+    beside: list[Hits]
+
+
 def _look(part: Part) -> Work[None]:
     """Ask at samples, then behind, then of the triangles themselves, while pixels are left."""
     centre = yield from part.probe.trace()
     # By the picture's method: the centre itself shows what Blender does.
     lost = ~part.picture.differ(part.scene, centre)
-    found = _sides(part.scene, part.picture, centre, 0.0)
+    asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [])
     for look in (_beside, _behind, _covering):
         if not part.settled:
-            yield from look(part, centre, lost, found)
+            yield from look(part, asked)
 
 
 def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> NDArray[np.float64]:
@@ -55,34 +74,32 @@ def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> N
     return np.where(same, distance, np.inf)
 
 
-def _beside(part: Part, centre: Hits, lost: NDArray[np.bool_], found: NDArray) -> Work[None]:
+def _beside(part: Part, asked: _Asked) -> Work[None]:
     """See whether within the band around a pixel's centre there is what Blender shows.
 
     Where it is seen in the centre itself, the picture's method lost it: on an edge within the band,
     where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
     """
+    centre, found = asked.centre, asked.found
     for x, y in OFFSETS:
         hits = yield from part.probe.trace(x * part.band, y * part.band)
+        asked.beside.append(hits)
         distance = part.band * max(abs(x), abs(y))
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
         np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
-        off = np.where(lost, np.where(other, distance, np.inf), found.max(axis=0))
+        off = np.where(asked.lost, np.where(other, distance, np.inf), found.max(axis=0))
         part.settle(off < np.inf, Cause.EDGE, off, part.band)
         yield 0.0
         if part.settled:
             return
 
 
-def _behind(part: Part, first: Hits, lost: NDArray[np.bool_], found: NDArray) -> Work[None]:
-    """Settle open pixels that show a surface which ties with the first one.
-
-    `first` are the hits of the n centres; `lost` (n,) is where the picture's own method lost what
-    its centre shows.
-    """
-    scene, picture = part.scene, part.picture
+def _behind(part: Part, asked: _Asked) -> Work[None]:
+    """Settle open pixels that show a surface which ties with the first one."""
+    scene, picture, first = part.scene, part.picture, asked.centre
     allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
-    hits, (color, owner) = first, found < np.inf
-    color &= ~lost
+    hits, (color, owner) = first, asked.found < np.inf
+    color &= ~asked.lost
     for _ in range(LAYERS):
         hits = yield from part.probe.trace(after=hits)
         with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
@@ -96,16 +113,49 @@ def _behind(part: Part, first: Hits, lost: NDArray[np.bool_], found: NDArray) ->
             return
 
 
-def _covering(part: Part, _: Hits, lost: NDArray[np.bool_], found: NDArray) -> Work[None]:
+def _covering(part: Part, asked: _Asked) -> Work[None]:
     """Find what no sample does: a triangle that comes that near, before any surely covered one."""
-    scene, width = part.scene, part.band
+    scene, width, found = part.scene, part.band, asked.found
     may = yield from coverage(part.probe, width)
     farthest = may.behind + part.resolution(may.sure)[may.pixel]
-    visible = may.hits.t <= farthest
     of = _sides(scene, part.picture.at(may.pixel), may.hits, may.distance)
+    nothing = _sides(scene, part.picture, Hits.none(len(width)), width)
+    nothing[:, np.isfinite(may.sure.t)] = np.inf
+    asks = (nothing < np.inf).any(axis=0)
+    asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
+    closed = _closed(scene, asked.beside, asks & ~asked.lost)
+    farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
+    visible = may.hits.t <= farthest
     for side, off in zip(found, of, strict=True):
         np.minimum.at(side, may.pixel[visible], off[visible])
-    nothing = _sides(scene, part.picture, Hits.none(len(width)), width)
-    np.minimum(found, np.where(np.isinf(may.sure.t), nothing, np.inf), out=found)
+    np.minimum(found, np.where(np.isinf(closed), nothing, np.inf), out=found)
     off = found.max(axis=0)
-    part.settle((off < np.inf) & ~lost, Cause.EDGE, off, width)
+    part.settle((off < np.inf) & ~asked.lost, Cause.EDGE, off, width)
+
+
+def _closed(scene: Scene, beside: list[Hits], asks: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Return how far off n pixels surely see a surface, though each triangle may end there, (n,).
+
+    Infinitely far where they need not. Triangles that share an edge, or a corner all around it,
+    leave no gap between them, as a rasteriser rounds what they share alike; but where one is
+    clipped, it gets corners of its own. Only some pixels are looked at, those that ask.
+    """
+    instance, triangle = (np.stack([getattr(h, n) for h in beside]) for n in _NAMES)
+    out, camera = np.full(len(asks), np.inf), scene.camera
+    on_one = (instance == instance[0]).all(axis=0) & (instance[0] < len(scene.instances))
+    for pixel in np.flatnonzero(asks & on_one & (instance[0] != NOTHING)):
+        of = scene.instances[instance[0, pixel]]
+        mesh, names = scene.meshes[of.mesh], np.unique(triangle[:, pixel])
+        corners = mesh.vertices[mesh.triangles[names]]  # (k, 3, 3)
+        same = (corners[0][:, None, None] == corners[None]).all(axis=-1)
+        shared = same.any(axis=-1).all(axis=-1).sum()
+        *_, depth = film_of(
+            camera, transform_points(of.world_from_object, corners.reshape(-1, 3).T)
+        )
+        whole = (depth >= camera.clip_start).all() and (depth <= camera.clip_end).all()
+        if whole and shared >= max(4 - len(names), 1):
+            out[pixel] = max(hits.t[pixel] for hits in beside)
+    return out
+
+
+_NAMES = "instance", "triangle"

@@ -2,7 +2,7 @@
 
 An object that the picture is known to show, and that the tracer was told to leave out, is named by
 the manifest. An alternative is believed where tracing it gives what the picture shows, and only if
-it does so in most of the open pixels that it changes at all.
+it does so in most of the pixels that it changes at all.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..cause import Cause, Hidden
 from . import edges
 from .probe import OpenPixels, blocks
 
-CONFIRMED = 0.5  # of the open pixels that an alternative changes
+CONFIRMED = 0.5  # of the pixels that an alternative changes
 
 
 def check(pixels: OpenPixels) -> Work[None]:
@@ -56,10 +56,11 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless(case))
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
-    changed = pixels.open & (traced.color != pixels.frame.color).any(axis=-1)
-    same &= changed
-    if same.sum() <= CONFIRMED * changed.sum():
+    changed = (traced.color != pixels.frame.color).any(axis=-1)
+    changed &= pixels.open | (pixels.out.cause == Cause.AGREE)
+    if (same & changed).sum() <= CONFIRMED * changed.sum():
         return
+    same &= changed & pixels.open
     pixels.settle(same, Cause.HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
     # Its edges are as uncertain as those of the traced scene.
     yield from scaled(edges.check(there), 0.5, 0.5)
