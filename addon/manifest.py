@@ -59,7 +59,7 @@ class Unmodelled:
     """A feature of the scene that the tracer does not model.
 
     `bounds` is the world-space box, (2, 3) metres, inside which it can change a picture; None where
-    it cannot be placed.
+    it cannot be placed. `by` are objects whose geometry nodes draw the object, too.
     """
 
     object: str
@@ -67,6 +67,7 @@ class Unmodelled:
     detail: str = ""
     bounds: NDArray[np.float64] | None = None
     effect: Effect = Effect.DRAWN
+    by: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():
@@ -80,6 +81,7 @@ class Unmodelled:
         """Return the feature as JSON can hold it."""
         return vars(self) | {
             "bounds": None if self.bounds is None else np.asarray(self.bounds).tolist(),
+            "by": list(self.by),
             "effect": self.effect.name.lower(),
             "everywhere": self.effect.everywhere,
         }

@@ -92,6 +92,7 @@ def test_json_holds_everything(manifest):
         "object": "Cam.001",
         "feature": "depth of field",
         "detail": "",
+        "by": [],
         "effect": "none",
         "everywhere": False,
         "bounds": None,

@@ -65,7 +65,7 @@ class Drawing:
 def left_out(features: Sequence[Unmodelled]) -> Iterator[None]:
     """Leave out hair, and objects that draw what is no triangle, for a while."""
     of_hair = {u.object for u in features if u.feature == HAIR}
-    others = {u.object for u in features if u.feature != HAIR}
+    others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
     hair = {p for o in bpy.data.objects if o.name_full in of_hair for p in _hair(o)}
     objects = (o for o in bpy.data.objects if o.name_full in others)
     whole = dict.fromkeys(objects, np.bool_(True))
@@ -128,7 +128,7 @@ def _apart(manifest: Manifest) -> list[Unmodelled]:
     """Return what draws itself, and can be left out without anything that is traced."""
     traced = {e.name for e in manifest.objects if e.exported} | set(manifest.owners)
     drawn_itself = (u for u in manifest.unmodelled if u.effect is Effect.DRAWN)
-    return [u for u in drawn_itself if u.feature == HAIR or u.object not in traced]
+    return [u for u in drawn_itself if u.feature == HAIR or traced.isdisjoint((u.object, *u.by))]
 
 
 def with_identity(drawing: Drawing, shown: Picture) -> Picture:

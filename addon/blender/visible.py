@@ -91,8 +91,9 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
         look = name, key, obj.color[:] if color_type in ("OBJECT", "VERTEX") else None
         if look not in modelled:
             found = list(of_object(obj, item.matrix_world, shading, layer, depsgraph.mode, judge))
+            by_nodes = item.is_instance and owner.instance_type == "NONE"
             for u in found:
-                _widen(entry.features, u)
+                _widen(entry.features, replace(u, by=(owner.name_full,) if by_nodes else ()))
             if not found:
                 modelled.add(look)
         if entry.is_plane:
@@ -119,10 +120,12 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
     """Keep one entry a feature, its bounds around all the object's instances."""
     key = found.feature + found.detail
-    if key in features and found.bounds is not None and features[key].bounds is not None:
-        both = np.stack((features[key].bounds, found.bounds))
-        bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
-        found = replace(found, bounds=bounds)
+    if before := features.get(key):
+        found = replace(found, by=tuple(dict.fromkeys((*before.by, *found.by))))
+        if found.bounds is not None and before.bounds is not None:
+            both = np.stack((before.bounds, found.bounds))
+            bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
+            found = replace(found, bounds=bounds)
     features[key] = found
 
 

@@ -75,7 +75,7 @@ def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
     known = Picture(color, owner=owner, owners=owners)
     for shown in (Picture(color), known):
         beyond, within = (
-            causes(scene, frame, shown, (), near).cause[:, :-1][rim] for near in (0.1, 0.45)
+            causes(scene, frame, shown, (), near).cause[:, :-1][rim] for near in (0.01, 0.45)
         )
         assert (beyond == Cause.UNEXPLAINED).all() and (within == Cause.EDGE).all()
 
