@@ -134,10 +134,12 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
     """
     frame, picture = pixels.frame, pixels.picture
     inside = _judged(pixels) & (frame.instance_index != NOTHING)
-    wrong = inside & (pixels.out.cause == Cause.UNEXPLAINED)
-    wrong &= ~picture.other_object(frame.instance_index)
-    if picture.lit or not wrong.any():
+    inside &= ~picture.other_object(frame.instance_index)
+    if picture.lit or not (inside & (pixels.out.cause == Cause.UNEXPLAINED)).any():
         return
+    # Pixels that agree and differ were passed over: nobody looked for their cause.
+    wrong = inside & np.isin(pixels.out.cause, (Cause.UNEXPLAINED, Cause.AGREE))
+    wrong &= yield from _differing(frame, picture)
     count = np.bincount(frame.object_index[wrong])
     share = count / np.maximum(np.bincount(frame.object_index[inside])[: len(count)], 1)
     for number in np.argsort(-count, kind="stable")[:SHADES]:
@@ -154,13 +156,19 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
 
 def _in_another_shade(frame: Frame, picture: Picture, where: NDArray[np.bool_]) -> bool:
     """Return whether each traced colour of some pixels (h, w) is shown as one other."""
-    some, colors = picture.at(where), frame.color[where]
+    few = np.zeros_like(where)
+    few.flat[(found := np.flatnonzero(where))[:: -(-len(found) // ENOUGH)]] = True
+    some, colors = picture.at(few), frame.color[few]
     _, group = np.unique(colors, axis=0, return_inverse=True)
     group = group.reshape(-1)
     _, medians = _medians(some.color, group)
-    if not some.known(frame.instance_index[where]).all():  # it may be something else's colour
-        others = np.unique(frame.color[~where & (frame.instance_index >= NOTHING)], axis=0)
-        if len(others) < ENOUGH and any((np.abs(m - others) < _FIT).all(1).any() for m in medians):
+    if 2 * len(medians) > len(group) > 1:  # colours between corners: each is another
+        return False
+    if not some.known(frame.instance_index[few]).all():  # it may be something else's colour
+        own = np.pad(frame.object_index == frame.object_index[where][0], 1)
+        rim = own[2:, 1:-1] | own[:-2, 1:-1] | own[1:-1, 2:] | own[1:-1, :-2]
+        around = np.unique(frame.color[rim & ~own[1:-1, 1:-1]], axis=0)
+        if any((np.abs(m - around) < _FIT).all(axis=1).any() for m in medians):
             return False
     alike = ~replace(some, color=medians[group]).other_color(some.color)
     return bool(alike.mean() > FITTED_SHARE)
