@@ -32,7 +32,7 @@ from ..attacks import (
 
 SCENES = sorted(p.stem for p in (Path(__file__).parents[2] / "sample_scenes").glob("*.blend"))
 WIDTH = 120
-AT_MOST = 250  # changed pixels whose cause is looked for
+AT_MOST = 100  # changed pixels whose cause is looked for
 OF_A_FILTER = 6  # of anti-aliased ones: each is asked for hundreds of samples
 MANY = 20_000  # triangles, of which each such sample takes long: one attack on a filter will do
 # Excused may be what the tracer's own picture, traced so far beside, shows in another way; besides,
