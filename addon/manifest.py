@@ -58,8 +58,8 @@ class Effect(Enum):
 class Unmodelled:
     """A feature of the scene that the tracer does not model.
 
-    `bounds` is the world-space box, (2, 3) metres, inside which it can change a picture; None where
-    it cannot be placed. `by` are objects whose geometry nodes draw the object, too.
+    `bounds` is the world-space box, (2, 3) metres, around what has it; None where it cannot be
+    placed. `by` are objects whose geometry nodes draw the object, too.
     """
 
     object: str
@@ -146,6 +146,8 @@ class Manifest:
             )
         for u in self.unmodelled:
             detail = f" ({u.detail})" if u.detail else ""
-            yield f"  not modelled: {u.object}: {u.feature}{detail}", u.effect is not Effect.NONE
+            none = u.effect is Effect.NONE
+            said = "not modelled, which is no matter here" if none else "not modelled"
+            yield f"  {said}: {u.object}: {u.feature}{detail}", not none
         for note in self.notes:
             yield f"  note: {note}", False

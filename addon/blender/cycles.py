@@ -1,7 +1,8 @@
 """Cycles drawing the same constant colours: one emission material over a whole view layer.
 
 Materials are the user's own, so nothing of them is changed. The override material asks for the
-viewport colour of the face's slot by its data path, and lives as long as one picture.
+viewport colour of the face's slot by its data path, and lives as long as one picture. So long the
+camera has no depth of field, and random colours are the objects' own.
 """
 
 from __future__ import annotations
@@ -39,15 +40,15 @@ def constant_colors(scene: Any, layer: str, sample_radius: float) -> Iterator[No
         with in_colors(objects, colors), constant_colors(scene, layer, sample_radius):
             yield
         return
-    lens = scene.camera.data.dof
-    material, blurred = bpy.data.materials.new("Reference Tracer Constant"), lens.use_dof
-    lens.use_dof = False
     scene.cycles.samples = 1
     scene.cycles.use_denoising = False
     scene.cycles.use_adaptive_sampling = False
     scene.cycles.pixel_filter_type = "BOX"
     scene.cycles.filter_width = 2 * sample_radius
+    lens = scene.camera.data.dof
+    material, blurred = bpy.data.materials.new("Reference Tracer Constant"), lens.use_dof
     try:
+        lens.use_dof = False
         _emission(material, scene)
         scene.view_layers[layer].material_override = material
         yield

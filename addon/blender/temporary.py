@@ -2,7 +2,8 @@
 
 Its objects are the user's own; its settings, view layers and top collection are its own, and go
 with it. Objects are left out of it: collections that hold such an object are replaced by copies.
-The user's scene, view and Render Result stay as they are.
+The user's scene, view and Render Result stay as they are. What is to be set on an object itself is
+`untold`, and put back.
 
 A render evaluates the animation of the frame and writes the result into the user's own objects.
 What he has moved but not keyed yet would be lost: `values_kept` puts it back.

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..manifest import Effect, Unmodelled
 from .colors import slot_materials
 from .judges import Judge
+from .temporary import is_temporary
 
 HAIR = "hair"  # of particles: the object that has it is drawn without it, too
 
@@ -135,7 +136,7 @@ def of_scene(scene: Any, judge: Judge | None) -> Iterator[Unmodelled]:
         if has:
             yield Unmodelled(of, feature, detail, None, effect)
     bodies = scene.rigidbody_world
-    if judge and bodies and bodies.enabled and not bodies.point_cache.is_baked:
+    if is_temporary(scene) and bodies and bodies.enabled and not bodies.point_cache.is_baked:
         detail = "what is compared has them as they begin: bake them"
         if scene.frame_current > bodies.point_cache.frame_start:
             yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)

@@ -1,7 +1,8 @@
 """Blender's own picture of a scene, as an array, by one of its engines.
 
-Everything is set on a temporary copy of the user's scene. What cannot live on a copy, the
-preference for the viewport's anti-aliasing and the mark that preferences were changed, is put back.
+Everything is set on a temporary copy of the user's scene. What cannot live on a copy is put back:
+the preference for the viewport's anti-aliasing and the mark that preferences were changed; and what
+`drawings.py` and `cycles.py` set.
 """
 
 from __future__ import annotations

@@ -20,7 +20,9 @@ from ..tracer.progress import Work
 from ..tracer.vector import transform_points
 
 U32 = 2.0**-24
-SNAPPING = 1 / 256  # pixels: rasterisers keep eight bits of a vertex' position below the pixel
+# Pixels: rasterisers keep eight bits of a vertex' position below the pixel. Where the machine's was
+# measured to keep less, the comparison adds what is missing: see `Picture.snapping`.
+SNAPPING = 1 / 256
 
 # A vertex goes through three float32 products: model, view, projection. Of each component the
 # model's has 4 roundings of terms whose absolute values sum up to |M| |v|; the view's has 4, and

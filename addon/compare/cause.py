@@ -111,7 +111,7 @@ class Cause(IntEnum):
     NOT_MODELLED = Record(
         3,
         "not modelled",
-        "feature {figure:.0f} (from 0) of the scene's unmodelled ones is drawn there",
+        "feature {figure:.0f} (from 0) of the scene's unmodelled ones changes the pixel",
         "index",
         (0.3, 0.08, 0.9),
         explains=True,

@@ -2,7 +2,8 @@
 
 In come two pictures of one scene and what was traced; out goes a cause for every pixel that
 differs. A cause is only given where the tracer itself, asked again, sees what Blender shows, or
-where something is drawn in that very pixel that the tracer does not model.
+where something is drawn in that very pixel that the tracer does not model. What may change a
+picture anywhere, as light does, excuses anything there: the comparison says that it cannot judge.
 """
 
 from __future__ import annotations

@@ -4,7 +4,8 @@ Known faults are made, one at a time, and explained as the comparison itself was
 function, method, alternatives and curves. A fault is caught where it leaves pixels unexplained, or
 where the comparison names a transform of the colours that it did not name before. One that changes
 no pixel here, as a mirrored camera before a symmetric scene, cannot be seen: that is said, with the
-number of pixels that it changed, and not counted as caught.
+number of pixels that it changed, and not counted as caught. Nor is one counted that changes but
+pixels that cannot be judged: it is said to be one.
 """
 
 from __future__ import annotations
@@ -138,6 +139,8 @@ def table(rows: Sequence[FaultRow]) -> list[str]:
     caught = sum(r.result == "caught" for r in rows)
     seen = caught + sum(r.missed for r in rows)
     out = [f"self-check: {caught} of {seen} faults that can be seen here are caught"]
+    if blind := sum(r.blind and r.result != "caught" for r in rows):
+        out[0] += f"; {blind} more change nothing but what cannot be judged"
     for r in rows:
         pixels = f"{r.unexplained:,} of {r.looked_at:,} px unexplained" if r.changed else ""
         said = ", ".join(filter(None, (pixels, r.note)))

@@ -46,6 +46,7 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
             cause=causes.cause,
             cause_figure=causes.figure,
             cause_allowed=causes.allowed,
+            blind=causes.blind,
             **whose,
         )
         page.write(new / page.NAME, comparison, extras)
