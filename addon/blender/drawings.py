@@ -17,14 +17,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.checks.unmodelled import covered
-from ..compare.identity import MOST_OBJECTS, NOTHING, colors_of, decode
+from ..compare.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
 from ..compare.picture import Picture, numbered
 from ..manifest import Effect, Manifest, Unmodelled
 from ..scene import Scene
 from .judges import Judge
 from .planes import stand_ins
-from .temporary import STANDS_FOR, drawn, in_colors, temporary_scene, untold
-from .unmodelled import HAIR
+from .temporary import (
+    STANDS_FOR,
+    drawn,
+    in_colors,
+    is_animated,
+    leave_out,
+    temporary_scene,
+    untold,
+)
+from .unmodelled import HAIR, is_hair
 from .viewport import picture, prepare_scene, use_view_shading
 
 
@@ -57,18 +65,22 @@ class Drawing:
 
     def without(self, features: Sequence[Unmodelled]) -> NDArray[np.float32]:
         """Draw the scene without some features that draw themselves."""
-        with self.begun() as tmp, left_out(features):
+        with self.begun() as tmp, left_out(tmp, self.layer, features):
             return self.picture(tmp, self.like_for_like)
 
 
 @contextmanager
-def left_out(features: Sequence[Unmodelled]) -> Iterator[None]:
-    """Leave out hair, and objects that draw what is no triangle, for a while."""
+def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[None]:
+    """Leave hair, and objects that draw what is no triangle, out of a temporary scene, for a while.
+
+    An animation would show again what was hidden: such an object leaves the scene.
+    """
     of_hair = {u.object for u in features if u.feature == HAIR}
     others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
     hair = {p for o in bpy.data.objects if o.name_full in of_hair for p in _hair(o)}
     objects = (o for o in bpy.data.objects if o.name_full in others)
     whole = dict.fromkeys(objects, np.bool_(True))
+    leave_out(tmp, layer, [o for o in whole if is_animated(o, "hide_render", "hide_viewport")])
     with ExitStack() as stack:
         for name in ("hide_render", "hide_viewport"):
             stack.enter_context(untold(bpy.data.objects, name, whole))
@@ -80,7 +92,9 @@ def left_out(features: Sequence[Unmodelled]) -> Iterator[None]:
 
 
 def _hair(obj: Any) -> list[Any]:
-    return [s.settings for s in obj.particle_systems if s.settings.type == "HAIR"]
+    """Return the particle settings that draw an object's hair; others of hair draw objects."""
+    of = (system.settings for system in obj.particle_systems)
+    return [settings for settings in of if is_hair(settings)]
 
 
 def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, Manifest]:
@@ -98,12 +112,13 @@ def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, M
     known = np.where(over[..., None], beneath, np.float32(np.nan))
     if len(apart) < len(features):  # what lies beneath goes with it: that is not known
         over |= (beneath != drawing.without(list(features.values()))).any(axis=-1)
-    number = np.full(over.shape, NOTHING, np.int16)
+    number, unseen = np.full(over.shape, NOTHING, np.int32), set()
     number[over] = min(features)
     for n, feature in reversed(features.items()):
         if feature.bounds is not None:
-            number[over & covered(drawing.exported.camera, feature.bounds)] = n
-    unseen = features.keys() - set(np.unique(number).tolist())
+            here = over & covered(drawing.exported.camera, feature.bounds)
+            number[here] = n
+            unseen |= set() if here.any() else {n}
     told = (
         replace(u, effect=Effect.NONE, bounds=None) if n in unseen else u
         for n, u in enumerate(manifest.unmodelled)
@@ -112,15 +127,18 @@ def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, M
     return shown, replace(manifest, unmodelled=tuple(told))
 
 
-def drawn_by_others(drawing: Drawing) -> NDArray[np.int16] | None:
+def drawn_by_others(drawing: Drawing) -> NDArray[np.int32] | None:
     """Return what draws itself in each pixel, (h, w), by Blender's own drawing; None for nothing.
 
     Of a picture that Blender did not draw: nobody knows what is beneath.
     """
     if not any(u.effect is Effect.DRAWN for u in drawing.manifest.unmodelled):
         return None
-    with drawing.begun() as tmp:
-        shown = Picture(drawing.picture(tmp, True))
+    try:
+        with drawing.begun() as tmp:
+            shown = Picture(drawing.picture(tmp, True))
+    except RuntimeError:  # there is nothing to draw with: all that it may cover
+        return None
     return with_what_draws_itself(drawing, shown)[0].drawn
 
 
@@ -138,7 +156,7 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
     left out, if it can be.
     """
     manifest = drawing.manifest
-    with drawing.begun() as tmp, left_out(_apart(manifest)):
+    with drawing.begun() as tmp, left_out(tmp, drawing.layer, _apart(manifest)):
         # The layer's own list has the stand-ins of planes once it is evaluated: that is too early.
         planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
         objects = list(dict.fromkeys((*drawn(tmp, drawing.layer), *planes)))
@@ -152,4 +170,8 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
         colors = colors_of(len(names))[[number[owner] for owner in owners]]
         with in_colors(objects, colors):
             owner = decode(drawing.picture(tmp, True), len(names))
+    own = [o.color[:] for o in objects if is_animated(o, "color")]
+    if own:  # these show their own colours again, which may be those of other objects' numbers
+        of_animated = decode(np.array([own], np.float32), len(names))
+        owner[np.isin(owner, of_animated[of_animated >= 0])] = UNKNOWN
     return replace(shown, owner=owner, owners=numbered(names, manifest.owners), names=names)

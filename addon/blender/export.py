@@ -19,7 +19,7 @@ from ..scene import Camera, Instance, Mesh, Plane, Scene
 from .camera import export_camera
 from .colors import background
 from .planes import outside
-from .temporary import judge_of, user_scene
+from .temporary import user_scene
 from .unmodelled import of_scene
 from .visible import Met, Seen, Shown, export_mesh, visible
 
@@ -169,7 +169,7 @@ def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
         evaluation=depsgraph.mode,
         camera=camera,
         objects=tuple(entries),
-        unmodelled=(*features, *of_scene(scene, judge_of(depsgraph.scene))),
+        unmodelled=(*features, *of_scene(scene, depsgraph.scene)),
     )
 
 

@@ -163,6 +163,12 @@ def _set(blocks: Any, name: str, values: Mapping[Any, Any]) -> dict[Any, Any]:
             before[block] = held[number].copy()
             held[number] = values[block]
     blocks.foreach_set(name, flat)
+    for block in before:
+        if not block.is_editable:  # of a library: what sets all at once passes it over
+            rna, value = block.bl_rna.properties[name], values[block].tolist()
+            if rna.type == "ENUM":
+                value = next(i.identifier for i in rna.enum_items if i.value == value)
+            setattr(block, name, value)
     return before
 
 
@@ -187,6 +193,13 @@ def _animated() -> Iterator[tuple[Any, str]]:
                     data = getattr(owner, "animation_data", None)
                     for action in _actions(data) if data else ():
                         yield from ((owner, curve.data_path) for curve in _curves(action))
+
+
+def is_animated(obj: Any, *paths: str) -> bool:
+    """Return whether an animation or a driver sets one of an object's properties."""
+    data = obj.animation_data
+    curves = [c for action in _actions(data) for c in _curves(action)] if data else []
+    return any(c.data_path in paths for c in (*curves, *(data.drivers if data else ())))
 
 
 def _actions(data: Any) -> Iterator[Any]:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ..manifest import Effect, Unmodelled
 from .colors import slot_materials
 from .judges import Judge
-from .temporary import is_temporary
+from .temporary import is_temporary, judge_of
 
 HAIR = "hair"  # of particles: the object that has it is drawn without it, too
 
@@ -27,6 +27,11 @@ _DRAWN_OTHERWISE = {
     "POINTCLOUD": "point cloud",
     "VOLUME": "volume",
 }
+
+
+def is_hair(settings: Any) -> bool:
+    """Return whether particle settings draw hair."""
+    return settings.type == "HAIR" and settings.render_type == "PATH"
 
 
 def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
@@ -102,16 +107,16 @@ def of_object(
         detail = f"{obj.display_type.lower()}: the viewport draws no surface"
         yield found("display type", Effect.UNPLACED, detail)
     for system in obj.particle_systems:
-        if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+        if is_hair(system.settings):
             yield found(HAIR, Effect.DRAWN, f"particle system '{system.name}'")
 
 
-def of_scene(scene: Any, judge: Judge | None) -> Iterator[Unmodelled]:
-    """Yield what is not modelled of the scene and its camera as a whole; it has no bounds.
+def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
+    """Yield what is not modelled of the user's scene and its camera as a whole; it has no bounds.
 
-    A judge draws a temporary scene, in which it is switched off.
+    What is `drawn` is that, or a temporary copy: for a judge, all of it is switched off there.
     """
-    effect = Effect.NONE if judge else Effect.UNPLACED
+    effect = Effect.NONE if judge_of(drawn) else Effect.UNPLACED
     camera, render, shading = scene.camera, scene.render, scene.display.shading
     sequence = scene.sequence_editor
     strips = sequence and getattr(sequence, "strips_all", getattr(sequence, "sequences_all", ()))
@@ -136,7 +141,7 @@ def of_scene(scene: Any, judge: Judge | None) -> Iterator[Unmodelled]:
         if has:
             yield Unmodelled(of, feature, detail, None, effect)
     bodies = scene.rigidbody_world
-    if is_temporary(scene) and bodies and bodies.enabled and not bodies.point_cache.is_baked:
+    if is_temporary(drawn) and bodies and bodies.enabled and not bodies.point_cache.is_baked:
         detail = "what is compared has them as they begin: bake them"
         if scene.frame_current > bodies.point_cache.frame_start:
             yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)

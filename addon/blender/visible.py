@@ -23,7 +23,7 @@ from ..manifest import Unmodelled
 from ..scene import Mesh, drop_non_finite
 from .colors import instance_colors, slot_materials
 from .temporary import judge_of
-from .unmodelled import of_object
+from .unmodelled import HAIR, of_object
 
 
 @dataclass
@@ -84,18 +84,22 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
             original = obj.original
             seen[name] = Seen(original.type, original.reference_tracer.infinite_plane)
         entry = seen[name]
-        if not item.show_self:
+        if not (item.show_self or item.show_particles):
             continue
         mesh = obj.data if obj.type == "MESH" else None
         key = mesh.as_pointer() if mesh else None
         look = name, key, obj.color[:] if color_type in ("OBJECT", "VERTEX") else None
         if look not in modelled:
             found = list(of_object(obj, item.matrix_world, shading, layer, depsgraph.mode, judge))
+            if not item.show_self:  # its hair is shown without it
+                found = [u for u in found if u.feature == HAIR]
             by_nodes = item.is_instance and owner.instance_type == "NONE"
             for u in found:
                 _widen(entry.features, replace(u, by=(owner.name_full,) if by_nodes else ()))
             if not found:
                 modelled.add(look)
+        if not item.show_self:
+            continue
         if entry.is_plane:
             key = None
         elif not mesh or (viewport and obj.display_type in ("WIRE", "BOUNDS")):

@@ -57,7 +57,7 @@ class Case:
     self_check: bool = False
     next_frame: Scene | None = None
 
-    def feature_of(self, *effects: Effect) -> NDArray[np.int16]:
+    def feature_of(self, *effects: Effect) -> NDArray[np.int32]:
         """Return which feature with one of the effects each instance's object has, each plane's.
 
         It is an index into the manifest's `unmodelled`; NOTHING for none, and at the end: (k + 1,).
@@ -66,7 +66,7 @@ class Case:
             u.object: n for n, u in enumerate(self.manifest.unmodelled) if u.effect in effects
         }
         found = [number.get(name, NOTHING) for name in self.scene.objects]
-        return np.array([*found, NOTHING], np.int16)[self.scene.instance_objects]
+        return np.array([*found, NOTHING], np.int32)[self.scene.instance_objects]
 
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
         """Return the same with the scene and the alternatives changed alike."""

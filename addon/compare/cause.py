@@ -196,13 +196,13 @@ class Causes:
     `allowed` (h, w) the bound that it was held against: the cause's sentence says what they mean.
     An index is one into the manifest's `unmodelled`, or into `hidden`. `transform` is what was
     found to turn the traced colours into those of the picture, in words; "" for nothing. `blind`
-    (h, w) int16 is the feature of `unmodelled` that keeps a pixel from being judged, else -1.
+    (h, w) int32 is the feature of `unmodelled` that keeps a pixel from being judged, else -1.
     """
 
     cause: NDArray[np.uint8]
     figure: NDArray[np.float64]
     allowed: NDArray[np.float64]
-    blind: NDArray[np.int16]
+    blind: NDArray[np.int32]
     hidden: list[Hidden] = field(default_factory=list)
     transform: str = ""
     shades: list[Shade] = field(default_factory=list)
@@ -212,7 +212,7 @@ class Causes:
     def none(cls, shape: tuple[int, int]) -> Causes:
         """Return those of a picture (h, w) that agrees."""
         figures = np.full(shape, np.nan), np.full(shape, np.nan)
-        return cls(np.zeros(shape, np.uint8), *figures, np.full(shape, -1, np.int16))
+        return cls(np.zeros(shape, np.uint8), *figures, np.full(shape, -1, np.int32))
 
     @property
     def unjudged(self) -> NDArray[np.bool_]:

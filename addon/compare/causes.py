@@ -99,8 +99,8 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
         yield from scaled(check(pixels), done, share)
         done += share
     pixels.settle(pixels.open, Cause.UNEXPLAINED)
-    yield from unmodelled.settle_drawn(pixels)
-    yield from color.name_shades(pixels)
+    yield from scaled(unmodelled.settle_drawn(pixels), 1.0, 0.0)
+    yield from scaled(color.name_shades(pixels), 1.0, 0.0)
     return out
 
 

@@ -190,6 +190,9 @@ class Comparison:
     def _not_judged(self) -> Iterator[str]:
         """Say what share of the picture cannot be judged, why, and what would help."""
         told, total = self.pixels["not_judged"], self.pixels["total"]
+        if lights := [str(u) for u in self.manifest.unmodelled if u.effect is Effect.LIGHT]:
+            known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
+            yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
         if told["pixels"]:
             of = ", ".join(str(self.manifest.unmodelled[int(n)]) for n in told["by_feature"])
             yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {of}"

@@ -82,7 +82,7 @@ class Picture:
         Which instances' colours, then planes', the tracer does not know; False at the end.
     holes : (k + 1,) bool, optional
         Which of them are shown as if nothing were there.
-    drawn : (...,) int16, optional
+    drawn : (...,) int32, optional
         The number of the unmodelled feature that draws itself there, over what is traced; NOTHING
         elsewhere.
     beneath : (..., 4) float32, optional
@@ -106,7 +106,7 @@ class Picture:
     snapping: float = SNAPPING
     colorless: NDArray[np.bool_] | None = None
     holes: NDArray[np.bool_] | None = None
-    drawn: NDArray[np.int16] | None = None
+    drawn: NDArray[np.int32] | None = None
     beneath: NDArray[np.float32] | None = None
 
     def to_dict(self) -> dict[str, Any]:

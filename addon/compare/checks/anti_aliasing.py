@@ -5,7 +5,7 @@ mixes. Its weights are the same on both sides of the centre, or nearly: so it mi
 opposite sides, and no neighbour's colour has all of the weight. Where there is one colour alone,
 nothing is mixed; and whose surface a pixel shows must be one that is seen.
 
-Workbench mixes log2(1 + colour) in place of the colour: the hull of those is tried, too.
+Workbench mixes log2(1 + colour) in place of RGB: the hull of those is tried, too.
 The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
 (Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
 2015): weight goes from the colour that is farthest behind to the one that is farthest ahead.
@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...tracer import shading
+from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ..cause import Cause
-from . import edges
 from .coverage import coverage
 from .probe import SOUND, OpenPixels, Part, by_parts
 
@@ -92,9 +92,13 @@ def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
     """Return where the tracer sees whose surface is shown, in the centre or within its band."""
     hits = yield from part.probe.trace()
     seen = ~part.picture.other_object(hits.instance)
-    for x, y in edges.OFFSETS if not seen.all() else ():
-        hits = yield from part.probe.trace(x * part.band, y * part.band)
-        seen |= ~part.picture.other_object(hits.instance)
+    if not seen.all():
+        may = yield from coverage(part.probe, part.band)
+        near = may.hits.t <= may.behind + part.resolution(may.sure)[may.pixel]
+        own = ~part.picture.at(may.pixel).other_object(may.hits.instance)
+        seen[may.pixel[near & own]] = True
+        none = np.full(len(seen), NOTHING)
+        seen |= np.isinf(may.sure.t) & ~part.picture.other_object(none)
     return seen
 
 
@@ -159,11 +163,12 @@ def is_mix(
 
 
 def _logarithm(color: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what Workbench mixes.
+    """Return what Workbench mixes: of RGB the logarithm, and alpha as it is.
 
     A colour's own error is up to 1.44 times as large in it, and it is a half float itself.
     """
-    return np.log2(1 + np.maximum(color, 0))
+    rgb = np.log2(1 + np.maximum(color[..., :3], 0))
+    return np.concatenate((rgb, color[..., 3:]), axis=-1)
 
 
 def in_hull(

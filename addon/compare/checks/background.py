@@ -73,10 +73,11 @@ def find_background(
         yield 0.0
     if not np.isfinite(color).all() or same < NEARLY_ALL * nothing.sum():
         return None
-    if not (yield from _apart(frame, picture, color, interior & ~nothing)):
-        return None
     found = yield from colors.find_transform(frame, picture, interior, curves)
     transform = found.of if found else None
+    surface, made = interior & ~nothing, replace(picture, transform=transform)
+    if not (yield from _apart(frame, made, color, surface)):
+        return None
     one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
     if not one.other_color(own[None])[0]:
         return None
@@ -92,7 +93,8 @@ def _apart(
     """
     of, shown = 0, 0
     for rows in blocks(surface.shape):
-        own = surface[rows] & (np.abs(frame.color[rows] - color) <= NEAR).all(axis=-1)
+        made = picture.made_of(frame.color[rows])
+        own = surface[rows] & (np.abs(made - color[: made.shape[-1]]) <= NEAR).all(axis=-1)
         there = picture.at(rows).at(own)
         of += len(there.color)
         shown += int((~there.other_color(frame.color[rows][own])).sum())

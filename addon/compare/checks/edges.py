@@ -140,22 +140,23 @@ def _closed(scene: Scene, beside: list[Hits], asks: NDArray[np.bool_]) -> NDArra
     leave no gap between them, as a rasteriser rounds what they share alike; but where one is
     clipped, it gets corners of its own. Only some pixels are looked at, those that ask.
     """
-    instance, triangle = (np.stack([getattr(h, n) for h in beside]) for n in _NAMES)
+    instance, triangle = (
+        np.stack([h.instance for h in beside]),
+        np.stack([h.triangle for h in beside]),
+    )
     out, camera = np.full(len(asks), np.inf), scene.camera
     on_one = (instance == instance[0]).all(axis=0) & (instance[0] < len(scene.instances))
-    for pixel in np.flatnonzero(asks & on_one & (instance[0] != NOTHING)):
-        of = scene.instances[instance[0, pixel]]
-        mesh, names = scene.meshes[of.mesh], np.unique(triangle[:, pixel])
-        corners = mesh.vertices[mesh.triangles[names]]  # (k, 3, 3)
-        same = (corners[0][:, None, None] == corners[None]).all(axis=-1)
-        shared = same.any(axis=-1).all(axis=-1).sum()
-        *_, depth = film_of(
-            camera, transform_points(of.world_from_object, corners.reshape(-1, 3).T)
-        )
-        whole = (depth >= camera.clip_start).all() and (depth <= camera.clip_end).all()
-        if whole and shared >= max(4 - len(names), 1):
-            out[pixel] = max(hits.t[pixel] for hits in beside)
+    asked = np.flatnonzero(asks & on_one & (instance[0] != NOTHING))
+    for number in np.unique(instance[0, asked]):
+        pixels, of = asked[instance[0, asked] == number], scene.instances[number]
+        mesh, names = scene.meshes[of.mesh], triangle[:, pixels]
+        corners = mesh.vertices[mesh.triangles[names]]  # (samples, pixels, 3, 3)
+        same = (corners[0][:, :, None] == corners[:, :, None]).all(axis=-1)
+        shared = same.any(axis=-1).all(axis=0).sum(axis=-1)
+        several = 1 + (np.diff(np.sort(names, axis=0), axis=0) > 0).sum(axis=0)
+        points = transform_points(of.world_from_object, corners.reshape(-1, 3).T)
+        depth = film_of(camera, points)[2].reshape(corners.shape[:-1])
+        whole = ((depth >= camera.clip_start) & (depth <= camera.clip_end)).all(axis=(0, 2))
+        closed = pixels[whole & (shared >= np.maximum(4 - several, 1))]
+        out[closed] = np.max([hits.t[closed] for hits in beside], axis=0)
     return out
-
-
-_NAMES = "instance", "triangle"

@@ -58,6 +58,7 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
     changed = (traced.color != pixels.frame.color).any(axis=-1)
     changed &= pixels.open | (pixels.out.cause == Cause.AGREE)
+    changed &= ~picture.colorless[traced.instance_index]  # any colour would be the right one
     if (same & changed).sum() <= CONFIRMED * changed.sum():
         return
     same &= changed & pixels.open

@@ -47,10 +47,10 @@ def _told(picture: Picture) -> NDArray[np.bool_]:
     return (picture.drawn != NOTHING) & np.isfinite(picture.beneath).all(axis=-1)
 
 
-def blind(case: Case, frame: Frame) -> NDArray[np.int16]:
+def blind(case: Case, frame: Frame) -> NDArray[np.int32]:
     """Return which feature keeps each pixel from being judged, (h, w): its index, else NOTHING."""
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
-    out = np.full(frame.t.shape, NOTHING, np.int16)
+    out = np.full(frame.t.shape, NOTHING, np.int32)
     filtered = int(np.ceil(picture.filter_radius))
     if picture.beneath is not None:
         out[:] = picture.drawn
@@ -69,12 +69,15 @@ def blind(case: Case, frame: Frame) -> NDArray[np.int16]:
     return out
 
 
-def _spread(numbers: NDArray[np.int16], reach: int) -> NDArray[np.int16]:
+def _spread(numbers: NDArray[np.int32], reach: int) -> NDArray[np.int32]:
     """Return the largest number at most `reach` pixels away: a filter mixes it in."""
-    height, width = numbers.shape
-    around = np.pad(numbers, reach, constant_values=NOTHING)
-    shifts = np.ndindex(2 * reach + 1, 2 * reach + 1)
-    return np.max([around[y : y + height, x : x + width] for y, x in shifts], axis=0)
+    out = numbers
+    for axis in (0, 1) if reach and (numbers != NOTHING).any() else ():
+        out = np.moveaxis(out, axis, 0)
+        around = np.pad(out, ((reach, reach), (0, 0)), constant_values=NOTHING)
+        out = np.max([around[n : n + len(out)] for n in range(2 * reach + 1)], axis=0)
+        out = np.moveaxis(out, 0, axis)
+    return out
 
 
 def check_in_place(pixels: OpenPixels) -> Work[None]:
@@ -84,6 +87,9 @@ def check_in_place(pixels: OpenPixels) -> Work[None]:
     drawn, recolored = (effects == effect for effect in (Effect.DRAWN, Effect.COLOR))
     if picture.beneath is not None:
         drawn &= ~_told(picture)  # what lies beneath is judged
+    own = pixels.case.feature_of(Effect.COLOR)[pixels.frame.instance_index]
+    number = np.where(drawn | (own == NOTHING), number, own)  # hair before glass: it is glass
+    recolored |= own != NOTHING
     recolored &= ~picture.other_object(pixels.frame.instance_index)
     pixels.settle(pixels.open & (drawn | recolored), Cause.NOT_MODELLED, number)
     yield 1.0
@@ -105,7 +111,7 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
 
 
 def _see(
-    pixels: OpenPixels, picture: Picture, kept: NDArray[np.bool_], feature: NDArray[np.int16]
+    pixels: OpenPixels, picture: Picture, kept: NDArray[np.bool_], feature: NDArray[np.int32]
 ) -> Work[None]:
     """Settle open pixels that show what some of the instances and planes (k + 1,) do alone."""
     scene = pixels.case.scene
@@ -122,7 +128,10 @@ def _see(
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
     number = feature[kept][traced.instance_index]
     number = np.where(number == NOTHING, feature[pixels.frame.instance_index], number)
-    pixels.settle(pixels.open & same & (number != NOTHING), Cause.NOT_MODELLED, number)
+    where = pixels.open & same & (number != NOTHING)
+    any_color = where & ~picture.known(number) & picture.colorless[traced.instance_index]
+    pixels.out.blind[any_color] = number[any_color]
+    pixels.settle(where, Cause.NOT_MODELLED, number)
     yield from scaled(edges.check(there), 0.5, 0.5)
 
 

@@ -50,7 +50,7 @@ function headline(score) {
         : `All ${count(score.differ)} that differ are explained.`,
     );
   if (score.not_decidable) parts.push(`Of ${count(score.not_decidable)} nothing can be said.`);
-  const blind = Object.entries(score.not_judged.by_feature);
+  const blind = Object.entries(score.not_judged?.by_feature ?? {});
   if (blind.length) {
     const { unmodelled } = page.comparison.scene;
     const of = blind.map(([n]) => `${unmodelled[n].feature} of ${unmodelled[n].object}`);
