@@ -77,7 +77,9 @@ def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[N
     """
     of_hair = {u.object for u in features if u.feature == HAIR}
     others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
-    hair = {p for o in bpy.data.objects if o.name_full in of_hair for p in _hair(o)}
+    growing = (o for o in bpy.data.objects if o.name_full in of_hair)
+    settings = (s.settings for o in growing for s in o.particle_systems)
+    hair = {s for s in settings if is_hair(s)}  # others of hair draw objects
     objects = (o for o in bpy.data.objects if o.name_full in others)
     whole = dict.fromkeys(objects, np.bool_(True))
     leave_out(tmp, layer, [o for o in whole if is_animated(o, "hide_render", "hide_viewport")])
@@ -89,12 +91,6 @@ def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[N
             values = dict.fromkeys(hair, np.int32(none))
             stack.enter_context(untold(bpy.data.particles, name, values))
         yield
-
-
-def _hair(obj: Any) -> list[Any]:
-    """Return the particle settings that draw an object's hair; others of hair draw objects."""
-    of = (system.settings for system in obj.particle_systems)
-    return [settings for settings in of if is_hair(settings)]
 
 
 def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, Manifest]:
@@ -167,10 +163,10 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
         number = {name: n for n, name in enumerate(names)}
         prepare_scene(tmp, True)
         tmp.display.shading.color_type = "OBJECT"
+        own = [o.color[:] for o in objects if is_animated(o, "color")]
         colors = colors_of(len(names))[[number[owner] for owner in owners]]
         with in_colors(objects, colors):
             owner = decode(drawing.picture(tmp, True), len(names))
-    own = [o.color[:] for o in objects if is_animated(o, "color")]
     if own:  # these show their own colours again, which may be those of other objects' numbers
         of_animated = decode(np.array([own], np.float32), len(names))
         owner[np.isin(owner, of_animated[of_animated >= 0])] = UNKNOWN

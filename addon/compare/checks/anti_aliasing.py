@@ -112,20 +112,22 @@ def _through_cracks(
     """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
 
     Some of the filter's samples may meet a crack of float32's, and show any triangle that comes
-    within the radius; so many as others that see what the centre does, at most. Where all that is
-    seen is one colour, there is no edge.
+    within the radius; so many as others that see what the centre does, at most. What comes within
+    the band of the centre may be what Blender sees there. Where all that is seen is one colour,
+    there is no edge.
     """
     picture, found = part.picture, np.zeros(len(left), bool)
     may = yield from coverage(part.probe, np.full(len(part.band), radius))
     order = np.argsort(may.pixel, kind="stable")
-    behind = picture.made_of(shading.colors(part.scene, may.hits))[order]
+    behind = picture.made_of(shading.colors(part.scene, may.hits))
+    half = (may.distance > part.band[may.pixel])[:, None] / 2
+    behind = ((1 - half) * behind + half * mixed[0, may.pixel])[order]
     ends = np.searchsorted(may.pixel[order], (left, left + 1))
     for n, (pixel, first, last) in enumerate(zip(left, *ends, strict=True)):
         seen = mixed[:, pixel]
         if (seen != seen[0]).any():
             one, other = np.split(np.unique(np.hstack((seen, seen[opposite])), axis=0), 2, axis=1)
-            cracks = (np.unique(behind[first:last], axis=0) + seen[0]) / 2
-            near = np.concatenate((one, other, cracks))
+            near = np.concatenate((one, other, np.unique(behind[first:last], axis=0)))
             across = np.arange(len(near))
             across[: 2 * len(one)] = np.roll(across[: 2 * len(one)], len(one))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
