@@ -9,7 +9,6 @@ otherwise than those of all that follow.
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
 
 import bpy
 import numpy as np
@@ -66,9 +65,4 @@ def _drawn(judge: Judge, moved: np.ndarray) -> np.ndarray:
         shown = picture(scene, scene.view_layers[0].name, judge, export_camera(scene), True)
         return shown[:, 1, 3] > 0.5
     finally:
-        _remove(scene, mesh, camera)
-
-
-def _remove(*blocks: Any) -> None:
-    objects = list(blocks[0].collection.objects)
-    bpy.data.batch_remove([*objects, *blocks])
+        bpy.data.batch_remove([*scene.collection.objects, scene, mesh, camera])

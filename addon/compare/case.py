@@ -68,6 +68,11 @@ class Case:
         found = [number.get(name, NOTHING) for name in self.scene.objects]
         return np.array([*found, NOTHING], np.int32)[self.scene.instance_objects]
 
+    @property
+    def colorless(self) -> NDArray[np.bool_]:
+        """The colours of which instances, then planes, the tracer does not know, (k + 1,)."""
+        return self.feature_of(Effect.COLOR) != NOTHING
+
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
         """Return the same with the scene and the alternatives changed alike."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
@@ -79,8 +84,3 @@ class Case:
         picture = replace(self.picture, background=background)
         then = self.next_frame and behind(self.next_frame)
         return replace(self.with_scenes(behind), picture=picture, next_frame=then)
-
-
-def colorless(case: Case) -> NDArray[np.bool_]:
-    """Return the colours of which instances, then planes, the tracer does not know, (k + 1,)."""
-    return case.feature_of(Effect.COLOR) != NOTHING

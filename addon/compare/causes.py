@@ -33,7 +33,6 @@ DECIDABLE = 0.5  # pixels: within a larger band, what lies there explains nothin
 # that accounts for a pixel gives it its cause; what none accounts for is unexplained.
 CHECKS: list[tuple[Callable[[OpenPixels], Work[None]], float]] = [
     (color.check, 0.02),
-    (unmodelled.check_in_place, 0.01),
     (anti_aliasing.check, 0.1),
     (edges.check, 0.6),
     (clip.check, 0.1),
@@ -91,6 +90,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     picture = unmodelled.as_known(case)
     pixels = OpenPixels(case, frame, picture, out, np.zeros(shape, bool), np.zeros(shape))
     yield from scaled(_open(pixels), 0.0, _OPENING)
+    yield from scaled(unmodelled.check_in_place(pixels), _OPENING, 0.0)
     if at_most is not None:
         out.passed_over = _thin(pixels.open, at_most)
     done, weights = _OPENING, sum(weight for _, weight in CHECKS)

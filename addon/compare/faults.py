@@ -193,9 +193,12 @@ def _recolored(change: Callable[[NDArray], NDArray]) -> Make:
 
 def wrong_frame(case: Case, _: Frame) -> Case | None:
     """Trace the scene a frame later."""
-    if case.next_frame is None or len(case.next_frame.instances) != len(case.scene.instances):
+    if case.next_frame is None:
         return None
-    return replace(case, scene=case.next_frame)
+    wrong = replace(case, scene=case.next_frame)
+    if len(wrong.scene.instances) == len(case.scene.instances):
+        return wrong
+    return replace(wrong, picture=replace(case.picture, owner=None, owners=None))  # not known
 
 
 def _gamma(color: NDArray) -> NDArray:

@@ -104,7 +104,8 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     if not changed.any():
         return row
     found = (yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)).causes
-    looked_at = int((found.cause != Cause.AGREE).sum())
+    of_fault = found.cause[changed]
+    looked_at = int((of_fault != Cause.AGREE).sum())
     named = bool(found.transform) and found.transform != causes.transform
     rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
     return replace(
@@ -112,8 +113,8 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
         changed=int(changed.sum()),
         differ=looked_at + found.passed_over,
         looked_at=looked_at,
-        unexplained=int((found.cause == Cause.UNEXPLAINED).sum()),
-        within_rounding=bool(np.isin(found.cause, rounding).all()),
+        unexplained=int((of_fault == Cause.UNEXPLAINED).sum()),
+        within_rounding=bool(np.isin(of_fault, rounding).all()),
         note=f"named: {found.transform}" if named else "",
         named=named,
         blind=not (changed & ~causes.unjudged & ~found.unjudged).any(),
@@ -127,7 +128,7 @@ def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> NDArray[np
         changed = differing(right.color, picture.color)
         return changed if right.owner is None else changed | (right.owner != picture.owner)
     changed = differing(frame.color, traced.color)
-    if right.owners is None:
+    if right.owners is None or picture.owners is None:
         return changed
     return changed | (right.owners[frame.instance_index] != picture.owners[traced.instance_index])
 

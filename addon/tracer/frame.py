@@ -149,6 +149,17 @@ class Frame:
         """
         return self.t
 
+    def t_interval(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return two floats, (h, w) each, between which the exact t of a certified pixel lies.
+
+        As t is rounded correctly, they are its neighbours. -inf to inf where nothing is certified.
+        """
+        known = self.certainty != Certainty.NOT_CERTIFIED
+        return (
+            np.where(known, np.nextafter(self.t, -np.inf), -np.inf),
+            np.where(known, np.nextafter(self.t, np.inf), np.inf),
+        )
+
     def wrong_against(self, certified: Frame) -> NDArray[np.bool_]:
         """Return which pixels, (h, w), see another surface than a certified frame of the scene.
 

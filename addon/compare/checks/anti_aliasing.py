@@ -1,9 +1,8 @@
 """Anti-aliasing: whether a colour is a mix of what the tracer sees within the filter's radius.
 
 A filter with weights that are not negative gives a point of the convex hull of the colours that it
-mixes. Its weights are the same on both sides of the centre, or nearly: so it mixes what lies on
-opposite sides, and no neighbour's colour has all of the weight. Where there is one colour alone,
-nothing is mixed; and whose surface a pixel shows must be one that is seen.
+mixes. Its weights are nearly the same on opposite sides of the centre: no neighbour's colour has
+all of it. One colour alone is no mix; and whose surface a pixel shows must be one that is seen.
 
 Workbench mixes log2(1 + colour) in place of RGB: the hull of those is tried, too.
 The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
@@ -103,11 +102,7 @@ def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
 
 
 def _through_cracks(
-    part: Part,
-    radius: float,
-    mixed: NDArray,
-    opposite: NDArray[np.intp],
-    left: NDArray[np.intp],
+    part: Part, radius: float, mixed: NDArray, opposite: NDArray, left: NDArray[np.intp]
 ) -> Work[NDArray[np.bool_]]:
     """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
 
@@ -137,10 +132,7 @@ def _through_cracks(
 
 
 def is_mix(
-    color: NDArray,
-    mixed: NDArray,
-    sums: int = 0,
-    opposite: NDArray[np.intp] | None = None,
+    color: NDArray, mixed: NDArray, sums: int = 0, opposite: NDArray[np.intp] | None = None
 ) -> Work[NDArray[np.bool_]]:
     """Return which colours (n, c) are a mix of those of (k, n, c), or near to one.
 

@@ -130,7 +130,8 @@ def _refuted(frame: Frame, surface: NDArray[np.bool_], wrong: NDArray[np.bool_])
 def name_shades(pixels: OpenPixels) -> Work[None]:
     """Name the objects that stay unexplained because they are shown in another shade as a whole.
 
-    Each of an object's colours must have become one other, which is not what is around it.
+    Each of an object's colours must have become one other, or all have by one transform; and most
+    of what is shown must not be the colour of what is around it, if it may be that.
     """
     frame, picture = pixels.frame, pixels.picture
     inside = _judged(pixels) & (frame.instance_index != NOTHING)
@@ -143,34 +144,36 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
     count = np.bincount(frame.object_index[wrong])
     share = count / np.maximum(np.bincount(frame.object_index[inside])[: len(count)], 1)
     for number in np.argsort(-count, kind="stable")[:SHADES]:
-        if share[number] > MAJORITY:
-            where = wrong & (frame.object_index == number)
-            if _in_another_shade(frame, picture, where):
-                curves = pixels.case.curves or ()
-                found = yield from find_transform(frame, picture, where, curves)
-                name = pixels.case.scene.objects[number]
-                shade = Shade(name, int(count[number]), found.name if found else "")
-                pixels.out.shades.append(shade)
+        where = wrong & (frame.object_index == number)
+        if share[number] > MAJORITY and _is_its_own(frame, picture, where):
+            found = yield from find_transform(frame, picture, where, pixels.case.curves or ())
+            if found or _one_other_each(picture.at(where), frame.color[where]):
+                name, how = pixels.case.scene.objects[number], found.name if found else ""
+                pixels.out.shades.append(Shade(name, int(count[number]), how))
         yield 1.0
 
 
-def _in_another_shade(frame: Frame, picture: Picture, where: NDArray[np.bool_]) -> bool:
-    """Return whether each traced colour of some pixels (h, w) is shown as one other."""
-    few = np.zeros_like(where)
-    few.flat[(found := np.flatnonzero(where))[:: -(-len(found) // ENOUGH)]] = True
-    some, colors = picture.at(few), frame.color[few]
-    _, group = np.unique(colors, axis=0, return_inverse=True)
-    group = group.reshape(-1)
-    _, medians = _medians(some.color, group)
+def _is_its_own(frame: Frame, picture: Picture, where: NDArray[np.bool_]) -> bool:
+    """Return whether most of an object's pixels (h, w) show no colour of what is around it."""
+    if picture.at(where).known(frame.instance_index[where]).all():
+        return True
+    own = np.pad(frame.object_index == frame.object_index[where][0], 1)
+    rim = own[2:, 1:-1] | own[:-2, 1:-1] | own[1:-1, 2:] | own[1:-1, :-2]
+    shown, taken = picture.color[where], np.zeros(int(where.sum()), bool)
+    for color in np.unique(frame.color[rim & ~own[1:-1, 1:-1]], axis=0)[:ENOUGH]:
+        taken |= (np.abs(shown - color) < _FIT).all(axis=1)
+    return bool(taken.mean() < MAJORITY)
+
+
+def _one_other_each(picture: Picture, colors: NDArray) -> bool:
+    """Return whether each traced colour of n pixels is shown as one other."""
+    some = slice(None, None, -(-len(colors) // ENOUGH))
+    picture, colors = picture.at(some), colors[some]
+    group = np.unique(colors, axis=0, return_inverse=True)[1].reshape(-1)
+    _, medians = _medians(picture.color, group)
     if 2 * len(medians) > len(group) > 1:  # colours between corners: each is another
         return False
-    if not some.known(frame.instance_index[few]).all():  # it may be something else's colour
-        own = np.pad(frame.object_index == frame.object_index[where][0], 1)
-        rim = own[2:, 1:-1] | own[:-2, 1:-1] | own[1:-1, 2:] | own[1:-1, :-2]
-        around = np.unique(frame.color[rim & ~own[1:-1, 1:-1]], axis=0)
-        if any((np.abs(m - around) < _FIT).all(axis=1).any() for m in medians):
-            return False
-    alike = ~replace(some, color=medians[group]).other_color(some.color)
+    alike = ~replace(picture, color=medians[group]).other_color(picture.color)
     return bool(alike.mean() > FITTED_SHARE)
 
 
@@ -223,6 +226,10 @@ def _candidates(
         if abs(power - 1) > LEAST_CHANGE:
             name = f"a gamma of {1 / power:.3g}"
             yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE)
+        times = float(np.median(curve(b[told]) / curve(a[told])))
+        if abs(times - 1) > LEAST_CHANGE:
+            name = f"a factor of {times:.3g} on coded (sRGB) values"
+            yield Curve(name, lambda c: curve_undone(times * curve(np.clip(c, 0, 1))), FITTED_SHARE)
         coded = _power(curve(a[told]), curve(b[told]))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)

@@ -40,23 +40,17 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 @dataclass(eq=False)
 class _Asked:
-    """What is known of the n pixels of a part, more with each way to ask.
-
-    `centre` are the hits of their centres, and `lost` is where the picture's own method lost one of
-    them that shows what Blender does. `found` (2, n) is how far off the picture's colour is seen,
-    and its owner, in pixels; `beside` are the hits of the samples in the band.
-    """
+    """What is known of the n pixels of a part, more with each way to ask."""
 
     centre: Hits
-    lost: NDArray[np.bool_]
-    found: NDArray[np.float64]
-    beside: list[Hits]
+    lost: NDArray[np.bool_]  # where the picture's own method lost what its centre shows
+    found: NDArray[np.float64]  # (2, n) px: how far off the picture's colour is seen, and its owner
+    beside: list[Hits]  # of the samples in the band
 
 
 def _look(part: Part) -> Work[None]:
     """Ask at samples, then behind, then of the triangles themselves, while pixels are left."""
     centre = yield from part.probe.trace()
-    # By the picture's method: the centre itself shows what Blender does.
     lost = ~part.picture.differ(part.scene, centre)
     asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [])
     for look in (_beside, _behind, _covering):

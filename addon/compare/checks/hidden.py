@@ -17,7 +17,7 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Settings
-from ..case import Alternative, colorless
+from ..case import Alternative
 from ..cause import Cause, Hidden
 from . import edges
 from .probe import OpenPixels, blocks
@@ -53,7 +53,7 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     Whose surfaces are shown is numbered for the traced scene, and not asked for.
     """
     case = replace(pixels.case, scene=other.scene)
-    picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless(case))
+    picture = replace(pixels.picture, owner=None, owners=None, colorless=case.colorless)
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
     changed = (traced.color != pixels.frame.color).any(axis=-1)

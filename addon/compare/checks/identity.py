@@ -1,8 +1,7 @@
 """Where Blender's two drawings contradict one another: there, whose surface it is is not known.
 
-The colours are those of one drawing, and whose surfaces they are was told by another. An edge may
-fall to this side in one and to that side in the other, and a simulation may be drawn as it is in
-one alone. An object that cannot have the colour that is shown is not what the first one shows.
+An edge may fall to this side in the drawing of the colours, and to that side in the drawing of
+whose surfaces they are. An object that cannot have the colour that is shown is not shown there.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from ...scene import Scene
 from ...tracer import shading
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
-from ..case import Case, colorless
+from ..case import Case
 from ..identity import UNKNOWN
 from ..picture import Picture
 from .probe import blocks
@@ -31,7 +30,7 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     if picture.owner is None or picture.lit or picture.filter_radius > 0:
         return case
     owner = picture.owner.copy()
-    unclear = colorless(case) | shading.interpolated(scene, np.arange(-1, len(picture.owners) - 1))
+    unclear = case.colorless | shading.interpolated(scene, np.arange(-1, len(picture.owners) - 1))
     for rows in blocks(owner.shape):
         part = picture.at(rows)
         odd = part.other_object(frame.instance_index[rows])

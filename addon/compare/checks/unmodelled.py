@@ -20,22 +20,21 @@ from ...tracer.camera import film_of
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work, scaled
-from ..case import Case, colorless
+from ..case import Case
 from ..cause import Cause
 from ..picture import Picture
 from . import edges
 from .hidden import traced_instead
 from .probe import OpenPixels, blocks
 
-# Nothing that is drawn over such pixels says more of them.
-_FINAL = (Cause.UNEXPLAINED, Cause.NOT_TRACED, Cause.NOT_DECIDABLE)
+_FINAL = (Cause.UNEXPLAINED, Cause.NOT_TRACED, Cause.NOT_DECIDABLE)  # whatever is drawn over it
 
 
 def as_known(case: Case) -> Picture:
     """Return the case's picture with what is not known of its colours, and with what is beneath."""
     picture, effects = case.picture, {u.effect for u in case.manifest.unmodelled}
     lit = picture.lit or Effect.LIGHT in effects
-    picture = replace(picture, lit=lit, colorless=colorless(case))
+    picture = replace(picture, lit=lit, colorless=case.colorless)
     if picture.beneath is None:
         return picture
     color = np.where(_told(picture)[..., None], picture.beneath, picture.color)

@@ -57,6 +57,10 @@ function headline(score) {
     const pixels = blind.reduce((sum, [, many]) => sum + many, 0);
     parts.push(`${count(pixels)} cannot be judged: ${of.join(", ")}.`);
   }
+  for (const { object, pixels, transform } of page.comparison.shades ?? [])
+    parts.push(
+      `${object} is shown in another shade (${count(pixels)} pixels)${transform && `: ${transform}`}.`,
+    );
   if (score.not_traced) parts.push(`${count(score.not_traced)} were not traced.`);
   return parts.join(" ");
 }

@@ -118,9 +118,6 @@ function metricsCard() {
       ? element("p", {}, `Note: ${page.comparison.background.text}.`)
       : null,
     page.comparison.transform ? element("p", {}, `Colours: ${page.comparison.transform}.`) : null,
-    ...(page.comparison.shades ?? []).map(({ object, transform }) =>
-      element("p", {}, `${object} is in another shade${transform && `: ${transform}`}.`),
-    ),
   );
 }
 
