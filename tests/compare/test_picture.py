@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import explain
 from reference_tracer.compare.identity import NOTHING, UNKNOWN
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.images import decoded, to_display
@@ -14,7 +15,7 @@ from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 
-from .cases import find_causes
+from .cases import case_of, find_causes
 
 LIGHT = Unmodelled("scene 'Scene'", "studio light", effect=Effect.LIGHT)
 
@@ -78,6 +79,26 @@ def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
             causes(scene, frame, shown, (), near).cause[:, :-1][rim] for near in (0.01, 0.45)
         )
         assert (beyond == Cause.UNEXPLAINED).all() and (within == Cause.EDGE).all()
+
+
+@pytest.mark.parametrize("ramp", [False, True])
+def test_an_owner_that_cannot_have_the_colour_is_forgotten(ramp, make):
+    """The two drawings contradict one another; a colour between corners may be any."""
+    quads = [make.quad(x, x + 0.3, -0.3, 0.3, -2) for x in (-0.5, 0.1)]
+    if ramp:
+        colors = np.linspace(0, 1, 3 * 4 * len(quads[1].triangles)).reshape(-1, 3, 4)
+        quads[1] = replace(quads[1], corner_colors=colors.astype(np.float32))
+    scene = make.scene(make.camera(40, 30), *quads)
+    frame, owners = render(scene), numbered(("Plain", "Other"), ("Plain", "Other"))
+    owner = owners[frame.instance_index]
+    wrong = owner == 0
+    owner[wrong] = 1
+    shown = Picture(frame.color.copy(), owner=owner, owners=owners, names=("Plain", "Other"))
+    found = result_of(explain(case_of(scene, shown), frame))
+    assert wrong.sum() > 20
+    assert (found.case.picture.owner[wrong] == (1 if ramp else UNKNOWN)).all()
+    unexplained = found.causes.cause == Cause.UNEXPLAINED
+    assert (unexplained[wrong]).mean() > 0.8 if ramp else not unexplained.any()
 
 
 def test_what_is_not_known_proves_nothing(room, seen):

@@ -30,7 +30,7 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     if picture.owner is None or picture.lit or picture.filter_radius > 0:
         return case
     owner = picture.owner.copy()
-    unclear = case.colorless | shading.interpolated(scene, np.arange(-1, len(picture.owners) - 1))
+    unclear = case.colorless | shading.interpolated(scene, np.arange(len(picture.owners)))
     for rows in blocks(owner.shape):
         part = picture.at(rows)
         odd = part.other_object(frame.instance_index[rows])
