@@ -120,6 +120,12 @@ def test_the_scene_a_frame_later(case):
     assert checked(later, ("wrong_frame",))["wrong_frame"].result == "caught"
 
 
+def test_the_scene_a_frame_later_with_other_instances(case):
+    """An emitter's come and go: whose the next frame's are is not known, its colours are."""
+    later = replace(case, next_frame=replace(case.scene, instances=case.scene.instances[1:]))
+    assert checked(later, ("wrong_frame",))["wrong_frame"].result == "caught"
+
+
 @pytest.mark.slow
 def test_nothing_is_changed_of_the_case(case):
     color, window = case.picture.color.copy(), case.scene.camera.window
