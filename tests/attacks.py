@@ -282,6 +282,16 @@ def target(subject: Subject) -> int | None:
 
 def one_recoloured(change: Callable[[NDArray], NDArray]) -> Make:
     """Show one object of many in another shade; whose surfaces are shown stays."""
+    return _recoloured(change, True)
+
+
+def all_but_one(change: Callable[[NDArray], NDArray]) -> Make:
+    """Transform the whole picture, but leave one object out."""
+    return _recoloured(change, False)
+
+
+def _recoloured(change: Callable[[NDArray], NDArray], alone: bool) -> Make:
+    """Change the shade of one object of many alone, or of all that it is not."""
 
     def make(subject: Subject) -> Attacked | None:
         number = target(subject)
@@ -289,7 +299,7 @@ def one_recoloured(change: Callable[[NDArray], NDArray]) -> Make:
             return None
         right = subject.picture.color
         own = (subject.object == number)[..., None]
-        made = damaged(subject, np.where(own, shaded(right, change), right))
+        made = damaged(subject, np.where(own == alone, shaded(right, change), right))
         return made._replace(object=subject.name(number))
 
     return make
@@ -298,21 +308,6 @@ def one_recoloured(change: Callable[[NDArray], NDArray]) -> Make:
 def all_recoloured(change: Callable[[NDArray], NDArray]) -> Make:
     """Transform the whole picture: that is a transform, and no attack."""
     return lambda subject: damaged(subject, shaded(subject.picture.color, change))
-
-
-def all_but_one(change: Callable[[NDArray], NDArray]) -> Make:
-    """Transform the whole picture, but leave one object out."""
-
-    def make(subject: Subject) -> Attacked | None:
-        number = target(subject)
-        if number is None:
-            return None
-        right = subject.picture.color
-        own = (subject.object == number)[..., None]
-        made = damaged(subject, np.where(own, right, shaded(right, change)))
-        return made._replace(object=subject.name(number))
-
-    return make
 
 
 # Surfaces in wrong places
