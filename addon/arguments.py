@@ -10,15 +10,14 @@ from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .compare.comparison import SizeError
 from .explain.candidates import LIMIT
 from .explain.writers import WRITERS
+from .framing import ANGLE, placed
 from .images import MissingLibraryError
 from .methods import PLAIN, Method
-from .projections import ORTHOGRAPHIC, PERSPECTIVE
-from .scene import Camera, SceneError, ViewWindow, check_size
+from .scene import Camera, SceneError, check_size
 from .scene_files import MESH_SUFFIXES
 from .tracer.certified.certainty import AssumptionError
 from .tracer.settings import Precision, Settings
@@ -42,6 +41,7 @@ _PLAIN = ", ".join(PLAIN)
 _RANGES = {
     **dict.fromkeys(("width", "height", "rays", "limit"), (lambda v: v >= 1, "at least 1")),
     **dict.fromkeys(("filter", "dither"), (lambda v: 0 <= v < np.inf, "a number of at least 0")),
+    **dict.fromkeys(("eye", "target"), (lambda v: np.isfinite(v).all(), "three finite numbers")),
     "angle": (lambda v: 0 < v < 180, "between 0 and 180 degrees"),
     "ortho_scale": (lambda v: v > 0, "above 0, as an orthographic scale is"),
 }
@@ -265,28 +265,16 @@ def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None,
     if options.eye is None:
         refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
         return None, size
-    half = options.ortho_scale and options.ortho_scale / 2
-    if half is None:
-        half = np.tan(np.radians(50.0 if options.angle is None else options.angle) / 2)
-    matrix, distance = _looking(np.array(options.eye), np.array(options.target or (0.0, 0.0, 0.0)))
-    window = ViewWindow(-half * width / height, half * width / height, -half, half)
-    projection = PERSPECTIVE if options.ortho_scale is None else ORTHOGRAPHIC
-    clip = distance * 1e-3, distance * 1e3
-    return Camera(matrix, window, width, height, projection, *clip, name="--eye"), size
-
-
-def _looking(eye: NDArray, target: NDArray) -> tuple[NDArray[np.float64], float]:
-    """Return world_from_camera of a camera that looks at a point, Z up, and its distance."""
-    backward = eye - target
-    up = np.array((0.0, 1.0, 0.0) if not backward[:2].any() else (0.0, 0.0, 1.0))
-    right = np.cross(up, backward)
-    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
-    lengths = np.linalg.norm(axes, axis=0)
-    if not lengths.all():
-        raise SceneError("--eye and --target are the same point: move one of them.")
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes / lengths, eye
-    return matrix, float(np.linalg.norm(backward))
+    if options.ortho_scale is not None:
+        refuse(options, ("angle",), "is not for the orthographic camera of --ortho-scale")
+    return placed(
+        options.eye,
+        options.target or (0.0, 0.0, 0.0),
+        width,
+        height,
+        ANGLE if options.angle is None else options.angle,
+        options.ortho_scale,
+    ), size
 
 
 def refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:

@@ -20,6 +20,7 @@ FLOORS = {
     "images": 0,
     "interrupts": 0,
     "tracer": 1,
+    "framing": 1,
     "scene_files": 1,
     "methods": 1,
     "compare": 2,

@@ -24,6 +24,10 @@ BAD = {
     "angle 180": (["ball.ply", "--eye", "0", "0", "5", "--angle", "180"], "--angle"),
     "angle not a number": (["ball.ply", "--eye", "0", "0", "5", "--angle", "nan"], "--angle"),
     "no eye": (["ball.ply", "--eye", "nan", "0", "5"], "--eye"),
+    "angle of an orthographic camera": (
+        ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "2", "--angle", "40"],
+        "--angle is not for",
+    ),
     "ortho scale 0": (["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "0"], "--ortho-scale"),
     "ortho scale below 0": (
         ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"],

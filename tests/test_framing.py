@@ -1,0 +1,91 @@
+"""Cameras that frame or are placed: what is framed is seen, fills the picture, and no nearer."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reference_tracer.framing import FILLED, NEAREST, axes_of, framing, placed
+from reference_tracer.projections import ORTHOGRAPHIC
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.camera import film_of
+
+SIZES = [(30, 20), (20, 30), (1, 1), (400, 10), (10, 400)]
+# Stretched clouds of points: a ball, a rod, a card, what is tiny, what is far from the origin.
+CLOUDS = [((1, 1, 1), 3), ((1e4, 1, 1), 0), ((1, 1, 0), 1), ((1e-5,) * 3, 1e-3), ((1,) * 3, 1e5)]
+
+
+def spans(camera, points):
+    """How much of the picture's width and height points take, and from where to where."""
+    x, y, depth = film_of(camera, points.T)
+    assert (depth > camera.clip_start).all() and (depth < camera.clip_end).all()
+    x, y = x / camera.width, y / camera.height
+    return (x.min(), x.max()), (y.min(), y.max())
+
+
+@pytest.mark.parametrize("stretch, away", CLOUDS)
+@pytest.mark.parametrize("angle", [None, 2.0, 50.0, 170.0])
+def test_what_is_framed_fills_nine_tenths_of_the_width_or_the_height(stretch, away, angle, rng):
+    for width, height in SIZES:
+        backward, up = rng.normal(size=(2, 3))
+        points = rng.normal(size=(50, 3)) * stretch + away * rng.normal(size=3)
+        tall = rng.choice([1.0, 0.5, 3.0])
+        camera = framing(np.split(points, [1, 7]), backward, up, width, height, angle, tall)
+        both = np.array(spans(camera, points))
+        axes, rounding = axes_of(backward, up), 1e-9 * max(1, away)
+        assert np.abs(both - 0.5).max() <= FILLED / 2 + rounding
+        # Else it is as near as may be: a point in front of all others would be where the eye is.
+        nearest = NEAREST * np.ptp(points @ axes, axis=0).max()
+        if angle != 170 or 2 * camera.clip_start > 1.01 * nearest:
+            assert np.ptp(both, axis=1).max() == pytest.approx(FILLED, abs=rounding)
+        assert np.allclose(camera.forward, -backward / np.linalg.norm(backward))
+        assert abs(camera.right @ up) < 1e-9
+        high, wide = camera.window.top / camera.window.right, width / height
+        assert high * wide == pytest.approx(tall)
+        if angle:
+            assert camera.window.top == pytest.approx(np.tan(np.radians(angle) / 2))
+
+
+@pytest.mark.parametrize("angle", [None, 50.0])
+@pytest.mark.parametrize("along", [(0, 0, 0), (0, 0, 1), (0, 0, 1e-30)])
+def test_what_has_no_width_is_seen_all_the_same(angle, along):
+    """A point, or a line that the eye looks along."""
+    points = np.linspace((5, 6, 7), np.add((5, 6, 7), along), 4)
+    camera = framing([points], (0, 0, 1), (0, 1, 0), 20, 10, angle)
+    both = np.array(spans(camera, points))
+    assert np.allclose(both, 0.5, atol=1e-3)
+
+
+def test_points_that_are_not_finite_are_left_out(rng):
+    points = rng.normal(size=(9, 3))
+    wrong = np.concatenate((points, [[np.nan, 0, 0], [0, np.inf, 0]]))
+    a, b = (framing([p], (1, 2, 3), (0, 0, 1), 20, 10) for p in (points, wrong))
+    assert (a.world_from_camera == b.world_from_camera).all()
+    for nothing in ([], [np.zeros((0, 3))], [[[np.nan] * 3]]):
+        with pytest.raises(SceneError, match="nothing to frame"):
+            framing(nothing, (1, 0, 0), (0, 0, 1), 20, 10)
+
+
+def test_axes_are_a_right_handed_frame(rng):
+    axes = np.eye(3)
+    for backward, up in [*rng.normal(size=(9, 2, 3)), *((s * a, a) for a in axes for s in (1, -2))]:
+        found = axes_of(backward, up)
+        assert np.allclose(found.T @ found, axes) and np.linalg.det(found) == pytest.approx(1)
+        assert np.allclose(found[:, 2], backward / np.linalg.norm(backward))
+        assert found[:, 1] @ up > -1e-9
+    for wrong in ((0, 0, 0), (np.nan, 0, 1)):
+        with pytest.raises(SceneError, match="zero or not finite"):
+            axes_of(wrong, (0, 0, 1))
+
+
+@pytest.mark.parametrize("scale", [None, 3.0])
+def test_a_placed_camera_has_its_target_in_the_middle(scale, rng):
+    eye, target = rng.normal(size=(2, 3))
+    camera = placed(eye, target, 30, 20, 40.0, scale, tall=2.0)
+    x, y, depth = film_of(camera, target[:, None])
+    assert (x[0], y[0]) == pytest.approx((15, 10))
+    assert depth[0] == pytest.approx(np.linalg.norm(eye - target))
+    assert camera.window.top == pytest.approx(1.5 if scale else np.tan(np.radians(20)))
+    assert camera.window.right / camera.window.top == pytest.approx(30 / 40)
+    assert (camera.projection is ORTHOGRAPHIC) == bool(scale)
+    with pytest.raises(SceneError, match="--target are the same point"):
+        placed(eye, eye, 30, 20)
