@@ -32,7 +32,7 @@ EXIT_CODES_HELP = """exit codes:
   3  the sizes of the pictures do not match
   4  the input is wrong, or cannot be read
   130  interrupted by Ctrl-C"""
-CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale"  # see add_camera
+CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale", "up"  # see add_camera
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
 _PLAIN = ", ".join(PLAIN)
@@ -235,6 +235,8 @@ def add_camera(
     angle = "vertical angle of view (default 50)"
     (parser if of_scenes else group).add_argument("--width", **pixels, help=wide)
     group.add_argument("--height", **pixels, help=f"default {height}")
+    up = "which axis of the file is up (default y of a .glb, z of others); it is turned to be Z"
+    group.add_argument("--up", choices=("y", "z"), help=up)
     group.add_argument("--eye", **place, help="its position")
     group.add_argument("--target", **place, help="where it looks (default the origin); Z is up")
     group.add_argument("--angle", type=float, metavar="DEGREES", help=angle)
@@ -242,10 +244,12 @@ def add_camera(
     parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
 
 
-def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None, tuple[int, int]]:
-    """Return the camera that the options place for a file's meshes, and its picture's size, pixels.
+def camera_from(
+    options: argparse.Namespace, path: Path
+) -> tuple[Camera | None, tuple[int, int], str | None]:
+    """Return what `opening.load` takes: a camera for meshes, its picture's size, the axis up.
 
-    The camera is None where they place none.
+    The camera is None where the options place none, the axis where they name none.
 
     Raises
     ------
@@ -258,23 +262,18 @@ def camera_from(options: argparse.Namespace, path: Path) -> tuple[Camera | None,
         if options.heard:
             why += "; --width sets the size of its picture, and the height follows"
         refuse(options, tuple(sorted(set(CAMERA_OPTIONS) - set(options.heard))), why)
-        return None, options.default_size
+        return None, options.default_size, None
     given, default = (options.width, options.height), options.default_size
     width, height = size = given[0] or default[0], given[1] or default[1]
     check_size(width, height)
     if options.eye is None:
         refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
-        return None, size
+        return None, size, options.up
     if options.ortho_scale is not None:
         refuse(options, ("angle",), "is not for the orthographic camera of --ortho-scale")
-    return placed(
-        options.eye,
-        options.target or (0.0, 0.0, 0.0),
-        width,
-        height,
-        ANGLE if options.angle is None else options.angle,
-        options.ortho_scale,
-    ), size
+    angle = ANGLE if options.angle is None else options.angle
+    target = options.target or (0.0, 0.0, 0.0)
+    return placed(options.eye, target, *size, angle, options.ortho_scale), size, options.up
 
 
 def refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:

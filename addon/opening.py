@@ -20,12 +20,16 @@ SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
 
 
 def load(
-    path: Path, camera: Camera | None = None, size: tuple[int, int] = (960, 540)
+    path: Path,
+    camera: Camera | None = None,
+    size: tuple[int, int] = (960, 540),
+    up: str | None = None,
 ) -> tuple[Scene, Settings]:
     """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
     `camera` is for meshes, which have none: by default one that frames them, and whose picture is
-    of this size, width and height in pixels.
+    of this size, width and height in pixels. So is `up`, the file's axis that is up: see
+    `load_meshes`.
 
     Raises
     ------
@@ -37,7 +41,7 @@ def load(
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
-        return scene_of_meshes(load_meshes(path), camera, *size), Settings()
+        return scene_of_meshes(load_meshes(path, up), camera, *size), Settings()
     if suffix != ".blend":
         raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
     with open_blend(path) as blender:

@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from .framing import BACKWARD, UP, framing
 from .manifest import Manifest
-from .projections import PERSPECTIVE, projection_of
+from .projections import projection_of
 from .scene import (
     Camera,
     Instance,
@@ -24,12 +25,13 @@ from .scene import (
     Scene,
     SceneError,
     ViewWindow,
-    check_size,
     drop_non_finite,
 )
+from .tracer.vector import transform_points
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
+_NO_FACES = np.zeros((0, 3), np.int64)
 _ARRAYS = {  # of a .npz, by what has them
     "mesh": ("vertices", "triangles", "slots", "corner_colors"),
     "instance": ("world_from_object", "colors"),
@@ -156,13 +158,20 @@ def check_is_file(path: str | Path) -> None:
         raise SceneError(f"there is no file '{path}'")
 
 
-def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
+def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.ndarray]]:
     """Read the meshes of an OBJ, PLY, STL or GLB file.
+
+    Parameters
+    ----------
+    up : str, optional
+        Which of the file's axes is up, "y" or "z". By default Y of a GLB, as its specification
+        has it, and Z of the others, whose files do not say.
 
     Returns
     -------
     list of (Mesh, world_from_object)
-        As in the file: the axes are not turned. Triangles that are not finite are left out.
+        Z up: (x, y, z) of a file whose Y is up is (x, -z, y), to the bit. Triangles that are not
+        finite are left out.
 
     Raises
     ------
@@ -175,22 +184,50 @@ def load_meshes(path: str | Path) -> list[tuple[Mesh, np.ndarray]]:
     check_is_file(path)
     try:
         kind = path.suffix.lower().lstrip(".")
-        loaded = trimesh.load(
-            path, file_type=kind, force="scene", process=False, skip_materials=True
-        )
+        with np.errstate(all="ignore"):  # what is not finite is left out below
+            loaded = trimesh.load(
+                path, file_type=kind, force="scene", process=False, skip_materials=True
+            )
+        strips = {name: _strips(geometry) for name, geometry in loaded.geometry.items()}
     except Exception as error:  # each of trimesh's readers raises its own kinds
-        raise SceneError(f"'{path}' cannot be read as a mesh: {error}") from error
+        why = str(error)
+        if "unexpected length" in why:  # trimesh takes a PLY's first list for the length of all
+            why = "it is cut off, or its faces or strips differ in length: save it as triangles"
+        raise SceneError(f"'{path}' cannot be read as a mesh: {why}") from error
     out = []
     for node in loaded.graph.nodes_geometry:
         matrix, name = loaded.graph[node]
+        if (up or ("y" if kind == "glb" else "z")) == "y":
+            matrix = np.stack((matrix[0], 0 - matrix[2], matrix[1], matrix[3]))
         geometry = loaded.geometry[name]
-        if len(getattr(geometry, "faces", ())):
-            faces = np.asarray(geometry.faces)
+        faces = np.concatenate((getattr(geometry, "faces", _NO_FACES), strips[name]))
+        if len(faces):
             vertices, keep = drop_non_finite(np.asarray(geometry.vertices), faces)
-            out.append((Mesh(vertices, geometry.faces[keep], name=str(name)), np.array(matrix)))
+            out.append((Mesh(vertices, faces[keep], name=str(name)), np.array(matrix)))
     if not any(len(mesh.triangles) for mesh, _ in out):
         raise SceneError(f"'{path}' holds no triangles.")
     return out
+
+
+def _strips(geometry: Any) -> np.ndarray:
+    """Return the triangles of a PLY's strips, (n, 3), which trimesh reads but does not show.
+
+    In a strip -1 begins another one; every other triangle is wound the other way; and those that
+    name a vertex twice only join strips.
+    """
+    from trimesh.util import triangle_strips_to_faces
+
+    read = geometry.metadata.get("_ply_raw", {}).get("tristrips", {})
+    if (rows := read.get("data")) is None:
+        return _NO_FACES
+    rows = rows[next(iter(read["properties"]))]
+    rows = rows["f1"] if rows.dtype.names else rows  # of a binary file, beside their lengths
+    rows = [np.asarray(row).astype(np.int32) for row in rows]
+    parts = [part[part != -1] for r in rows for part in np.split(r, np.flatnonzero(r == -1))]
+    faces = [triangle_strips_to_faces([part]) for part in parts if len(part) > 2]
+    corners = np.concatenate((_NO_FACES, *faces))
+    a, b, c = corners.T
+    return corners[(a != b) & (b != c) & (c != a)]
 
 
 def scene_of_meshes(
@@ -211,31 +248,9 @@ def scene_of_meshes(
         for k, ((_, matrix), g) in enumerate(zip(meshes, greys, strict=True))
     )
     shown, names = tuple(m for m, _ in meshes), tuple(m.name for m, _ in meshes)
-    camera = camera or framing_camera(meshes, width, height)
+    if camera is None:
+        used = ((m.vertices[np.unique(m.triangles)].T, matrix) for m, matrix in meshes)
+        points = (transform_points(matrix, vertices).T for vertices, matrix in used)
+        with np.errstate(all="ignore"):  # Camera refuses what is not finite
+            camera = framing(points, BACKWARD, UP, width, height)
     return Scene(camera, shown, instances, objects=names)
-
-
-def framing_camera(meshes: list[tuple[Mesh, np.ndarray]], width: int, height: int) -> Camera:
-    """Return a perspective camera that sees all of the meshes; half its angle is arctan(1/2).
-
-    It looks from the front, the right and above, like the camera of a new Blender scene.
-    """
-    check_size(width, height)
-    used = ((m.vertices[np.unique(m.triangles)].astype(float), matrix) for m, matrix in meshes)
-    corners = np.concatenate([v @ matrix[:3, :3].T + matrix[:3, 3] for v, matrix in used])
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    center, radius = (low + high) / 2, max(float(np.linalg.norm(high - low)) / 2, 1e-30)
-    backward = np.array([0.66, -0.62, 0.42])
-    backward /= np.linalg.norm(backward)
-    right = np.cross((0.0, 0.0, 1.0), backward)
-    right /= np.linalg.norm(right)
-    narrow = 0.5  # tan of half the angle on the picture's shorter side
-    distance = 1.05 * radius * np.sqrt(1 + 1 / narrow**2)  # the bounding sphere touches the cone
-    matrix = np.eye(4)
-    matrix[:3] = np.stack(
-        (right, np.cross(backward, right), backward, center + distance * backward), 1
-    )
-    x, y = narrow * max(1, width / height), narrow * max(1, height / width)
-    window = ViewWindow(-x, x, -y, y)
-    clip = max(distance - 2 * radius, distance * 1e-3), distance + 2 * radius
-    return Camera(matrix, window, width, height, PERSPECTIVE, *clip, name="framing")

@@ -163,7 +163,7 @@ def _camera_options(options: argparse.Namespace) -> tuple[str, ...]:
         value = getattr(options, name, None)
         if value is not None:
             values = value if isinstance(value, list) else [value]
-            out += [f"--{name.replace('_', '-')}", *map(repr, values)]
+            out += [f"--{name.replace('_', '-')}", *map(str, values)]
     return tuple(out)
 
 

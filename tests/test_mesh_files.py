@@ -10,12 +10,12 @@ import trimesh
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.scene_files import (
     diagnose,
-    framing_camera,
     load_meshes,
     load_scene,
     scene_of_meshes,
 )
-from reference_tracer.tracer.camera import film_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.vector import transform_points
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
@@ -27,8 +27,8 @@ def test_meshes_from_files(suffix, tmp_path):
     ((mesh, matrix),) = load_meshes(path)
     corners = mesh.vertices[mesh.triangles] @ matrix[:3, :3].T + matrix[:3, 3]
     expected = shape.triangles
-    if suffix == "glb":  # its readers may turn the up axis; the size stays
-        corners, expected = (np.sort(np.ptp(c.reshape(-1, 3), axis=0)) for c in (corners, expected))
+    if suffix == "glb":  # whose Y is up
+        expected = expected[..., [0, 2, 1]] * (1, -1, 1)
     assert np.allclose(corners, expected, atol=1e-5)
     assert len(mesh.triangles) == len(shape.faces)
 
@@ -77,20 +77,148 @@ def test_triangles_that_are_not_finite_are_left_out(tmp_path):
     assert len(mesh.triangles) == 1
 
 
-@pytest.mark.parametrize("width, height", [(30, 20), (20, 30), (1, 1), (400, 10), (10, 400)])
+def world(meshes):
+    """Return the corners of every mesh's triangles in world space, one after the other."""
+    return [
+        transform_points(matrix, mesh.vertices.T).T[mesh.triangles]
+        for mesh, matrix in (meshes if isinstance(meshes, list) else [meshes])
+    ]
+
+
+@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
+def test_y_up_is_the_file_turned_by_hand(suffix, tmp_path, rng):
+    shape = trimesh.creation.icosphere(1)
+    shape.vertices = (shape.vertices * rng.normal(size=3)).astype(np.float32)
+    shape.export(tmp_path / f"y.{suffix}")
+    shape.vertices = shape.vertices[:, [0, 2, 1]] * (1, -1, 1)
+    shape.export(tmp_path / f"z.{suffix}")
+    (turned,) = world(load_meshes(tmp_path / f"y.{suffix}", up="y"))
+    (by_hand,) = world(load_meshes(tmp_path / f"z.{suffix}", up="z"))
+    assert np.array_equal(turned, by_hand) and np.ptp(turned, axis=(0, 1)).all()
+    camera, other = (
+        scene_of_meshes(load_meshes(tmp_path / f"{n}.{suffix}", n), None, 8, 8).camera for n in "yz"
+    )
+    assert np.array_equal(camera.world_from_camera, other.world_from_camera)
+
+
+def test_y_up_is_exact_where_a_file_places_its_meshes(tmp_path, rng):
+    several = trimesh.Scene()
+    for k in range(3):
+        matrix = trimesh.transformations.random_rotation_matrix(rng.random(3))
+        matrix[:3, 3] = rng.normal(size=3)
+        several.add_geometry(trimesh.creation.box(), transform=matrix, geom_name=f"box{k}")
+    several.export(tmp_path / "several.glb")
+    z, y = (world(load_meshes(tmp_path / "several.glb", up)) for up in "zy")
+    for a, b in zip(z, y, strict=True):
+        assert np.array_equal(a[..., [0, 2, 1]] * (1, -1, 1), b)
+
+
+@pytest.mark.parametrize("suffix, up", [("obj", "z"), ("ply", "z"), ("stl", "z"), ("glb", "y")])
+def test_which_axis_is_up_where_nobody_says(suffix, up, tmp_path):
+    trimesh.creation.box((1, 2, 3)).export(tmp_path / f"a.{suffix}")
+    default, named = (world(load_meshes(tmp_path / f"a.{suffix}", u)) for u in (None, up))
+    assert np.array_equal(default, named)
+    high = np.ptp(default[0][..., 2])
+    assert high == {"y": 2, "z": 3}[up]
+
+
+STRIP = [0, 1, 2, 3, -1, 2, 3, 4, 5, 5, 6, 6, 5, 7, -1, 8, 0, -1, 9, 8, 7, -1]
+TRIANGLES = [(0, 1, 2), (2, 1, 3), (2, 3, 4), (4, 3, 5), (5, 6, 7)[::-1], (9, 8, 7)]
+
+
+def write_ply(path, points, lists, form, index="int"):
+    """Write elements of lists, by their names, as a PLY in any of its three forms."""
+    names = "".join(
+        f"element {name} {len(rows)}\nproperty list int {index} vertex_indices\n"
+        for name, rows in lists.items()
+    )
+    head = f"ply\nformat {form} 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property float {x}\n" for x in "xyz") + names + "end_header\n"
+    rows = [row for some in lists.values() for row in some]
+    order = ">" if "big" in form else "<"
+    if form == "ascii":
+        lines = [*map(list, points), *([len(row), *row] for row in rows)]
+        body = "".join(f"{' '.join(map(str, line))}\n" for line in lines).encode()
+    else:
+        body = np.asarray(points).astype(f"{order}f4").tobytes()
+        for row in rows:
+            body += np.array([len(row), *row]).astype(f"{order}i4").tobytes()
+    path.write_bytes(head.encode() + body)
+
+
+def cycles(triangles):
+    """Return triangles with the same corner first: the winding stays."""
+    return sorted(tuple(np.roll(t, -int(np.argmin(t)))) for t in np.asarray(triangles).tolist())
+
+
+BINARY = "binary_little_endian", "binary_big_endian"
+
+
 @pytest.mark.parametrize(
-    "stretch", [(1, 1, 1), (1e4, 1, 1), (1, 1, 0), (1e-5, 1e-5, 1e-5), (1e6, 1e6, 1e6)]
+    "form, index", [("ascii", "int"), *((form, i) for form in BINARY for i in ("int", "uint"))]
 )
-def test_framing_camera_sees_every_vertex(width, height, stretch, make, rng):
-    matrix = trimesh.transformations.random_rotation_matrix(rng.random(3)) * (1, 1, 1, 0)
-    matrix[:3, :3] *= stretch
-    matrix[:3, 3] = 100 * np.max(stretch) * rng.normal(size=3)
-    mesh = make.mesh(trimesh.creation.icosphere(1))
-    camera = framing_camera([(mesh, matrix)], width, height)
-    x, y, depth = film_of(camera, (mesh.vertices @ matrix[:3, :3].T + matrix[:3, 3]).T)
-    assert (depth > camera.clip_start).all() and (depth < camera.clip_end).all()
-    assert (x > 0).all() and (x < width).all() and (y > 0).all() and (y < height).all()
-    assert max(np.ptp(x) / width, np.ptp(y) / height) > 0.1 or width / height in (40, 1 / 40)
+def test_strips_are_the_same_mesh_as_their_triangles(form, index, tmp_path, rng):
+    points = rng.integers(-9, 9, (10, 3)).astype(np.float32)
+    write_ply(tmp_path / "strips.ply", points, {"tristrips": [STRIP]}, form, index)
+    write_ply(tmp_path / "faces.ply", points, {"face": TRIANGLES}, form)
+    (strips, _), (faces, _) = (load_meshes(tmp_path / n)[0] for n in ("strips.ply", "faces.ply"))
+    assert np.array_equal(strips.vertices, faces.vertices)
+    assert cycles(strips.triangles) == cycles(faces.triangles) == cycles(TRIANGLES)
+
+
+def test_strips_beside_faces_and_strips_of_their_own_lengths(tmp_path):
+    points, path = np.eye(10, 3, dtype=np.float32), tmp_path / "a.ply"
+    write_ply(path, points, {"face": [TRIANGLES[0]], "tristrips": [STRIP[5:]]}, "ascii")
+    assert cycles(load_meshes(path)[0][0].triangles) == cycles([TRIANGLES[0], *TRIANGLES[2:]])
+    write_ply(path, points, {"tristrips": [STRIP[:4], STRIP[5:]]}, "ascii")
+    assert cycles(load_meshes(path)[0][0].triangles) == cycles(TRIANGLES)
+    write_ply(path, points, {"tristrips": [STRIP[:4], STRIP[5:]]}, "binary_little_endian")
+    with pytest.raises(SceneError, match=r"a\.ply.* strips differ in length: save it as triangles"):
+        load_meshes(path)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("scale", [1e-310, 1e300, 1e307])
+def test_hostile_coordinates_warn_of_nothing(scale, tmp_path):
+    path = tmp_path / "a.obj"
+    corners = f"v {scale} 0 0\nv 0 {scale} 0\nv 0 0 -{scale}\nv 0 nan 1\n"
+    path.write_text(f"{corners}f 1 2 3\nf 1 2 4\n")
+    assert scene_of_meshes(load_meshes(path), None, 8, 8).triangle_count == 1
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_cannot_be_framed_or_is_no_number_is_refused_without_a_warning(tmp_path):
+    huge = Mesh(1.7e308 * np.eye(3) - 1e308, [[0, 1, 2]])
+    with pytest.raises(SceneError, match="finite"):
+        scene_of_meshes([(huge, np.eye(4))], None, 8, 8)
+    bits = np.array([0x7F800001, 0, 0x7F7FFFFF] * 3, np.uint32).view(np.float32).reshape(3, 3)
+    write_ply(tmp_path / "a.ply", bits, {"face": [(0, 1, 2)]}, "binary_little_endian")
+    with pytest.raises(SceneError, match="holds no triangles"):
+        load_meshes(tmp_path / "a.ply")
+
+
+@pytest.mark.parametrize("size", [(90, 50), (40, 70)])
+@pytest.mark.parametrize(
+    "shape",
+    [
+        trimesh.creation.icosphere(2),
+        trimesh.creation.box((1, 2, 30)),
+        trimesh.creation.torus(1, 0.1),
+        trimesh.creation.box((1e-4, 3e-4, 2e-5)),
+    ],
+    ids=["ball", "tower", "ring", "tiny"],
+)
+def test_the_picture_of_a_mesh_is_nine_tenths_full(shape, size, make):
+    far = shape.bounding_box.extents.max() * np.array((9, -7, 2.0))
+    matrix = trimesh.transformations.translation_matrix(far)
+    frame = render(scene_of_meshes([(make.mesh(shape), matrix)], None, *size))
+    seen = frame.instance_index == 0
+    y, x = (np.flatnonzero(seen.any(axis=axis)) for axis in (1, 0))
+    spans = np.array([np.ptp(x) + 1, np.ptp(y) + 1])
+    assert (np.abs(spans - 0.9 * np.array(size)) <= 1).any() and (
+        spans <= 0.9 * np.array(size) + 1
+    ).all()
+    assert 0 < x[0] and x[-1] < size[0] - 1 and 0 < y[0] and y[-1] < size[1] - 1
 
 
 class TestDiagnose:

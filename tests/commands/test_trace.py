@@ -134,3 +134,17 @@ def test_auto_falls_back_and_says_so(ball, tmp_path, capsys):
     assert trace(ball, tmp_path / "b.png") == AGREE
     said = capsys.readouterr().out
     assert "(watertight, float64)" in said and "subnormal results" in said
+
+
+def test_up_turns_a_mesh_and_nothing_else(tmp_path, capsys, make):
+    shape = trimesh.creation.cone(1, 3)
+    shape.export(tmp_path / "y.ply")
+    shape.vertices = shape.vertices[:, [0, 2, 1]] * (1, -1, 1)
+    shape.export(tmp_path / "z.ply")
+    assert trace(tmp_path / "y.ply", tmp_path / "y.png", "--up", "y") == AGREE
+    assert trace(tmp_path / "z.ply", tmp_path / "z.png") == AGREE
+    assert (tmp_path / "y.png").read_bytes() == (tmp_path / "z.png").read_bytes()
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
+    options = ["--out", str(tmp_path / "s.png"), "--up", "y"]
+    assert main(["trace", str(tmp_path / "s.npz"), *options]) == INPUT_ERROR
+    assert "--up is for meshes" in capsys.readouterr().err
