@@ -36,6 +36,7 @@ CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale", "up
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
 _PLAIN = ", ".join(PLAIN)
+_SETTINGS = "method", "precision", "samples", "color"
 
 # What a number must be, by its option, where the type alone does not say it.
 _RANGES = {
@@ -174,7 +175,7 @@ def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
     SceneError
         If a value is out of range, or the method does not come in the precision.
     """
-    given = {name: getattr(options, name, None) for name in ("method", "precision", "samples")}
+    given = {name: getattr(options, name, None) for name in _SETTINGS}
     chosen = {name: value for name, value in given.items() if value is not None}
     method = Method(chosen.get("method", stored.method))
     if not method.is_plain:  # float64 in place of another precision that is stored

@@ -169,7 +169,7 @@ def test_the_tracer_knows_the_scene_and_nothing_of_blender():
     assert start
     # The package itself imports Blender's part once it is registered there.
     units = {name.split(".")[0] for name in reached(GRAPH | {"": set()}, start)}
-    assert units <= {"", "scene", "manifest", "methods", "projections", "tracer"}
+    assert units <= {"", "images", "scene", "manifest", "methods", "projections", "tracer"}
 
 
 def shipped() -> dict[str, Path]:

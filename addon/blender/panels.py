@@ -102,6 +102,7 @@ class _Main:
         row.enabled = stored.has_precision
         row.prop(stored, "precision")
         column.prop(stored, "samples")
+        column.prop(stored, "color")
         column = layout.column()
         column.prop(stored, "judge")
         column.prop(stored, "shading")

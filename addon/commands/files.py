@@ -17,7 +17,8 @@ from ..interrupts import progress_bar
 from ..opening import SOURCES, load
 from ..report import folders, pixel
 from ..scene import SceneError
-from ..scene_files import save_scene
+from ..scene_files import MESH_SUFFIXES, save_scene
+from ..tracer.coloring import Color
 from ..tracer.render import render
 from .parts import Commands, command
 
@@ -37,6 +38,8 @@ def add_trace(commands: Commands) -> None:
     parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
     parser.set_defaults(endings={"out": (".png", ".exr")})
     add_settings(parser)
+    color = "what a surface shows (default object: its own colour); facing is grey by the angle"
+    parser.add_argument("--color", choices=[c.value for c in Color], help=color)
     add_camera(parser)
 
 
@@ -60,6 +63,9 @@ def trace(options: argparse.Namespace) -> int:
     )
     for line in s.required():
         print(line)
+    drawn = options.out.suffix.lower() == ".png" and not options.color
+    if drawn and options.scene.suffix.lower() in MESH_SUFFIXES:
+        print("each mesh has one flat colour: --color facing shows its shape")
     return 0
 
 

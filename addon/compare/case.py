@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..manifest import Effect, Manifest
 from ..scene import Scene
+from ..tracer.coloring import Color
 from ..tracer.hits import NOTHING
 from ..tracer.settings import Settings
 from .certificate import CameraCertificate
@@ -33,7 +34,8 @@ class Case:
     Parameters
     ----------
     settings : Settings
-        How the scene is traced.
+        How the scene is traced; in the objects' own colours, whatever it says, as Blender draws
+        those.
     picture : Picture
         What it is compared with.
     alternatives : tuple of Alternative
@@ -56,6 +58,9 @@ class Case:
     curves: tuple[Curve, ...] | None = None
     self_check: bool = False
     next_frame: Scene | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
 
     def feature_of(self, *effects: Effect) -> NDArray[np.int32]:
         """Return which feature with one of the effects each instance's object has, each plane's.

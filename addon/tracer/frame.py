@@ -149,6 +149,11 @@ class Frame:
         """
         return self.t
 
+    def depths(self) -> tuple[float, float]:
+        """Return the depths of the nearest and the farthest hit, metres; 0 where there is none."""
+        t = self.t[np.isfinite(self.t)]
+        return (float(t.min()), float(t.max())) if t.size else (0.0, 0.0)
+
     def t_interval(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return two floats, (h, w) each, between which the exact t of a certified pixel lies.
 

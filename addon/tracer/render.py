@@ -9,16 +9,17 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..methods import Method
 from ..scene import Camera, Region, Scene
-from . import shading
 from .any_rays import trace_rays
-from .camera import Rays
+from .camera import Rays, camera_rays, film_positions
 from .certified.certainty import AssumptionError, check_assumptions
+from .coloring import Color
 from .frame import Frame
 from .hits import Hits, Statistics, Ties
 from .nearest import plan, trace_tile
@@ -120,19 +121,18 @@ def trace(
 def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     settings = resolved(settings, frame.statistics)
     frame.statistics.triangles = scene.triangle_count
-    band_tracer = yield from prepare(scene, settings, frame)
-    every = bands(scene.camera, settings)
-    for number, band in enumerate(every):
-        yield from scaled(band_tracer(band), WHOLE * number / len(every), WHOLE / len(every))
-    yield 1.0
-
-
-def prepare(scene: Scene, settings: Settings, frame: Frame) -> Work[Callable[[Region], Work[None]]]:
-    """Prepare :func:`resolved` settings; returns what traces a band, any band, into the frame."""
     offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
     reach = max((abs(o) for offset in offsets for o in offset), default=0.0)
     tracer = yield from _tracer(scene, settings, reach, frame.statistics)
-    return lambda band: _band(scene, settings, tracer, band, offsets, frame)
+    rounds, every = [(offsets, settings.color)], bands(scene.camera, settings)
+    if settings.color is Color.DEPTH:  # whose greys are between the nearest and the farthest hit
+        rounds.insert(0, ([], Color.OBJECT))
+    share = WHOLE / (len(rounds) * len(every))
+    for k, (some, color) in enumerate(rounds):
+        shade = partial(color.of, scene, frame.depths())
+        for number, band in enumerate(every, start=k * len(every)):
+            yield from scaled(_band(scene, tracer, band, some, shade, frame), number * share, share)
+    yield 1.0
 
 
 def _tracer(
@@ -163,20 +163,34 @@ def resolved(settings: Settings, statistics: Statistics) -> Settings:
 
 
 def _band(
-    scene: Scene, settings: Settings, tracer, band: Region, offsets: list, frame: Frame
+    scene: Scene, tracer, band: Region, offsets: list, shade: Callable, frame: Frame
 ) -> Work[None]:
-    """Trace a band through its pixels' centres and, for its colour, at these offsets from them."""
+    """Trace a band through its pixels' centres and, for its colour, at these offsets from them.
+
+    What is known of the centres already is not traced again.
+    """
     share = 1 / (1 + len(offsets))
-    hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
+    rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
+    hits = frame.hits(rows)
+    if not frame.rows_done[rows].all():
+        hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
+
+    def shaded(hits: Hits, part: slice, dx: float = 0.0, dy: float = 0.0) -> NDArray[np.float32]:
+        def rays() -> Rays:
+            pixel = np.arange(part.start, part.start + len(hits.t))
+            return camera_rays(scene.camera, *film_positions(band, dx, dy, pixel))
+
+        return shade(rays, hits)
+
     color = None
     for number, (dx, dy) in enumerate(offsets, start=1):
         other = yield from scaled(tracer(band, dx, dy), number * share, share)
         if color is None:
             color = np.zeros((len(hits.t), 4))
         for part in parts(len(hits.t), PIXELS // 8):
-            color[part] += shading.colors(scene, other.take(part)) / len(offsets)
+            color[part] += shaded(other.take(part), part, dx, dy) / len(offsets)
             yield (number + 1) * share
-    written = _write(scene, frame, band, hits, color)
+    written = _write(frame, rows, hits, color, shaded)
     yield from timed(written, frame.statistics.stages, 1.0)
 
 
@@ -208,16 +222,15 @@ def _rows(r: Region, rows: int) -> list[Region]:
 
 
 def _write(
-    scene: Scene, frame: Frame, band: Region, hits: Hits, color: NDArray | None
+    frame: Frame, rows: slice, hits: Hits, color: NDArray | None, shaded: Callable
 ) -> Steps[None]:
     """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
-    rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
     flat = frame.hits(rows)
     colors = frame.color[rows].reshape(-1, 4)
     for part in parts(len(hits.t), PIXELS // 8):
         some = hits.take(part)
-        colors[part] = shading.colors(scene, some) if color is None else color[part]
+        colors[part] = shaded(some, part) if color is None else color[part]
         flat.enter(part, some)
         yield "shade"
-    frame.ties = Ties.joined((frame.ties, hits.ties.numbered(rows.start * band.width)))
+    frame.ties = Ties.joined((frame.ties, hits.ties.numbered(rows.start * frame.t.shape[1])))
     frame.rows_done[rows] = True

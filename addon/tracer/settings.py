@@ -8,6 +8,7 @@ from enum import StrEnum
 import numpy as np
 
 from ..methods import PLAIN, Method
+from .coloring import Color
 
 
 class Precision(StrEnum):
@@ -35,6 +36,8 @@ class Settings:
         other output is that of the ray through the pixel's centre.
     memory : int
         Bytes that the working arrays may take, beside the scene and the picture.
+    color : Color or str
+        What a pixel shows of the surface that is seen. A comparison is about the object's own.
 
     Raises
     ------
@@ -47,9 +50,10 @@ class Settings:
     precision: Precision | str = Precision.FLOAT64
     samples: int = 1
     memory: int = 512 << 20
+    color: Color | str = Color.OBJECT
 
     def __post_init__(self) -> None:
-        for name, kind in (("method", Method), ("precision", Precision)):
+        for name, kind in (("method", Method), ("precision", Precision), ("color", Color)):
             value = getattr(self, name)
             try:
                 object.__setattr__(self, name, kind(value))

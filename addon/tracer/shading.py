@@ -65,11 +65,11 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
         p1, p2, p3 = (
             transform_points(matrices, mesh.vertices.take(corner, axis=0).T) for corner in corners
         )
-        x, y, z = map(_near_1, matrices[:3, :3].swapaxes(0, 1))  # where the object's axes go
+        x, y, z = map(near_1, matrices[:3, :3].swapaxes(0, 1))  # where the object's axes go
         mirrored = dot(cross(x, y), z) < 0
         p1, p2, p3 = (p * 2.0**-2 for p in (p1, p2, p3))  # their differences do not overflow
-        n[:, rows] = cross(_near_1(p2 - p1), _near_1(p3 - p1)) * np.where(mirrored, -1, 1)
-    n = _near_1(n)
+        n[:, rows] = cross(near_1(p2 - p1), near_1(p3 - p1)) * np.where(mirrored, -1, 1)
+    n = near_1(n)
     length = np.sqrt(dot(n, n))
     return (n / np.where(length > 0, length, 1)).T.take(run, axis=0)
 
@@ -82,7 +82,7 @@ def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return np.flatnonzero(changes), np.cumsum(changes) - 1
 
 
-def _near_1(v: Vectors) -> Vectors:
+def near_1(v: Vectors) -> Vectors:
     """Return vectors as they are or scaled, so that products neither overflow nor underflow."""
     size = largest(*np.abs(v))
     if (((size > 2.0**-100) & (size < 2.0**100)) | (size == 0)).all():

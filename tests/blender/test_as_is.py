@@ -34,6 +34,20 @@ def test_like_for_like_takes_one_sample(build, compare):
     assert comparison.verdict == "agree"
 
 
+@pytest.mark.parametrize("as_is", [False, True])
+def test_what_a_render_shows_does_not_change_a_comparison(as_is, build, compare):
+    """Blender draws the objects' colours: so does the tracer, and the self-check finds all."""
+    scene = build.scene()
+    build.solids()
+    build.corner_camera(lens=40)
+    scene.display.shading.light = "FLAT"
+    before = compare(as_is=as_is)
+    scene.reference_tracer.color = "normal"
+    after = compare(as_is=as_is)
+    assert (before.frame.color == after.frame.color).all()
+    assert before.pixels == after.pixels and before.verdict == after.verdict
+
+
 def test_examples_say_where(build, compare):
     scene = build.scene()
     build.solids()

@@ -10,8 +10,11 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
+from PIL import Image
+from reference_tracer.images import to_display
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
@@ -74,6 +77,15 @@ def test_export_and_trace_give_the_same_picture(small, tmp_path):
     assert (scene.camera.width, scene.camera.height) == (64, 36)
     assert set(scene.objects) == {"Floor", "Red", "Green", "Blue"}
     assert render(scene).color.any()
+
+
+def test_trace_shows_the_colour_that_the_file_stores(small, tmp_path, export):
+    bpy.context.scene.reference_tracer.color = "normal"
+    bpy.ops.wm.save_as_mainfile(filepath=str(small))
+    assert reftrace("trace", small, "--out", tmp_path / "a.png").returncode == 0
+    found = np.asarray(Image.open(tmp_path / "a.png"))[::-1]
+    frame = render(export.render()[0], Settings(color="normal"))
+    np.testing.assert_array_equal(found, to_display(frame.color))
 
 
 def test_an_exported_scene_is_the_open_one(small, tmp_path, export):

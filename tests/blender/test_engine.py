@@ -68,6 +68,9 @@ def test_every_pass_is_the_frames(solids, rendered, export):
         {"method": "textbook_literal"},
         {"method": "textbook", "precision": "float32"},
         {"samples": 3},
+        {"color": "normal"},
+        {"color": "facing", "samples": 2},
+        {"color": "depth", "method": "watertight"},
     ],
     ids=str,
 )

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import bpy
 import pytest
-from reference_tracer.blender.properties import JUDGE_ITEMS, METHOD_ITEMS, PRECISIONS, SHADINGS
+from reference_tracer.blender.properties import (
+    COLORS,
+    JUDGE_ITEMS,
+    METHOD_ITEMS,
+    PRECISIONS,
+    SHADINGS,
+)
 from reference_tracer.methods import Method
 from reference_tracer.tracer.settings import Precision, Settings
 
@@ -21,6 +27,7 @@ STORED = {
     "precision": {"float64": 0, "float32": 1},
     "judge": {"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2},
     "shading": {"LIKE_FOR_LIKE": 0, "AS_IS": 1},
+    "color": {"object": 0, "normal": 1, "facing": 2, "depth": 3},
 }
 CASES = [(name, value) for name, values in STORED.items() for value in values]
 
@@ -31,6 +38,7 @@ def test_numbers_are_those_that_were_released():
         "precision": PRECISIONS,
         "judge": JUDGE_ITEMS,
         "shading": SHADINGS,
+        "color": COLORS,
     }
     assert {n: {i[0]: i[-1] for i in some} for n, some in items.items()} == STORED
 

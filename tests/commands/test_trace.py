@@ -11,7 +11,7 @@ from reference_tracer.cli import main
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.certified import certainty
 
-from .parts import channels, trace
+from .parts import SMALL, channels, trace
 
 
 def test_mesh_to_png(ball, tmp_path, capsys):
@@ -148,3 +148,24 @@ def test_up_turns_a_mesh_and_nothing_else(tmp_path, capsys, make):
     options = ["--out", str(tmp_path / "s.png"), "--up", "y"]
     assert main(["trace", str(tmp_path / "s.npz"), *options]) == INPUT_ERROR
     assert "--up is for meshes" in capsys.readouterr().err
+
+
+def test_color_shows_the_shape_and_a_flat_mesh_says_so(ball, tmp_path, capsys):
+    assert trace(ball, tmp_path / "a.png") == AGREE
+    assert "--color facing shows its shape" in capsys.readouterr().out
+    assert trace(ball, tmp_path / "b.png", "--color", "facing") == AGREE
+    assert "--color" not in capsys.readouterr().out
+    flat, shape = (np.asarray(Image.open(tmp_path / n)) for n in ("a.png", "b.png"))
+    hit = flat[..., 3] == 255
+    assert np.array_equal(hit, shape[..., 3] == 255)
+    assert len(np.unique(flat[hit, 0])) == 1 and len(np.unique(shape[hit, 0])) > 20
+
+
+def test_a_comparison_has_no_color_and_agrees_with_what_trace_gives(ball, tmp_path, capsys):
+    """So the default stays the object's own: it is the picture that a comparison is about."""
+    assert trace(ball, tmp_path / "a.png") == AGREE
+    options = ["--against", str(tmp_path / "a.png"), "--out", str(tmp_path / "out"), *SMALL]
+    assert main(["compare", str(ball), *options]) == AGREE
+    with pytest.raises(SystemExit) as stopped:
+        main(["compare", str(ball), *options, "--color", "facing"])
+    assert stopped.value.code == INPUT_ERROR and "--color" in capsys.readouterr().err

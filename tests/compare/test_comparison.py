@@ -17,9 +17,11 @@ from reference_tracer.compare.comparison import (
 )
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.manifest import ObjectEntry, Unmodelled
+from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
 
 from .cases import MANIFEST, case_of
 
@@ -210,3 +212,13 @@ def test_tracing_and_comparing_in_one(scene):
     apart = compared(scene, picture)
     assert np.array_equal(found.frame.color, apart.frame.color)
     assert np.array_equal(found.causes.cause, apart.causes.cause)
+
+
+@pytest.mark.parametrize("color", [Color.NORMAL, Color.DEPTH])
+def test_a_comparison_is_about_the_objects_colours(scene, color):
+    """Whatever a render shows: what is traced, and the self-check, too."""
+    picture = render(scene).color
+    case = case_of(scene, picture, settings=Settings(color=color), self_check=True)
+    found = result_of(trace_and_compare(case))
+    assert found.pixels["differ"] == 0 and found.verdict == "agree"
+    assert np.array_equal(found.frame.color, picture) and found.self_check

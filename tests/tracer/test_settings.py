@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from reference_tracer.methods import Method
+from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.settings import Precision, Settings
 
 PLAIN = {m for m in Method if m.is_plain}
@@ -30,7 +31,9 @@ def test_a_proof_is_for_float64(method):
     assert all(m.value in message for m in PLAIN)
 
 
-@pytest.mark.parametrize("name, choices", [("method", Method), ("precision", Precision)])
+@pytest.mark.parametrize(
+    "name, choices", [("method", Method), ("precision", Precision), ("color", Color)]
+)
 def test_what_is_not_a_choice_names_them_all(name, choices):
     for value in ("magic", "", None, 3):
         with pytest.raises(ValueError, match=name) as caught:
