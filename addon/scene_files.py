@@ -25,6 +25,7 @@ from .scene import (
     Scene,
     SceneError,
     ViewWindow,
+    check_size,
     drop_non_finite,
 )
 from .tracer.vector import transform_points
@@ -238,7 +239,7 @@ def scene_of_meshes(
     Raises
     ------
     SceneError
-        If there are no meshes, or the picture has no pixel.
+        If there are no meshes, they are too large, or the picture has no pixel.
     """
     if not meshes:
         raise SceneError("There are no meshes to make a scene of: load_meshes gives some.")
@@ -251,6 +252,10 @@ def scene_of_meshes(
     if camera is None:
         used = ((m.vertices[np.unique(m.triangles)].T, matrix) for m, matrix in meshes)
         points = (transform_points(matrix, vertices).T for vertices, matrix in used)
-        with np.errstate(all="ignore"):  # Camera refuses what is not finite
-            camera = framing(points, BACKWARD, UP, width, height)
+        check_size(width, height)
+        try:
+            with np.errstate(all="ignore"):  # Camera refuses what is not finite
+                camera = framing(points, BACKWARD, UP, width, height)
+        except SceneError as error:
+            raise SceneError(f"'{names[0]}' is too large to be framed: scale it down") from error
     return Scene(camera, shown, instances, objects=names)

@@ -188,8 +188,8 @@ def test_hostile_coordinates_warn_of_nothing(scale, tmp_path):
 
 @pytest.mark.filterwarnings("error")
 def test_what_cannot_be_framed_or_is_no_number_is_refused_without_a_warning(tmp_path):
-    huge = Mesh(1.7e308 * np.eye(3) - 1e308, [[0, 1, 2]])
-    with pytest.raises(SceneError, match="finite"):
+    huge = Mesh(1.7e308 * np.eye(3) - 1e308, [[0, 1, 2]], name="huge.ply")
+    with pytest.raises(SceneError, match=r"^'huge\.ply' is too large to be framed: scale it down$"):
         scene_of_meshes([(huge, np.eye(4))], None, 8, 8)
     bits = np.array([0x7F800001, 0, 0x7F7FFFFF] * 3, np.uint32).view(np.float32).reshape(3, 3)
     write_ply(tmp_path / "a.ply", bits, {"face": [(0, 1, 2)]}, "binary_little_endian")
