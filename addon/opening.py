@@ -28,8 +28,7 @@ def load(
     """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
     `camera` is for meshes, which have none: by default one that frames them, and whose picture is
-    of this size, width and height in pixels. So is `up`, the file's axis that is up: see
-    `load_meshes`.
+    of this size, width and height in pixels. So is `up`: see `load_meshes`.
 
     Raises
     ------

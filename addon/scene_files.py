@@ -162,11 +162,8 @@ def check_is_file(path: str | Path) -> None:
 def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.ndarray]]:
     """Read the meshes of an OBJ, PLY, STL or GLB file.
 
-    Parameters
-    ----------
-    up : str, optional
-        Which of the file's axes is up, "y" or "z". By default Y of a GLB, as its specification
-        has it, and Z of the others, whose files do not say.
+    `up` is which of the file's axes is up, "y" or "z": by default Y of a GLB, as its specification
+    has it, and Z of the others, which do not say.
 
     Returns
     -------
@@ -213,8 +210,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.
 def _strips(geometry: Any) -> np.ndarray:
     """Return the triangles of a PLY's strips, (n, 3), which trimesh reads but does not show.
 
-    In a strip -1 begins another one; every other triangle is wound the other way; and those that
-    name a vertex twice only join strips.
+    In a strip -1 begins another one; triangles that name a vertex twice only join strips.
     """
     from trimesh.util import triangle_strips_to_faces
 
@@ -222,8 +218,8 @@ def _strips(geometry: Any) -> np.ndarray:
     if (rows := read.get("data")) is None:
         return _NO_FACES
     rows = rows[next(iter(read["properties"]))]
-    rows = rows["f1"] if rows.dtype.names else rows  # of a binary file, beside their lengths
-    rows = [np.asarray(row).astype(np.int32) for row in rows]
+    # In a binary file each row is beside its length.
+    rows = map(np.int32, rows["f1"] if rows.dtype.names else rows)
     parts = [part[part != -1] for r in rows for part in np.split(r, np.flatnonzero(r == -1))]
     faces = [triangle_strips_to_faces([part]) for part in parts if len(part) > 2]
     corners = np.concatenate((_NO_FACES, *faces))

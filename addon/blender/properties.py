@@ -21,7 +21,7 @@ PRECISIONS = (
     ("float64", "float64", "Double precision", 0),
     ("float32", "float32", "Single precision, as graphics hardware has it", 1),
 )
-COLORS = tuple((c.value, c.label, c.description, c.number) for c in Color)
+COLORS = tuple((c.value, c.capitalize(), c.description, c.number) for c in Color)
 JUDGE_ITEMS = (
     (judges.AUTO, "Automatic", "The viewport in a window, Workbench in background", 0),
     *((j.name.upper(), j.label, j.description, j.number) for j in judges.choices().values()),
@@ -57,12 +57,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         max=16,
         description="Colour is the mean of this number squared of rays, spread over the pixel",
     )
-    color: EnumProperty(  # type: ignore[valid-type]
-        name="Color",
-        items=COLORS,
-        default="object",
-        description="What a render shows of a surface; a comparison is about the objects' colours",
-    )
+    color: EnumProperty(name="Color", items=COLORS, description="What a render shows of a surface")  # type: ignore[valid-type]
     judge: EnumProperty(  # type: ignore[valid-type]
         name="Compare With",
         items=JUDGE_ITEMS,
@@ -87,8 +82,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
         precision = self.precision if self.has_precision else Precision.FLOAT64
-        own = {"method": self.method, "samples": self.samples, "color": self.color}
-        return Settings(**own, precision=precision)
+        return Settings(self.method, precision, self.samples, color=self.color)
 
     @property
     def has_precision(self) -> bool:

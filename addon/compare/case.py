@@ -34,8 +34,7 @@ class Case:
     Parameters
     ----------
     settings : Settings
-        How the scene is traced; in the objects' own colours, whatever it says, as Blender draws
-        those.
+        How the scene is traced: in the objects' own colours, whatever they say.
     picture : Picture
         What it is compared with.
     alternatives : tuple of Alternative

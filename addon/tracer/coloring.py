@@ -24,6 +24,7 @@ BACK = 1.0, 0.4, 0.4  # of the grey of a back: reddish, as in Blender's overlay 
 FARTHEST = 0.1  # grey of the farthest hit, so that it is no hole
 
 Depths = tuple[float, float]
+Shade = Callable[[Scene, Rays, Hits, Depths], NDArray[np.float64]]
 
 
 def normal(scene: Scene, rays: Rays, hits: Hits, depths: Depths) -> NDArray[np.float64]:
@@ -46,61 +47,27 @@ def depth(scene: Scene, rays: Rays, hits: Hits, depths: Depths) -> NDArray[np.fl
 
 
 class Color(StrEnum):
-    """What a pixel shows of a surface.
+    """What a pixel shows of a surface, by its name in options and files."""
 
-    A member is its name in options and files, with the attributes below.
+    number: int  # what a .blend stores: one that was given away is never given to another
+    description: str  # in Blender's panel
+    function: Shade | None  # None for the object's own colour
 
-    Attributes
-    ----------
-    label, description : str
-        In Blender's panel.
-    number : int
-        What a .blend stores. One that was given away is never given to another.
-    function : callable or None
-        One of those above; None for the object's own colour.
-    """
-
-    label: str
-    number: int
-    description: str
-    function: Callable[[Scene, Rays, Hits, Depths], NDArray[np.float64]] | None
-
-    OBJECT = "object", "Object", 0, "The object's own colour, which a comparison is about"
-    NORMAL = (
-        "normal",
-        "Normal",
-        1,
-        "The triangle's normal in world space: red, green and blue are X, Y and Z, from -1 to 1",
-        normal,
-    )
-    FACING = (
-        "facing",
-        "Facing",
-        2,
-        "Light where a triangle faces the ray, dark where it is seen edge-on, reddish at its back",
-        facing,
-    )
-    DEPTH = (
-        "depth",
-        "Depth",
-        3,
-        "Along the view axis, evenly from white at the picture's nearest hit to dark at its "
-        "farthest",
-        depth,
-    )
+    OBJECT = "object", 0, "The object's own colour, which every comparison is about"
+    NORMAL = "normal", 1, "The normal in world space: red, green, blue are X, Y, Z", normal
+    FACING = "facing", 2, "Light where it faces the ray, dark edge-on, reddish at backs", facing
+    DEPTH = "depth", 3, "From white at the nearest hit to dark at the farthest, evenly", depth
 
     def __new__(
-        cls, name: str, label: str, number: int, description: str, function: Callable | None = None
+        cls, name: str, number: int, description: str, function: Shade | None = None
     ) -> Color:
         """Make a member of a record."""
         self = str.__new__(cls, name)
-        self._value_, self.label, self.number = name, label, number
+        self._value_, self.number = name, number
         self.description, self.function = description, function
         return self
 
-    def of(
-        self, scene: Scene, depths: Depths, rays: Callable[[], Rays], hits: Hits
-    ) -> NDArray[np.float32]:
+    def of(self, scene: Scene, depths: Depths, rays: Callable, hits: Hits) -> NDArray[np.float32]:
         """Return what each ray shows, (n, 4) linear RGBA; the background is the scene's."""
         out = colors(scene, hits)
         if self.function:

@@ -176,11 +176,8 @@ def _band(
         hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
 
     def shaded(hits: Hits, part: slice, dx: float = 0.0, dy: float = 0.0) -> NDArray[np.float32]:
-        def rays() -> Rays:
-            pixel = np.arange(part.start, part.start + len(hits.t))
-            return camera_rays(scene.camera, *film_positions(band, dx, dy, pixel))
-
-        return shade(rays, hits)
+        pixel = np.arange(part.start, part.start + len(hits.t))
+        return shade(lambda: camera_rays(scene.camera, *film_positions(band, dx, dy, pixel)), hits)
 
     color = None
     for number, (dx, dy) in enumerate(offsets, start=1):
