@@ -38,7 +38,7 @@ def add_trace(commands: Commands) -> None:
     parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
     parser.set_defaults(endings={"out": (".png", ".exr")})
     add_settings(parser)
-    color = "what a surface shows (default object: its own colour); facing is grey by the angle"
+    color = "what a surface shows (default what a .blend stores, else object: its own colour)"
     parser.add_argument("--color", choices=[c.value for c in Color], help=color)
     add_camera(parser)
 
