@@ -6,6 +6,7 @@ import argparse
 import sys
 import traceback
 from collections.abc import Iterable
+from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -23,7 +24,7 @@ from .tracer.certified.certainty import AssumptionError
 from .tracer.settings import Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
-INTERRUPTED = 130  # as shells have it: 128 and the number of the signal
+INTERRUPTED = 130  # by Ctrl-C, as shells have it: see `interrupts.py`
 
 EXIT_CODES_HELP = """exit codes:
   0  the pictures agree
@@ -200,10 +201,11 @@ def printable(text: str) -> str:
 def failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
     said = words(error)
-    if not isinstance(error, EXPECTED):
-        traceback.print_exception(error)
-        said = f"{type(error).__name__}: {error}"
-    print(f"{program}: {said}", file=sys.stderr)
+    with suppress(OSError):  # of stderr itself: there is nowhere else to say it
+        if not isinstance(error, EXPECTED):
+            traceback.print_exception(error)
+            said = f"{type(error).__name__}: {error}"
+        print(f"{program}: {said}", file=sys.stderr)
     return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 

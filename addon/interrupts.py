@@ -1,8 +1,8 @@
-"""Ctrl-C, heard wherever it falls, and the bar of long work that it ends.
+"""Ctrl-C and its like, heard wherever they fall, and the bar of long work that they end.
 
 Python turns Ctrl-C into a KeyboardInterrupt at whatever it runs at that moment. Where that is a
 callback from C, as in Blender, it is printed and forgotten; in the middle of an import it leaves
-half a module.
+half a module. Of other signals it knows nothing, and would die without cleaning up.
 """
 
 from __future__ import annotations
@@ -12,35 +12,42 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 
-_heard = False
+_NAMED = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "hung up"}
+# What ends the work, and in what word: those that this system has.
+SIGNALS = {getattr(signal, name): word for name, word in _NAMED.items() if hasattr(signal, name)}
+
+_heard = 0  # the latest signal
 _holding = False
 
 
 @contextmanager
 def heard() -> Iterator[None]:
-    """Remember every Ctrl-C until the end of the block, so that :func:`check` can answer it.
+    """Remember every signal of SIGNALS until the block ends, so that :func:`check` can answer it.
 
     A handler that someone else has set, and all that is not the main thread, is left alone.
     """
-    ours = False
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        with suppress(ValueError):  # outside the main thread
-            signal.signal(signal.SIGINT, _hear)
-            ours = True
-    if not ours:
+    before = {}
+    with suppress(ValueError):  # outside the main thread
+        for number in SIGNALS:
+            handler = signal.getsignal(number)
+            if handler in (signal.SIG_DFL, signal.default_int_handler):
+                signal.signal(number, _hear)
+                before[number] = handler
+    if not before:
         yield
         return
     answered()
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        for number, handler in before.items():
+            signal.signal(number, handler)
         answered()  # what comes later is not meant
 
 
-def _hear(*_: object) -> None:
+def _hear(number: int, _: object) -> None:
     global _heard
-    _heard = True
+    _heard = number
     if not _holding:
         raise KeyboardInterrupt
 
@@ -52,14 +59,20 @@ def check() -> None:
 
 
 def answered() -> None:
-    """Forget the Ctrl-C that was heard: what it was to end has ended, and the rest goes on."""
+    """Forget the signal that was heard: what it was to end has ended, and the rest goes on."""
     global _heard
-    _heard = False
+    _heard = 0
+
+
+def ended() -> tuple[int, str]:
+    """Return the exit code, as shells have it, of what a KeyboardInterrupt ended, and a word."""
+    number = signal.Signals(_heard or signal.SIGINT)
+    return 128 + number, SIGNALS[number]
 
 
 @contextmanager
 def held() -> Iterator[None]:
-    """Let Ctrl-C wait until the block, and each one around it, has ended without an error."""
+    """Let signals wait until the block, and each one around it, has ended without an error."""
     global _holding
     before, _holding = _holding, True
     try:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from reference_tracer.arguments import INTERRUPTED
 from reference_tracer.commands.parts import Commands, command, write_study
 from reference_tracer.interrupts import progress_bar
 from reference_tracer.report import folders
@@ -41,4 +40,4 @@ def run(options: argparse.Namespace) -> int:
             bench, baseline = measured(options, progress)
         print(report.table(bench, baseline))
         write_study(options.out, lambda: report.write(options.out, bench, baseline))
-    return INTERRUPTED if bench.interrupted else 0
+    return bench.interrupted

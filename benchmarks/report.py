@@ -35,7 +35,7 @@ def to_dict(bench: Bench) -> dict[str, Any]:
         "schema": SCHEMA,
         **bench.machine,
         "quick": bench.quick,
-        "interrupted": bench.interrupted,
+        "interrupted": bool(bench.interrupted),
         "notes": bench.notes,
         "units": _UNITS,
         "rows": [asdict(r) for r in bench.rows],

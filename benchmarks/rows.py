@@ -76,7 +76,7 @@ class Bench:
     quick: bool = False
     rows: list[Row] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)  # what was left out, and why
-    interrupted: bool = False
+    interrupted: int = 0  # by a signal: the exit code for it
 
     def note(self, text: str) -> None:
         """Say something, once."""

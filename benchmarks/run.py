@@ -53,8 +53,8 @@ def run(
         with closing(measure(wanted, bench, directory)) as work:
             result_of(work, show)
     except KeyboardInterrupt:
+        bench.interrupted, word = interrupts.ended()
         interrupts.answered()
-        bench.interrupted = True
         done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
-        print(f"\nreftrace: interrupted: {done} were measured", file=sys.stderr)
+        print(f"\nreftrace: {word}: {done} were measured", file=sys.stderr)
     return bench, baseline

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
-from reference_tracer import cli
+from reference_tracer.commands.parser import COMMANDS, parser
 from reference_tracer.compare.cause import Cause
 from reference_tracer.report.page.content import _hex
 
@@ -48,15 +48,15 @@ def commands() -> list[str]:
 def test_every_command_line_is_understood(command):
     words = shlex.split(command, comments=True)[1:]
     if len(words) > 1:  # otherwise it only names one
-        cli._parser().parse_args(words)
+        parser().parse_args(words)
     else:
         with pytest.raises(SystemExit) as end:
-            cli._parser().parse_args([*words, "--help"])
+            parser().parse_args([*words, "--help"])
         assert end.value.code == 0
 
 
 def test_there_are_commands_of_every_kind():
-    assert {c.split()[1] for c in shown(TEXT)} == set(cli.COMMANDS)
+    assert {c.split()[1] for c in shown(TEXT)} == set(COMMANDS)
     targets = re.findall(r"^([a-z-]+):.*##", (PROJECT / "Makefile").read_text("utf-8"), re.M)
     for target in re.findall(r"(?:`|^)make ([a-z-]+)", "\n".join((TEXT, *SHELL)), re.M):
         assert target in targets, target

@@ -28,6 +28,7 @@ FLOORS = {
     "explain": 2,
     "report": 3,
     "arguments": 3,
+    "running": 3,
     "blender": 4,
     "opening": 4,
     "commands": 4,

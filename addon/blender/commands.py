@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from .. import arguments
+from .. import arguments, running
 from ..arguments import AGREE, EXIT_CODES_HELP, Parser, settings_from
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES
@@ -35,14 +35,15 @@ def run(argv: list[str]) -> int:
     An exception would make Blender exit with 1, which means warnings here.
     """
     try:
-        options = _parser().parse_args(argv)
+        return running.run(lambda: _run(argv), "reference_tracer")
     except SystemExit as stop:
         return int(stop.code or 0)
-    try:
-        arguments.check_options(options)
-        return options.run(options)
-    except Exception as error:
-        return arguments.failed(error, "reference_tracer")
+
+
+def _run(argv: list[str]) -> int:
+    options = _parser().parse_args(argv)
+    arguments.check_options(options)
+    return options.run(options)
 
 
 def _parser() -> Parser:

@@ -125,10 +125,6 @@ def explain(options: argparse.Namespace) -> int:
 @contextmanager
 def _told_aside() -> Iterator[None]:
     """Send what is said meanwhile, by Blender too, to stderr: it is no part of the Markdown."""
-    if sys.stdout is None:  # closed by who has started this
-        yield
-        return
-    sys.stdout.flush()
     own = os.dup(1)
     os.dup2(2, 1)
     try:

@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 from reference_tracer import images, interrupts
-from reference_tracer.arguments import AGREE, INPUT_ERROR, INTERRUPTED
+from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.commands import files
 from reference_tracer.study import extremes, tradeoff
@@ -29,16 +29,21 @@ def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
     assert not (tmp_path / "new").exists()
 
 
-def swallow(*args, **options):
-    """Be interrupted where nobody hears it, as in a callback of Blender's."""
-    with suppress(KeyboardInterrupt):
-        signal.raise_signal(signal.SIGINT)
-    yield 0.5
-    pytest.fail("the work went on")
+@pytest.fixture(params=list(interrupts.SIGNALS), ids=lambda number: number.name)
+def number(request):
+    """Return each of the signals that end the work."""
+    return request.param
 
 
 @pytest.fixture
-def interrupted_work(monkeypatch):
+def interrupted_work(monkeypatch, number):
+    def swallow(*args, **options):
+        """Be interrupted where nobody hears it, as in a callback of Blender's."""
+        with suppress(KeyboardInterrupt):
+            signal.raise_signal(number)
+        yield 0.5
+        pytest.fail("the work went on")
+
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
     monkeypatch.setattr(files, "render", lambda *given: result_of(swallow(), given[-1]))
@@ -46,27 +51,29 @@ def interrupted_work(monkeypatch):
 
 @pytest.mark.usefixtures("interrupted_work")
 @pytest.mark.parametrize("command", ["trace", "trade", "extremes"])
-def test_interrupted(command, ball, tmp_path, capsys):
+def test_interrupted(command, number, ball, tmp_path, capsys):
+    handlers = [signal.getsignal(n) for n in interrupts.SIGNALS]
     before = sorted(tmp_path.rglob("*"))
     out = tmp_path / "new" / ("x.png" if command == "trace" else "out")
     scene = [] if command == "extremes" else [str(ball)]
-    assert main([command, *scene, "--out", str(out)]) == INTERRUPTED == 130
-    assert capsys.readouterr().err.strip().splitlines()[-1] == "reftrace: interrupted"
+    assert main([command, *scene, "--out", str(out)]) == 128 + number
+    said = capsys.readouterr().err.strip().splitlines()[-1]
+    assert said == f"reftrace: {interrupts.SIGNALS[number]}"
     assert sorted(tmp_path.rglob("*")) == before
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert [signal.getsignal(n) for n in interrupts.SIGNALS] == handlers
 
 
-def test_interrupted_while_writing(ball, tmp_path, monkeypatch):
-    """The older picture is whole."""
+def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
+    """The older picture is whole, and no temporary folder is left."""
     assert trace(ball, tmp_path / "b.png") == AGREE
     before = {p: p.read_bytes() for p in tmp_path.iterdir()}
 
     def half(path, picture):
         path.write_bytes(b"half")
-        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(number)
 
     monkeypatch.setattr(images, "save_png", half)
-    assert trace(ball, tmp_path / "b.png", "--method", "textbook_literal") == INTERRUPTED
+    assert trace(ball, tmp_path / "b.png", "--method", "textbook_literal") == 128 + number
     assert {p: p.read_bytes() for p in tmp_path.iterdir()} == before
 
 
