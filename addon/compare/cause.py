@@ -26,7 +26,8 @@ class Record:
         Stored in `frame.npz`: it stays.
     label : str
     sentence : str
-        With the fields {figure} and {allowed}, as `str.format` has them.
+        With the fields {figure} and {allowed}, as `str.format` has them; {name} is what a figure
+        that is an index counts.
     unit : str
         Of the figure.
     color : tuple of float, optional
@@ -111,7 +112,7 @@ class Cause(IntEnum):
     NOT_MODELLED = Record(
         3,
         "not modelled",
-        "feature {figure:.0f} (from 0) of the scene's unmodelled ones changes the pixel",
+        "{name} changes the pixel",
         "index",
         (0.3, 0.08, 0.9),
         explains=True,
@@ -120,7 +121,7 @@ class Cause(IntEnum):
     HIDDEN = Record(
         10,
         "hidden for one side",
-        "entry {figure:.0f} (from 0) of the comparison's hidden objects: only one side shows it",
+        "only one side shows {name}",
         "index",
         (0.08, 0.2, 0.08),
         explains=True,
@@ -158,9 +159,9 @@ class Cause(IntEnum):
         """Whether a pixel with this cause counts as one that differs."""
         return self.explains or self is Cause.UNEXPLAINED
 
-    def told(self, figure: float, allowed: float) -> str:
-        """Return the sentence with a pixel's numbers."""
-        return self.sentence.format(figure=figure, allowed=allowed)
+    def told(self, figure: float, allowed: float, name: object = "") -> str:
+        """Return the sentence with a pixel's numbers, or the name that its index stands for."""
+        return self.sentence.format(figure=figure, allowed=allowed, name=name)
 
     def to_dict(self) -> dict[str, int | str]:
         """Return what a reader of JSON needs to know of the cause."""
@@ -186,6 +187,9 @@ class Hidden(NamedTuple):
 
     object: str
     reason: str
+
+    def __str__(self) -> str:
+        return f"'{self.object}': {self.reason}"
 
 
 @dataclass(eq=False)

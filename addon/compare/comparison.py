@@ -93,6 +93,14 @@ class Comparison:
         )
         return "warnings" if any(doubtful) else "agree"
 
+    def told(self, x: int, y: int) -> str:
+        """Return why a pixel has its cause, in a sentence with its numbers and names."""
+        causes = self.causes
+        cause, figure = Cause(causes.cause[y, x]), causes.figure[y, x]
+        counted = {Cause.NOT_MODELLED: self.manifest.unmodelled, Cause.HIDDEN: causes.hidden}
+        name = counted[cause][int(figure)] if cause in counted else ""
+        return cause.told(figure, causes.allowed[y, x], name)
+
     @property
     def empty(self) -> bool:
         """Whether no ray met anything: then there is nothing that could have been wrong."""
@@ -178,23 +186,23 @@ class Comparison:
             f"{rim['total']:,} boundary pixels differ",
             self.background and self.background.line(),
             self.empty and "the picture is empty: no ray meets anything",
-            *self._not_judged(),
+            *self.not_judged(),
             causes.transform and f"colours: {causes.transform}",
             *(shade.line() for shade in causes.shades),
-            *(f"only one side shows '{h.object}': {h.reason}" for h in hidden),
+            *(f"only one side shows {h}" for h in hidden),
             told,
             certificate and certificate.line(),
         )
         return [fact for fact in facts if fact]
 
-    def _not_judged(self) -> Iterator[str]:
+    def not_judged(self) -> Iterator[str]:
         """Say what share of the picture cannot be judged, why, and what would help."""
         told, total = self.pixels["not_judged"], self.pixels["total"]
         if lights := [str(u) for u in self.manifest.unmodelled if u.effect is Effect.LIGHT]:
             known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
             yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
         if told["pixels"]:
-            of = ", ".join(str(self.manifest.unmodelled[int(n)]) for n in told["by_feature"])
+            of = ", ".join(told["by_feature"])
             yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {of}"
         if undecided := self.pixels["not_decidable"]:
             yield (
@@ -263,7 +271,8 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     yield share / _CAUSES
     at_boundary = boundary(before)
     yield share / _CAUSES
-    counted = count_pixels(found.causes, at_boundary, identity)
+    features = [str(u) for u in case.manifest.unmodelled]
+    counted = count_pixels(found.causes, at_boundary, identity, features)
     yield share / _CAUSES
     made = Comparison(found.case, before, found.causes, counted, measured, identity=identity)
     made.background = found.background

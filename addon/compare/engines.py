@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from .cause import Cause
+from .checks.unmodelled import known_beneath
 from .comparison import EXIT_CODES, Comparison
 from .identity import NOTHING, UNKNOWN
 from .metrics import EXAMPLES
+from .self_check import FaultRow
 
 SCHEMA = "reference_tracer.engines/1"
 
@@ -26,6 +28,8 @@ class EngineRow:
     wrong: tuple[dict[str, Any], ...] = ()
     wrong_objects: int | None = None  # pixels that show another object; None: not known
     error: str = ""
+    not_judged: tuple[str, ...] = ()  # what of its picture cannot be judged, and why
+    self_check: tuple[FaultRow, ...] = ()
 
     @classmethod
     def of(cls, comparison: Comparison) -> EngineRow:
@@ -37,31 +41,38 @@ class EngineRow:
             {k: v for k, v in comparison.pixels.items() if k != "examples"},
             tuple(_wrong(comparison)),
             None if identity is None else identity.counts()["other_object"],
+            not_judged=tuple(comparison.not_judged()),
+            self_check=comparison.self_check,
         )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
-        return vars(self) | {"wrong": list(self.wrong)}
+        checked = [fault.to_dict() for fault in self.self_check]
+        lists = {"wrong": list(self.wrong), "not_judged": list(self.not_judged)}
+        return vars(self) | lists | {"self_check": checked}
 
 
 def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
     causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
+    picture, features = comparison.case.picture, comparison.manifest.unmodelled
+    beneath = None if picture.beneath is None else known_beneath(picture)
     differ = np.isin(causes.cause, [c for c in Cause if c.differs])
     places = np.argwhere(differ)
     order = np.argsort(causes.cause[differ] != Cause.UNEXPLAINED, kind="stable")
     out = []
     for y, x in places[order][:EXAMPLES]:
-        told = Cause(causes.cause[y, x])
         row = {
             "pixel": [int(x), int(y)],
             "traced": _name(comparison.scene.objects, int(frame.object_index[y, x])),
             "triangle": int(frame.triangle_index[y, x]),
-            "cause": told.label,
-            "why": told.told(causes.figure[y, x], causes.allowed[y, x]),
+            "cause": Cause(causes.cause[y, x]).label,
+            "why": comparison.told(x, y),
         }
         if identity is not None:
             row["shown"] = _name(identity.names, int(identity.shown[y, x]))
+        if beneath is not None and beneath[y, x]:
+            row["beneath"] = str(features[picture.drawn[y, x]])
         out.append(row)
     return out
 

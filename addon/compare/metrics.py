@@ -5,6 +5,8 @@ Pictures are (h, w, c) of any real type; the data range is given, not guessed.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -134,7 +136,10 @@ def boundary(frame: Frame) -> NDArray[np.bool_]:
 
 
 def count_pixels(
-    causes: Causes, at_boundary: NDArray[np.bool_], identity: Identity | None = None
+    causes: Causes,
+    at_boundary: NDArray[np.bool_],
+    identity: Identity | None = None,
+    features: Sequence[str] = (),
 ) -> dict[str, Any]:
     """Count pixels by what is said of them, and those at boundaries and inside apart.
 
@@ -142,22 +147,24 @@ def count_pixels(
     `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
     lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
     unexplained is a wrong colour (the same object) or a wrong object. `not_judged` counts pixels
-    in which a fault would be excused, and by the number of the feature that excuses it.
+    in which a fault would be excused, and by which of the unmodelled features excuses it.
     """
     cause = causes.cause
     out = _counts(cause)
     out["interior"] = _counts(cause[~at_boundary])
     out["boundary"] = _counts(cause[at_boundary])
     out["examples"] = {
-        c.key: _positions(cause == c) for c in sorted(Cause) if c.differs and out["by_cause"][c.key]
+        c.key: _positions(cause == c) for c in sorted(Cause) if out["by_cause"].get(c.key)
     }
     blind = causes.blind[causes.blind >= 0]
     found, count = np.unique(blind, return_counts=True)
-    by_feature = {str(n): int(c) for n, c in zip(found, count, strict=True)}
+    by_feature: Counter[str] = Counter()
+    for n, many in zip(found, count, strict=True):
+        by_feature[features[n]] += int(many)
     out["not_judged"] = {
         "pixels": len(blind),
         "share": len(blind) / max(cause.size, 1),
-        "by_feature": dict(sorted(by_feature.items(), key=lambda pair: -pair[1])),
+        "by_feature": dict(by_feature.most_common()),
     }
     if identity is not None:
         out["unexplained_shows"] = identity.counts(cause == Cause.UNEXPLAINED)

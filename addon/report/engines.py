@@ -8,6 +8,7 @@ from typing import Any
 
 from ..compare.engines import EngineRow, to_dict
 from ..compare.identity import NOTHING
+from ..compare.self_check import table
 from .folders import replacing, write_json
 from .tables import columns
 
@@ -30,7 +31,7 @@ def write(directory: str | Path, rows: Sequence[EngineRow]) -> None:
 
 
 def lines(rows: Sequence[EngineRow]) -> list[str]:
-    """Return the table of the engines, and for each the first pixels that differ."""
+    """Return the table of the engines; and of each the first pixels that differ, and its checks."""
     out = columns([_HEAD, *map(_cells, rows)], left=(0, 6), gap=" ", least=_WIDTHS)
     for row in rows:
         for w in row.wrong[:_NAMED]:
@@ -39,6 +40,7 @@ def lines(rows: Sequence[EngineRow]) -> list[str]:
         more = row.pixels["differ"] - _NAMED if row.pixels else 0
         if more > 0:
             out.append(f"  {row.engine}: and {more:,} more, on its page")
+        out += [f"  {row.engine}: {line}" for line in (*row.not_judged, *table(row.self_check))]
     return out
 
 
@@ -57,11 +59,12 @@ def _sides(wrong: dict[str, Any]) -> str:
     traced = f"'{wrong['traced']}'" + (f" (triangle {triangle})" if triangle != NOTHING else "")
     if wrong["traced"] == "nothing":
         traced = "nothing"
+    beneath = f" beneath {wrong['beneath']}" if "beneath" in wrong else ""
     shown = wrong.get("shown")
     if shown in (None, "not known"):
         return f"the tracer sees {traced}"
     if shown == wrong["traced"]:
-        return f"both show {traced}, in other colours"
-    return f"the tracer sees {traced}, Blender " + (
-        "nothing" if shown == "nothing" else f"'{shown}'"
-    )
+        colors = "" if beneath and wrong["cause"] != "unexplained" else ", in other colours"
+        return f"both show {traced}{beneath}{colors}"
+    shown = "nothing" if shown == "nothing" else f"'{shown}'"
+    return f"the tracer sees {traced}, Blender {shown}{beneath}"

@@ -71,5 +71,6 @@ def test_records_are_told_apart():
     assert [c.key for c in sorted(Cause)][:3] == ["agree", "edge", "depth_tie"]  # in frame.npz
     for cause in Cause:
         assert cause.told(0.5, 1.0) and (cause.color is None) == (cause is Cause.AGREE)
-        assert ("{figure" in cause.sentence) == bool(cause.unit)
+        assert ("{figure" in cause.sentence) == (cause.unit not in ("", "index"))
+        assert ("{name" in cause.sentence) == (cause.unit == "index")
     assert {c for c in Cause if c.rounding} == {Cause.EDGE, Cause.DEPTH_TIE, Cause.CLIP_PLANE}

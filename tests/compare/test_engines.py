@@ -10,7 +10,9 @@ import pytest
 from reference_tracer.compare import engines
 from reference_tracer.compare.comparison import compare
 from reference_tracer.compare.engines import EngineRow
+from reference_tracer.compare.faults import FAULTS
 from reference_tracer.compare.picture import Picture, Source, numbered
+from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
@@ -53,6 +55,37 @@ def test_the_wrong_object_is_named_with_its_place(rows, room):
         x, y = wrong["pixel"]
         behind = int(without.instance_index[y, x])
         assert wrong["shown"] == {0: "Ball", 1: "Wall", -1: "nothing"}[behind]
+
+
+def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room):
+    """Hair over the wall: the name, not its number; and what both show is what lies beneath."""
+    names = ("Ball", "Box", "Wall")
+    room = replace(room, objects=names)
+    frame, owners = render(room), numbered(names, names)
+    owner, color = owners[frame.instance_index], frame.color.copy()
+    hair = owner == names.index("Wall")
+    color[hair] = (0.1, 0.05, 0.0, 1)
+    drawn, beneath = np.where(hair, np.int32(1), np.int32(-1)), frame.color.copy()
+    beneath[~hair] = np.nan
+    shown = Picture(color, Source("workbench", "5.2.3"), owner, owners, names)
+    shown = replace(shown, drawn=drawn, beneath=beneath)
+    glass = Unmodelled("Pane", "transparency", effect=Effect.NONE)
+    case = case_of(room, shown, [glass, Unmodelled("Head", "hair")], self_check=True)
+    row = EngineRow.of(result_of(compare(case, frame)))
+    assert len(row.wrong) == 10
+    for w in row.wrong:
+        assert (w["why"], w["beneath"]) == ("hair of 'Head' changes the pixel", "hair of 'Head'")
+        assert w["shown"] == w["traced"] == "Wall"
+    assert row.pixels["not_judged"]["by_feature"] == {"hair of 'Head'": int(hair.sum())}
+    text = "\n".join(lines([row]))
+    told = "hair of 'Head': not modelled: hair of 'Head' changes the pixel"
+    assert f"(triangle {row.wrong[0]['triangle']}) beneath {told}" in text
+    assert "in other colours" not in text and "from 0" not in text
+    assert "% of this picture cannot be judged: hair of 'Head'" in text
+    assert "workbench: self-check: " in text and "caught" in text
+    held = row.to_dict()
+    assert held["not_judged"] == list(row.not_judged)
+    assert [f["name"] for f in held["self_check"]] == [f.name for f in FAULTS]
 
 
 def test_the_table_and_the_json(rows, tmp_path):

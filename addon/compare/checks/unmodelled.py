@@ -37,12 +37,12 @@ def as_known(case: Case) -> Picture:
     picture = replace(picture, lit=lit, colorless=case.colorless)
     if picture.beneath is None:
         return picture
-    color = np.where(_told(picture)[..., None], picture.beneath, picture.color)
+    color = np.where(known_beneath(picture)[..., None], picture.beneath, picture.color)
     return replace(picture, color=color)
 
 
-def _told(picture: Picture) -> NDArray[np.bool_]:
-    """Return where it is known what lies beneath something that draws itself."""
+def known_beneath(picture: Picture) -> NDArray[np.bool_]:
+    """Return where, (h, w), it is known what lies beneath something that draws itself."""
     return (picture.drawn != NOTHING) & np.isfinite(picture.beneath).all(axis=-1)
 
 
@@ -85,7 +85,7 @@ def check_in_place(pixels: OpenPixels) -> Work[None]:
     effects = np.array([*(u.effect for u in pixels.case.manifest.unmodelled), None])[number]
     drawn, recolored = (effects == effect for effect in (Effect.DRAWN, Effect.COLOR))
     if picture.beneath is not None:
-        drawn &= ~_told(picture)  # what lies beneath is judged
+        drawn &= ~known_beneath(picture)  # what lies beneath is judged
     own = pixels.case.feature_of(Effect.COLOR)[pixels.frame.instance_index]
     number = np.where(drawn | (own == NOTHING), number, own)  # hair before glass: it is glass
     recolored |= own != NOTHING
@@ -152,7 +152,7 @@ def settle_drawn(pixels: OpenPixels) -> Work[None]:
         return
     for rows in blocks(own.drawn.shape):
         part = own.at(rows)
-        over = _told(part) & part.other_color(pixels.frame.color[rows])
+        over = known_beneath(part) & part.other_color(pixels.frame.color[rows])
         over &= ~np.isin(out.cause[rows], _FINAL)
         out.cause[rows][over] = Cause.NOT_MODELLED
         out.figure[rows][over], out.allowed[rows][over] = part.drawn[over], np.nan

@@ -52,10 +52,8 @@ function headline(score) {
   if (score.not_decidable) parts.push(`Of ${count(score.not_decidable)} nothing can be said.`);
   const blind = Object.entries(score.not_judged?.by_feature ?? {});
   if (blind.length) {
-    const { unmodelled } = page.comparison.scene;
-    const of = blind.map(([n]) => `${unmodelled[n].feature} of ${unmodelled[n].object}`);
     const pixels = blind.reduce((sum, [, many]) => sum + many, 0);
-    parts.push(`${count(pixels)} cannot be judged: ${of.join(", ")}.`);
+    parts.push(`${count(pixels)} cannot be judged: ${blind.map(([name]) => name).join(", ")}.`);
   }
   for (const { object, pixels, transform } of page.comparison.shades ?? [])
     parts.push(
