@@ -26,13 +26,15 @@ from .tracer.settings import Precision, Settings
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
 INTERRUPTED = 130  # by Ctrl-C, as shells have it: see `interrupts.py`
 
-EXIT_CODES_HELP = """exit codes:
+_CODES = """
+  4  the input is wrong, or cannot be read; or standard output cannot be written: files stay
+  130  interrupted by Ctrl-C (129, 143: by SIGHUP, SIGTERM)"""
+DONE_HELP = f"exit codes:\n  0  done{_CODES}"
+EXIT_CODES_HELP = f"""exit codes:
   0  the pictures agree
   1  warnings: something is not modelled, or not decidable; or so much that it is not comparable
   2  differences that no cause explains
-  3  the sizes of the pictures do not match
-  4  the input is wrong, or cannot be read
-  130  interrupted by Ctrl-C"""
+  3  the sizes of the pictures do not match{_CODES}"""
 CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale", "up"  # see add_camera
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)

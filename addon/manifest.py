@@ -138,12 +138,11 @@ class Manifest:
             if not (e.exported or e.outside):
                 yield f"  skipped {e.name} ({e.type}): {e.reason}", False
         if unseen := [e for e in self.objects if e.outside]:
-            yield (
-                f"  outside the view, and not needed: {sum(e.outside for e in unseen):,} "
-                f"instances of {len(unseen):,} objects, "
-                f"{sum(not e.exported for e in unseen):,} of them whole",
-                False,
-            )
+            told = f"{_count(sum(e.outside for e in unseen), 'instance')} of "
+            told += _count(len(unseen), "object")
+            if whole := sum(not e.exported for e in unseen):
+                told += f", with nothing of {_count(whole, 'object')} in view"
+            yield f"  outside the view, and not needed: {told}", False
         for u in self.unmodelled:
             detail = f" ({u.detail})" if u.detail else ""
             none = u.effect is Effect.NONE
@@ -151,3 +150,7 @@ class Manifest:
             yield f"  {said}: {u.object}: {u.feature}{detail}", not none
         for note in self.notes:
             yield f"  note: {note}", False
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number:,} {noun}{'s' * (number != 1)}"

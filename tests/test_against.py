@@ -47,6 +47,14 @@ def against(scene, tmp_path, capsys):
     return run
 
 
+def test_an_object_without_a_surface_in_the_file_is_not_counted(scene, tmp_path, against):
+    """As one that was outside the view at the export: the .blend says of it what the file says."""
+    save_scene(tmp_path / "gone.npz", replace(scene, objects=(*scene.objects, "Gone")))
+    _, found, printed = against(render(scene).color, source="gone.npz")
+    assert "2 of 3 objects exported" in printed and "skipped Gone (MESH): nothing of it" in printed
+    assert [entry["exported"] for entry in found["scene"]["objects"]] == [True, True, False]
+
+
 @pytest.mark.parametrize("name", ["picture.png", "picture.exr"])
 def test_its_own_picture_agrees(scene, against, name):
     code, found, text = against(render(scene).color, name)

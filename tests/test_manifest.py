@@ -60,7 +60,7 @@ def test_lines_name_everything(manifest):
         ("Torn", "7 triangles left out"),
         ("Cube", "2 empty material slots"),
         ("skipped Hair (CURVES)", "has no triangles"),
-        ("outside the view", "3,000 instances of 1 objects", "1 of them whole"),
+        ("outside the view", "3,000 instances of 1 object, with nothing of 1 object in view"),
         ("Glass", "transparency", "alpha 0.5"),
         ("Cam.001", "depth of field"),
         ("sequencer",),

@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 
 from .. import arguments, running
-from ..arguments import AGREE, EXIT_CODES_HELP, Parser, settings_from
+from ..arguments import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser, settings_from
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES
 from ..explain.candidates import LIMIT, gather_pixel
@@ -51,7 +51,8 @@ def _parser() -> Parser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
 
     def command(name: str, run: Callable[[Any], int], text: str) -> Parser:
-        sub = commands.add_parser(name, help=text, epilog=EXIT_CODES_HELP)
+        codes = EXIT_CODES_HELP if name == "compare" else DONE_HELP
+        sub = commands.add_parser(name, help=text, epilog=codes)
         sub.set_defaults(run=run)
         sub.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
         return sub
@@ -63,7 +64,7 @@ def _parser() -> Parser:
     arguments.add_judge(sub, choices())
     arguments.add_page(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
-    sub = commands.add_parser("explain", help=text, epilog=EXIT_CODES_HELP)
+    sub = commands.add_parser("explain", help=text, epilog=DONE_HELP)
     sub.set_defaults(run=_explain)
     arguments.add_pixel(sub)
     sub = command(

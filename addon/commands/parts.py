@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..arguments import EXIT_CODES_HELP, Parser, check_options
+from ..arguments import DONE_HELP, Parser, check_options
 from ..images import MissingLibraryError
 
 Commands = Any  # what argparse's add_subparsers returns, which has no public name
@@ -23,12 +23,13 @@ def command(
     example: str,
     source: str | None = None,
     around: Callable[[argparse.Namespace], AbstractContextManager[Any]] = nullcontext,
+    exit_codes: str = DONE_HELP,
 ) -> Parser:
     """Add a command, which checks its options first, and return its parser.
 
     `run` does the work, and returns the exit code; `around` gives what lasts as long as the
-    command, its check included. The text and the example are for its help. `source` says what its
-    SCENE may be; without it, the command takes none.
+    command, its check included. Text, example and exit codes are for its help. `source` says what
+    its SCENE may be; without it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
@@ -40,7 +41,7 @@ def command(
         name,
         help=text,
         description=text[0].upper() + text[1:] + ".",
-        epilog=f"example:\n  {example}\n\n{EXIT_CODES_HELP}",
+        epilog=f"example:\n  {example}\n\n{exit_codes}",
     )
     parser.set_defaults(run=checked)
     if source:

@@ -98,14 +98,19 @@ def test_options_that_would_not_be_heard_are_refused(options, word, make, tmp_pa
     assert word in capsys.readouterr().err and not (tmp_path / "s.png").exists()
 
 
-@pytest.mark.parametrize("command", ["", "compare", "trace", "trade", "extremes", "export"])
+@pytest.mark.parametrize(
+    "command", ["", "compare", "trace", "explain", "trade", "extremes", "export"]
+)
 def test_help_names_the_exit_codes(command, capsys):
     with pytest.raises(SystemExit) as stop:
         main([*command.split(), "--help"])
     text = capsys.readouterr().out
     assert stop.value.code == 0
-    for words in ("0  the pictures agree", "2  differences", "4  the input is wrong"):
+    for words in ("0  ", "4  the input is wrong", "130  interrupted by Ctrl-C"):
         assert words in text
+    of_pictures = command in ("", "compare")  # others compare none
+    for words in ("0  the pictures agree", "1  warnings", "2  differences", "3  the sizes"):
+        assert (words in text) == of_pictures
     assert ("example:" in text) == bool(command)
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.cause import Cause, Causes
 from reference_tracer.compare.comparison import (
     EXIT_CODES,
     SCHEMA,
@@ -15,7 +15,7 @@ from reference_tracer.compare.comparison import (
     compare,
     trace_and_compare,
 )
-from reference_tracer.compare.metrics import boundary
+from reference_tracer.compare.metrics import boundary, count_pixels
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
@@ -84,6 +84,13 @@ def test_examples_are_spread(scene):
     rows, columns = np.nonzero(found.causes.cause == Cause.UNEXPLAINED)
     assert len(examples) == 10 and len({y for _, y in examples}) > 8
     assert examples[0] == [columns[0], rows[0]] and examples[-1] == [columns[-1], rows[-1]]
+
+
+def test_undecidable_pixels_have_examples_too():
+    causes = Causes.none((3, 4))
+    causes.cause[1, 2] = Cause.NOT_DECIDABLE
+    counted = count_pixels(causes, np.zeros((3, 4), bool))
+    assert counted["examples"] == {"not_decidable": [[2, 1]]}
 
 
 def test_equal_pictures_agree(scene):
