@@ -11,15 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import images
-from ..arguments import (
-    EXIT_CODES_HELP,
-    add_camera,
-    add_judge,
-    add_page,
-    add_settings,
-    camera_from,
-    settings_from,
-)
+from ..arguments import add_camera, add_judge, add_page, add_settings, camera_from, settings_from
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
@@ -47,7 +39,6 @@ def add(commands: Commands) -> None:
         "  reftrace compare scene.npz --against student.png --out out/",
         "scene.blend; with --against also scene.npz or a mesh",
         _failure_written,
-        EXIT_CODES_HELP,
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..arguments import DONE_HELP, Parser, check_options
+from ..arguments import DONE_HELP, EXIT_CODES_HELP, Parser, check_options
 from ..images import MissingLibraryError
 
 Commands = Any  # what argparse's add_subparsers returns, which has no public name
@@ -23,13 +23,12 @@ def command(
     example: str,
     source: str | None = None,
     around: Callable[[argparse.Namespace], AbstractContextManager[Any]] = nullcontext,
-    exit_codes: str = DONE_HELP,
 ) -> Parser:
     """Add a command, which checks its options first, and return its parser.
 
     `run` does the work, and returns the exit code; `around` gives what lasts as long as the
-    command, its check included. Text, example and exit codes are for its help. `source` says what
-    its SCENE may be; without it, the command takes none.
+    command, its check included. The text and the example are for its help. `source` says what its
+    SCENE may be; without it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
@@ -37,11 +36,12 @@ def command(
             check_options(options)
             return run(options)
 
+    codes = EXIT_CODES_HELP if name == "compare" else DONE_HELP
     parser = commands.add_parser(
         name,
         help=text,
         description=text[0].upper() + text[1:] + ".",
-        epilog=f"example:\n  {example}\n\n{exit_codes}",
+        epilog=f"example:\n  {example}\n\n{codes}",
     )
     parser.set_defaults(run=checked)
     if source:
