@@ -150,6 +150,7 @@ class Comparison:
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
         p, m, statistics = self.pixels, self.metrics, self.frame.statistics
+        chosen = self.case.settings
         psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
         x, y = m["largest_difference"]["pixel"]
         return [
@@ -163,7 +164,9 @@ class Comparison:
             *self._evidence(),
             f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
             f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
-            f"traced {statistics.triangles:,} triangles in {statistics.seconds:.2f} s",
+            f"traced {statistics.triangles:,} triangles in {statistics.seconds:.2f} s "
+            f"({statistics.method}, {chosen.precision.value}, {chosen.samples} x "
+            f"{chosen.samples} rays a pixel)",
             *(row.line() for row in self.methods),
             *self.required,
             *table(self.self_check),

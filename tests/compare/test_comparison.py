@@ -96,6 +96,7 @@ def test_undecidable_pixels_have_examples_too():
 def test_equal_pictures_agree(scene):
     found = compared(scene, render(scene).color)
     assert found.verdict == "agree" and EXIT_CODES[found.verdict] == 0
+    assert "(certified, float64, 1 x 1 rays a pixel)" in "\n".join(found.lines())
     assert found.metrics == {
         "rmse": 0,
         "psnr": None,
