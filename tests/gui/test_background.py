@@ -163,3 +163,20 @@ def check_files(path):
     assert found["blender"]["source"] == "workbench"
     assert found["pixels"]["unexplained"] == 0
     assert found["verdict"] == "agree"
+
+
+def test_sigterm_ends_a_command_as_ctrl_c_does(blender, folder):
+    """Sent once its handler is there, from a thread beside the work."""
+    path, inside = folder
+    code = (
+        "import os, signal, threading, time\n"
+        "def later():\n"
+        "    while signal.getsignal(signal.SIGTERM) == signal.SIG_DFL: time.sleep(0.01)\n"
+        "    os.kill(os.getpid(), signal.SIGTERM)\n"
+        "threading.Thread(target=later, daemon=True).start()\n"
+    )
+    command = "--command", "reference_tracer", "extremes", "--out", inside
+    done = blender.run("--python-expr", code, *command)
+    assert done.returncode == 143, done.stdout + done.stderr
+    assert "reference_tracer: terminated" in done.stderr and "Traceback" not in done.stderr
+    assert not [p.name for p in path.iterdir() if p.name.startswith(".reftrace-")]
