@@ -18,12 +18,8 @@ def run(work: Callable[[], int], program: str) -> int:
     """Do the work of a command line, then print what it said; return the exit code.
 
     Results are in place before anything is said. If nobody reads it, the exit code stays that of
-    the work; if it cannot be printed, as to a full disk, that is an error like any other.
-
-    Raises
-    ------
-    SystemExit
-        Where argparse ends the work.
+    the work; if it cannot be printed, as to a full disk, that is an error like any other. Where
+    argparse ends the work, its SystemExit is passed on.
     """
     _open_streams()
     with interrupts.heard():
