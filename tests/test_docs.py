@@ -37,6 +37,12 @@ def tools():
         sys.path.remove(TOOLS)
 
 
+@pytest.fixture(scope="module")
+def values(tools):
+    """Every figure, computed once for all documents."""
+    return tools["figures"].values() | tools["derivations"].values()
+
+
 def texts():
     return sorted(p for p in DOCS.rglob("*.md"))
 
@@ -47,7 +53,7 @@ def marked():
 
 @pytest.mark.blender
 @pytest.mark.parametrize("path", marked(), ids=lambda p: p.stem)
-def test_commands_and_figures(path, tools):
+def test_commands_and_figures(path, tools, values):
     """Run again, every command prints what the text says, and every figure is that."""
     for folder in tools["make"].MADE:
         shutil.rmtree(PROJECT / "out" / folder, ignore_errors=True)
@@ -58,7 +64,6 @@ def test_commands_and_figures(path, tools):
             return "\n".join(command.body.splitlines()[2:-1])  # as it is: another machine's
         return tools["make"].run(command)
 
-    values = tools["figures"].values() | tools["derivations"].values()
     again = tools["markers"].refreshed(text, run, values)
     assert again.splitlines() == text.splitlines()
 

@@ -85,13 +85,14 @@ def entries():
 
 @pytest.fixture
 def opened():
-    """Open a sample scene, its picture made at most so wide."""
+    """Open a sample scene, its picture made at most so wide, and so high."""
 
     def run(name: str, width: int | None = None) -> Any:
         bpy.ops.wm.open_mainfile(filepath=str(SAMPLES / f"{name}.blend"), load_ui=False)
         scene = bpy.context.scene
         if width:
-            scene.render.resolution_percentage = max(1, 100 * width // scene.render.resolution_x)
+            longer = max(scene.render.resolution_x, scene.render.resolution_y)
+            scene.render.resolution_percentage = max(1, 100 * width // longer)
         return scene
 
     return run

@@ -29,9 +29,10 @@ from ...hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...rational import t_of_pixels
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
-SEEDS, PARTS = 2000, 4
-SAMPLE = 200  # seeds that the oracle decides
-DIVIDED = 80
+SEEDS = 500  # in a part
+PARTS = [0, 1, *(pytest.param(part, marks=pytest.mark.torture) for part in range(2, 8))]
+SAMPLE = 120  # seeds that the oracle decides
+DIVIDED = 45
 ARRAYS = ("t", "instance", "triangle", "s", "certainty")
 
 
@@ -45,11 +46,11 @@ def assert_same(found: Hits, expected: Hits, what) -> None:
     assert found.ties == expected.ties, what
 
 
-@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize("part", PARTS)
 def test_as_a_contest_of_every_ray_with_every_triangle(make, part):
     """Ids, t and ties; and it is never more in doubt."""
     count = Counter()
-    for seed in range(part, SEEDS, PARTS):
+    for seed in range(part * SEEDS, (part + 1) * SEEDS):
         rng = np.random.default_rng(seed)
         scale_too = seed % 8 < 2
         scene, beside = hostile_scene(make, rng, finite=scale_too), offsets(rng)
@@ -95,7 +96,7 @@ def test_as_the_oracle_has_it(make):
         for k, ties in found.ties.items():
             assert names[k] in ties and truth[k].may <= ties <= truth[k].touched, seed
         ambiguous, hits = ambiguous + len(found.ties), hits + (found.triangle != NOTHING).sum()
-    assert ambiguous > 1000 and hits > 3000
+    assert ambiguous > 600 and hits > 1800
 
 
 def sizes(fine, coarse):
@@ -143,8 +144,8 @@ def undivided(make):
         rng = np.random.default_rng(seed)
         scene, beside = hostile_scene(make, rng), offsets(rng)
         out.append((seed, scene, beside, swept(scene, beside=beside)))
-    assert sum(len(hits.ties) for *_, hits in out) > 300
-    assert sum((hits.certainty == Certainty.EXACT).sum() for *_, hits in out) > 200
+    assert sum(len(hits.ties) for *_, hits in out) > 200
+    assert sum((hits.certainty == Certainty.EXACT).sum() for *_, hits in out) > 120
     return out
 
 
@@ -229,7 +230,7 @@ def test_the_order_of_instances_only_names(undivided):
             assert now < (new[then[0]], then[1]) and then < (old[now[0]], now[1]), seed
             renamed += 1
         assert found.s[:, same].tobytes() == expected.s[:, same].tobytes(), seed
-    assert renamed > 100
+    assert renamed > 60
 
 
 def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
