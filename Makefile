@@ -40,7 +40,7 @@ test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs
 	$(PYTEST) -m gui
 
 # What `make test` samples, at its full length.
-torture: .venv/.stamp ## run the long tests, too long for every day: the suites at their full size
+torture: extension ## run the long tests, too long for every day: the suites at their full size
 	$(PYTEST) -m torture
 
 # OPTIONS=--quick: two minutes instead; or any other option of `reftrace bench`.

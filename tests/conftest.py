@@ -35,10 +35,29 @@ def pytest_xdist_make_scheduler(config, log):
     return Together(config, log)
 
 
+# The files whose tests take longest are begun with: a worker that comes to one last is waited for.
+LONGEST = (
+    "tests/gui/",
+    "tests/blender/test_attacks.py",
+    "tests/blender/test_hard_cases.py",
+    "tests/suites/test_exact.py",
+    "tests/tracer/certified/sweep/test_sweep.py",
+    "tests/test_docs.py",
+    "tests/suites/test_pbrt.py",
+    "tests/blender/test_cli_blend.py",
+    "tests/study/test_extremes.py",
+)
+
+
+def _place(item) -> int:
+    """Return where a test comes in the order."""
+    return next((n for n, at in enumerate(LONGEST) if item.nodeid.startswith(at)), len(LONGEST))
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """Mark whole folders, and begin with the window's tests, which take longest."""
-    items.sort(key=lambda item: not item.nodeid.startswith("tests/gui/"))
+    """Mark whole folders, and begin with the longest."""
+    items.sort(key=_place)
     for item in items:
         for folder, mark in MARKED.items():
             if item.nodeid.startswith(folder):

@@ -65,7 +65,7 @@ def test_examples_say_where(build, compare):
 @pytest.mark.parametrize("name", ["exercise_triangle", "suzanne", "shifted_room"])
 def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
     """Every colour is a mix of what the tracer sees within the filter; nothing is excused."""
-    scene = opened(name, 160)
+    scene = opened(name, 128)
     scene.display.shading.light, scene.display.render_aa = "FLAT", smooth
     found = compare(as_is=True)
     by_cause = found.pixels["by_cause"]

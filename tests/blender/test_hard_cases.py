@@ -275,11 +275,12 @@ def test_no_false_excuse(make, damage, build, sound_cases):
     "make",
     [
         hard.particle_hair,
-        hard.instanced_hair,
-        hard.grease_pencil,
         hard.glass_pane,
-        hard.hair_on_points,
         hard.in_front,
+        *(
+            pytest.param(make, marks=pytest.mark.torture)
+            for make in (hard.instanced_hair, hard.grease_pencil, hard.hair_on_points)
+        ),
     ],
     ids=name_of,
 )

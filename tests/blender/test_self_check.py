@@ -9,9 +9,12 @@ import pytest
 from reference_tracer.blender import commands
 
 
-@pytest.mark.parametrize("name", ["exercise_perspective", "shifted_room", "geometry_nodes"])
+LONG = pytest.param("shifted_room", marks=pytest.mark.torture)
+
+
+@pytest.mark.parametrize("name", ["exercise_perspective", "geometry_nodes", LONG])
 def test_sample_scenes_miss_no_fault(name, opened, compare):
-    opened(name, 120)
+    opened(name, 64)
     found = compare(self_check=True)
     results = {row.name: row.result for row in found.self_check}
     assert found.verdict == "agree" and "missed" not in results.values()

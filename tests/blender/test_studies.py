@@ -47,9 +47,11 @@ def pixels(name):
     return np.array(image.pixels[:], np.float32).reshape(height, width, 4)
 
 
-def test_trade_shows_its_table_and_plot_and_changes_nothing(solids):
+def test_trade_shows_its_table_and_plot_and_changes_nothing(solids, tmp_path):
+    """And its files are those of `reftrace`."""
     before = state()
-    assert bpy.ops.reference_tracer.trade(**SMALL) == {"FINISHED"}
+    out = tmp_path / "out"
+    assert bpy.ops.reference_tracer.trade(directory=str(out), **SMALL) == {"FINISHED"}
     found = results.latest(Trade, solids)
     assert len(found.content.whole) == 9
     assert found.content.whole[0].width == 16
@@ -61,15 +63,11 @@ def test_trade_shows_its_table_and_plot_and_changes_nothing(solids):
     assert plot[0, 0].tolist() == [1, 1, 1, 1] and plot.std() > 0.05
     bpy.data.images.remove(bpy.data.images[results.TRADE])
     assert differences(before, state()) == []
-
-
-def test_trade_writes_what_reftrace_does(solids, tmp_path):
-    bpy.ops.reference_tracer.trade(directory=str(tmp_path / "out"), **SMALL)
-    assert {p.name for p in (tmp_path / "out").iterdir()} == TRADE_FILES
-    found = json.loads((tmp_path / "out" / "tradeoff.json").read_text(encoding="utf-8"))
-    assert found["scene"] == solids.name
-    assert found["advice"] == results.latest(Trade, solids).content.advice
-    assert {row["width"] for row in found["rows"]} == {4, 8, 16}
+    assert {p.name for p in out.iterdir()} == TRADE_FILES
+    written = json.loads((out / "tradeoff.json").read_text(encoding="utf-8"))
+    assert written["scene"] == solids.name
+    assert written["advice"] == found.content.advice
+    assert {row["width"] for row in written["rows"]} == {4, 8, 16}
 
 
 def test_trade_of_a_scene_that_cannot_be_traced(solids):
@@ -139,9 +137,10 @@ def test_a_folder_that_cannot_be_written_is_known_before_the_work(run, options, 
 
 
 def test_results_go_with_their_file(solids):
-    bpy.ops.reference_tracer.trade(**SMALL)
+    bpy.ops.reference_tracer.extremes(**FEW)
+    assert results.latest(BreakingPoint, bpy.context.scene) is not None
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(Trade, bpy.context.scene) is None
+    assert results.latest(BreakingPoint, bpy.context.scene) is None
 
 
 def test_the_commands(solids, tmp_path, capsys):

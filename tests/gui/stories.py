@@ -210,6 +210,8 @@ def scenes():
             bpy.ops.wm.open_mainfile(filepath=str(path))
         else:
             bpy.ops.wm.read_homefile(use_factory_startup=True)
+        # A quarter of the pixels: the whole of suzanne is in the stories above.
+        window().scene.render.resolution_percentage = 50
         yield 0.5
         press_compare()
         yield from until(compared)

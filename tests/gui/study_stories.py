@@ -142,7 +142,7 @@ def trade_with_plot():
 def extremes():
     """All scenarios with few rays, and the maps as images."""
     with matplotlib_lent():
-        yield from study("extremes", EXTREMES, rays=24)
+        yield from study("extremes", EXTREMES, rays=6)
     yield from show_image("Reference Tracer Map Size And Distance", "extremes_map")
     noted["points"] = [
         [p.scenario, p.method, p.precision, p.never] for p in result(EXTREMES).content

@@ -95,7 +95,9 @@ def test_command(blender, folder):
 def test_command_for_the_trade(blender, folder):
     path, inside = folder
     done = blender.run(
-        SCENE, "--command", "reference_tracer", "trade", "--out", inside, "--width", "16"
+        SCENE,
+        *("--command", "reference_tracer", "trade", "--out", inside),
+        *("--width", "16", "--samples", "1"),
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "certified" in done.stdout

@@ -26,7 +26,7 @@ from .meshes import bumpy_sphere, corners_of, on_sphere, snapped
 from .shooting import crossings, decided
 
 torture = pytest.mark.torture
-COUNTS = pytest.mark.parametrize("count", [15_000, pytest.param(100_000, marks=torture)])
+COUNTS = pytest.mark.parametrize("count", [8_000, pytest.param(100_000, marks=torture)])
 SNAP = pytest.mark.parametrize("snap", [False, True], ids=["rounded", "true ties"])
 
 
