@@ -8,7 +8,6 @@ import bpy
 import pytest
 from reference_tracer.blender import commands
 
-
 LONG = pytest.param("shifted_room", marks=pytest.mark.torture)
 
 
