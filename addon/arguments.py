@@ -5,8 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 import traceback
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
@@ -18,7 +19,7 @@ from .explain.writers import WRITERS
 from .framing import ANGLE, placed
 from .images import MissingLibraryError
 from .methods import PLAIN, Method
-from .scene import Camera, SceneError, check_size
+from .scene import Camera, SceneError
 from .scene_files import MESH_SUFFIXES
 from .tracer.certified.certainty import AssumptionError
 from .tracer.settings import Precision, Settings
@@ -35,7 +36,9 @@ EXIT_CODES_HELP = f"""exit codes:
   1  warnings: something is not modelled, or not decidable; or so much that it is not comparable
   2  differences that no cause explains
   3  the sizes of the pictures do not match{_CODES}"""
-CAMERA_OPTIONS = "width", "height", "eye", "target", "angle", "ortho_scale", "up"  # see add_camera
+_OF_BLEND = "scene_name", "view_layer", "frame", "camera"  # of a .blend alone: see add_camera
+_OF_MESH = "width", "height", "frame_all", "eye", "target", "angle", "ortho_scale", "up"
+CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
 _PLAIN = ", ".join(PLAIN)
@@ -47,8 +50,36 @@ _RANGES = {
     **dict.fromkeys(("filter", "dither"), (lambda v: 0 <= v < np.inf, "a number of at least 0")),
     **dict.fromkeys(("eye", "target"), (lambda v: np.isfinite(v).all(), "three finite numbers")),
     "angle": (lambda v: 0 < v < 180, "between 0 and 180 degrees"),
+    "frame": (lambda v: abs(v) <= 1048574, "from -1048574 to 1048574, as Blender's frames are"),
     "ortho_scale": (lambda v: v > 0, "above 0, as an orthographic scale is"),
 }
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What of a file is looked at, through which camera; of a .blend, `blender.choice` makes it so.
+
+    What is None is as the file was saved, or is found from its meshes.
+    """
+
+    scene_name: str | None = None  # this and the next three are of a .blend
+    view_layer: str | None = None
+    frame: int | None = None
+    camera: str | None = None  # the name of one that is there
+    frame_all: bool = False  # or one that frames all
+    eye: Sequence[float] | None = None  # or one that is placed
+    target: Sequence[float] | None = None
+    angle: float | None = None  # vertical, degrees
+    ortho_scale: float | None = None  # height of the picture, metres
+    width: int | None = None  # of the picture, pixels; of a .blend, the other follows from one
+    height: int | None = None
+    up: str | None = None  # which axis of a mesh's file is
+    default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
+
+    def placed(self, width: int, height: int, tall: float = 1.0) -> Camera:
+        """Return the camera at `eye`; what comes in and out is as of :func:`framing.placed`."""
+        target, angle = self.target or (0.0, 0.0, 0.0), self.angle or ANGLE
+        return placed(self.eye, target, width, height, angle, self.ortho_scale, tall)
 
 
 class Parser(argparse.ArgumentParser):
@@ -132,7 +163,7 @@ def check_options(options: argparse.Namespace) -> None:
         value = getattr(options, name, None)
         if value is not None and not holds(value):
             shown = f"{value:g}" if isinstance(value, float) else value
-            raise SceneError(f"{_typed(name)} is {shown}; it must be {must}")
+            raise SceneError(f"{typed(name)} is {shown}; it must be {must}")
     for name, endings in getattr(options, "endings", {}).items():
         path = getattr(options, name)
         if path and path.suffix.lower() not in endings:
@@ -152,6 +183,20 @@ def _refuse_unheard(options: argparse.Namespace) -> None:
         refuse(options, ("judge", "identity", "as_is"), why)
     elif hasattr(options, "against"):
         refuse(options, ("filter", "dither"), "is for a picture of --against")
+    if getattr(options, "heard", ()) and _suffix(options) not in MESH_SUFFIXES:
+        why = "is for meshes: of a scene --width sets the size of its picture, the height follows"
+        refuse(options, ("height",), why)
+    if getattr(options, "camera", None) is not None:
+        refuse(options, ("frame_all", "eye"), "is for a camera beside that of --camera")
+    if getattr(options, "frame_all", False):
+        why = "is not for --frame-all, which finds where the camera stands and what it sees"
+        refuse(options, ("eye", "ortho_scale"), why)
+    elif getattr(options, "eye", None) is None and _suffix(options) not in MESH_SUFFIXES:
+        refuse(options, ("angle",), "is for a camera that --eye or --frame-all places")
+    elif getattr(options, "ortho_scale", None) is not None:
+        refuse(options, ("angle",), "is not for the orthographic camera of --ortho-scale")
+    if getattr(options, "eye", None) is None:
+        refuse(options, ("target", "ortho_scale"), "is for a camera that --eye places")
     if hasattr(options, "pixel") and _suffix(options) == ".json":
         why = f"is not for '{options.scene}', which is one pixel by itself"
         refuse(options, ("pixel", "limit", *CAMERA_OPTIONS), why)
@@ -222,13 +267,14 @@ def words(error: BaseException) -> str:
 def add_camera(
     parser: argparse.ArgumentParser, width: int = 960, height: int = 540, of_scenes: bool = False
 ) -> None:
-    """Add a camera for files that have none; `default_size` is its picture's.
+    """Add which camera sees what; `default_size` is that of a mesh's picture.
 
-    With `of_scenes`, the width is heard for scenes as well.
+    With `of_scenes`, the width is that of the largest picture, and no scene's own.
     """
-    title = "camera of a mesh (by default one that frames it; a scene has its own)"
+    title = "the camera and its picture (by default a scene's own, or one that frames the mesh)"
     group = parser.add_argument_group(title)
-    wide = f"default {width}"
+    wide = f"default {width} of a mesh; of a scene its own, or what follows from the height"
+    high = f"default {height} of a mesh{'' if of_scenes else '; of a scene alike'}"
     if of_scenes:
         wide = (
             "width of the largest picture, of a scene or a mesh; a scene's height follows "
@@ -236,57 +282,58 @@ def add_camera(
         )
     pixels: dict = {"type": int, "metavar": "PIXELS"}
     place: dict = {"type": float, "nargs": 3, "metavar": ("X", "Y", "Z")}
-    tall = "height of the picture of an orthographic camera, in place of --angle"
-    angle = "vertical angle of view (default 50)"
+    tall = "with --eye: height of the picture of an orthographic camera, in place of --angle"
+    look = "with --eye: where it looks (default the origin); Z is up"
+    angle = f"of a new camera: vertical angle of view (default {ANGLE:g})"
+    whole = "a new one from the front, the right and above, which all that is shown nearly fills"
     (parser if of_scenes else group).add_argument("--width", **pixels, help=wide)
-    group.add_argument("--height", **pixels, help=f"default {height}")
-    up = "which axis of the file is up (default y of a .glb, z of others); it is turned to be Z"
+    group.add_argument("--height", **pixels, help=high)
+    up = "which axis of a mesh is up (default y of a .glb, z of others); it is turned to be Z"
     group.add_argument("--up", choices=("y", "z"), help=up)
-    group.add_argument("--eye", **place, help="its position")
-    group.add_argument("--target", **place, help="where it looks (default the origin); Z is up")
+    group.add_argument("--frame-all", action="store_true", help=whole)
+    group.add_argument("--eye", **place, help="a new one at this position")
+    group.add_argument("--target", **place, help=look)
     group.add_argument("--angle", type=float, metavar="DEGREES", help=angle)
     group.add_argument("--ortho-scale", type=float, metavar="METRES", help=tall)
+    group = parser.add_argument_group("what of a .blend (by default as it was saved)")
+    group.add_argument("--camera", metavar="NAME")
+    group.add_argument("--scene", metavar="NAME", dest="scene_name")  # `scene` is the file
+    group.add_argument("--view-layer", metavar="NAME")
+    stepped = "what is simulated is stepped from the first frame on"
+    group.add_argument("--frame", type=int, metavar="N", help=stepped)
     parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
 
 
-def camera_from(
-    options: argparse.Namespace, path: Path
-) -> tuple[Camera | None, tuple[int, int], str | None]:
-    """Return what `opening.load` takes: a camera for meshes, its picture's size, the axis up.
-
-    The camera is None where the options place none, the axis where they name none.
+def choice_from(options: argparse.Namespace, path: Path | None = None) -> Choice:
+    """Return what the options choose of a file; without one, of the .blend that is open.
 
     Raises
     ------
     SceneError
-        If they place one that sees nothing, say how it looks but not where it stands, or the file
-        has a camera of its own.
+        If an option is not for such a file.
     """
-    if path.suffix.lower() not in MESH_SUFFIXES:
-        why = f"is for meshes: '{path}' has its own camera"
-        if options.heard:
-            why += "; --width sets the size of its picture, and the height follows"
-        refuse(options, tuple(sorted(set(CAMERA_OPTIONS) - set(options.heard))), why)
-        return None, options.default_size, None
-    given, default = (options.width, options.height), options.default_size
-    width, height = size = given[0] or default[0], given[1] or default[1]
-    check_size(width, height)
-    if options.eye is None:
-        refuse(options, ("target", "angle", "ortho_scale"), "is for a camera that --eye places")
-        return None, size, options.up
-    if options.ortho_scale is not None:
-        refuse(options, ("angle",), "is not for the orthographic camera of --ortho-scale")
-    angle = ANGLE if options.angle is None else options.angle
-    target = options.target or (0.0, 0.0, 0.0)
-    return placed(options.eye, target, *size, angle, options.ortho_scale), size, options.up
+    suffix = path.suffix.lower() if path else ".blend"
+    names = [name for name in CAMERA_OPTIONS if name not in options.heard]
+    if suffix in MESH_SUFFIXES:
+        names += options.heard
+        refuse(options, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")
+    else:
+        refuse(options, ("up",), "is for meshes: in a scene it is Z")
+    if suffix not in (*MESH_SUFFIXES, ".blend"):
+        why = f"is for a .blend or a mesh: '{path}' has its own camera, and what that one sees"
+        refuse(options, names, why)
+    chosen = {name: getattr(options, name, None) for name in names}
+    return Choice(**chosen, default_size=options.default_size)
 
 
-def refuse(options: argparse.Namespace, names: tuple[str, ...], why: str) -> None:
+def refuse(options: argparse.Namespace, names: Iterable[str], why: str) -> None:
     """Raise a SceneError for an option that is given, but would not be heard."""
     for name in names:
-        if getattr(options, name, None) not in (None, False):
-            raise SceneError(f"{_typed(name)} {why}")
+        value = getattr(options, name, None)
+        if value is not None and value is not False:  # 0 is given
+            raise SceneError(f"{typed(name)} {why}")
 
 
-def _typed(name: str) -> str:
-    return f"--{name.replace('_', '-')}"
+def typed(name: str) -> str:
+    """Return an option as it is typed."""
+    return f"--{name.removesuffix('_name').replace('_', '-')}"

@@ -5,13 +5,14 @@ In come points in world space, or where the eye is and what it looks at; out goe
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .projections import ORTHOGRAPHIC, PERSPECTIVE
-from .scene import Camera, SceneError, ViewWindow, check_size
+from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
+from .tracer.vector import transform_points
 
 ANGLE = 50.0  # vertical angle of view, degrees
 FILLED = 0.9  # share of the picture's width or height that is filled by what is framed
@@ -39,8 +40,7 @@ def framing(
     Parameters
     ----------
     parts : iterable of (n, 3) float
-        Points in world space, looked at one part after the other. Those that are not finite are
-        left out.
+        Points in world space, finite, looked at one part after the other.
     backward, up : (3,) float
         Towards the eye, and what is up in the picture, in world space; of any length.
     width, height : int
@@ -56,41 +56,44 @@ def framing(
         If there is no point, the direction is zero, or the picture has no pixel.
     """
     check_size(width, height)
-    half = FILLED if angle is None else FILLED * np.tan(np.radians(angle) / 2)
+    half = 1.0 if angle is None else np.tan(np.radians(angle) / 2)
     aspect = width / (tall * height)
-    slope = np.array((half * aspect, half))  # of the sides that are to be touched
+    slope = FILLED * np.array((half * aspect, half))  # of the sides that are to be touched
+    flat = np.concatenate((np.eye(2), -np.eye(2)))
+    tilted = np.column_stack((flat, np.tile(slope, 2)))
+    bounds = np.concatenate((np.pad(flat, ((0, 0), (0, 1))), tilted, [(0, 0, 1), (0, 0, -1)]))
     axes = axes_of(backward, up)
-    ends, center = np.full((5, 2), -np.inf), None
-    for part in parts:
-        points = np.asarray(part, np.float64)
-        points = points[np.isfinite(points).all(axis=1)]
-        if not len(points):
-            continue
-        if center is None:  # near all of them, as what is far from the origin loses digits
-            center = points[0]
-        at = (points - center) @ axes
-        across, depth = at[:, :2], -at[:, 2:]
-        bounds = across, -across, across - slope * depth, -across - slope * depth
-        deep = np.array((depth.max(), -depth.min()))
-        ends = np.maximum(ends, np.stack((*(b.max(axis=0) for b in bounds), deep)))
+    ends, center = np.full(len(bounds), -np.inf), None
+    for points in parts:
+        if len(points):
+            if center is None:  # near all of them, as what is far from the origin loses digits
+                center = np.asarray(points[0], np.float64)
+            ends = np.maximum(ends, ((points - center) @ (axes @ bounds.T)).max(axis=0))
     if center is None:
         raise SceneError("There is nothing to frame: no triangle is shown.")
-    high, low, right, left, (far, near) = ends
-    low, near = -low, -near
-    size = max(*(high - low), far - near, 1e6 * np.spacing(np.abs(center).max()), 1e-30)
+    (high, low, right, left), (near, far) = ends[:8].reshape(4, 2), ends[8:] * (-1, 1)
+    extent = high + low
+    size = max(*extent, far - near, 1e6 * np.spacing(np.abs(center).max()), 1e-30)
     if angle is None:
-        middle, eye = (high + low) / 2, near - size
-        half = max(*((high - low) / 2 / slope), NEAREST * size)
+        middle, eye, half = (
+            (high - low) / 2,
+            near - size,
+            max(*(extent / slope), size * NEAREST) / 2,
+        )
     else:
         middle = (right - left) / 2
         eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
-        half /= FILLED
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes, center + axes @ (*middle, -eye)
-    window = ViewWindow(-half * aspect, half * aspect, -half, half)
-    clip = (near - eye) / 2, (far - eye) * 2
-    projection = ORTHOGRAPHIC if angle is None else PERSPECTIVE
-    return Camera(matrix, window, width, height, projection, *clip, name="framing")
+    at, clip = center + axes @ (*middle, -eye), ((near - eye) / 2, (far - eye) * 2)
+    return _camera("framing", axes, at, width, height, half, aspect, angle is None, clip)
+
+
+def shown_points(
+    meshes: Sequence[Mesh], instances: Iterable[Instance]
+) -> Iterator[NDArray[np.float64]]:
+    """Yield the corners of each instance's triangles in world space, (n, 3)."""
+    used = [m.vertices[np.unique(m.triangles)].T.astype(np.float64) for m in meshes]
+    for instance in instances:
+        yield transform_points(instance.world_from_object, used[instance.mesh]).T
 
 
 def placed(
@@ -117,13 +120,18 @@ def placed(
     distance = float(np.linalg.norm(backward))
     if not distance:
         raise SceneError("--eye and --target are the same point: move one of them.")
+    aspect, clip = width / (tall * height), (distance * 1e-3, distance * 1e3)
+    axes, is_parallel = axes_of(backward, UP), ortho_scale is not None
+    return _camera("--eye", axes, eye, width, height, half, aspect, is_parallel, clip)
+
+
+def _camera(name, axes, at, width, height, half, aspect, is_parallel, clip) -> Camera:
+    """Return a camera whose picture is 2 `half` high, at depth 1 or in metres."""
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes_of(backward, UP), eye
-    wide = half * width / (tall * height)
-    window = ViewWindow(-wide, wide, -half, half)
-    projection = PERSPECTIVE if ortho_scale is None else ORTHOGRAPHIC
-    clip = distance * 1e-3, distance * 1e3
-    return Camera(matrix, window, width, height, projection, *clip, name="--eye")
+    matrix[:3, :3], matrix[:3, 3] = axes, at
+    window = ViewWindow(-half * aspect, half * aspect, -half, half)
+    projection = ORTHOGRAPHIC if is_parallel else PERSPECTIVE
+    return Camera(matrix, window, width, height, projection, *clip, name=name)
 
 
 def axes_of(backward: ArrayLike, up: ArrayLike) -> NDArray[np.float64]:

@@ -12,23 +12,20 @@ from pathlib import Path
 from typing import Any
 
 from . import interrupts
-from .scene import Camera, Scene, SceneError
+from .arguments import Choice
+from .framing import ANGLE
+from .scene import Scene, SceneError, check_size
 from .scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
 from .tracer.settings import Settings
 
+_AS_SAVED = Choice()
 SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
 
 
-def load(
-    path: Path,
-    camera: Camera | None = None,
-    size: tuple[int, int] = (960, 540),
-    up: str | None = None,
-) -> tuple[Scene, Settings]:
+def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
-    `camera` is for meshes, which have none: by default one that frames them, and whose picture is
-    of this size, width and height in pixels. So is `up`: see `load_meshes`.
+    Meshes are framed where no camera is chosen.
 
     Raises
     ------
@@ -40,10 +37,15 @@ def load(
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
-        return scene_of_meshes(load_meshes(path, up), camera, *size), Settings()
+        default = choice.default_size
+        size = choice.width or default[0], choice.height or default[1]
+        check_size(*size)  # before a large file is read
+        camera = choice.placed(*size) if choice.eye else None
+        meshes = load_meshes(path, choice.up)
+        return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
     if suffix != ".blend":
         raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
-    with open_blend(path) as blender:
+    with open_blend(path, choice) as blender:
         from .blender.compare import export_open_file
 
         scene, manifest, settings = export_open_file(blender.context)
@@ -52,13 +54,14 @@ def load(
 
 
 @contextmanager
-def open_blend(path: Path) -> Iterator[Any]:
-    """Open a .blend in this process, with the add-on registered; gives bpy.
+def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
+    """Open a .blend in this process, with the add-on registered, at what is chosen; gives bpy.
 
     Raises
     ------
     SceneError
-        If there is no such file, it cannot be opened, or Blender is not there as a module.
+        If there is no such file, it cannot be opened, it does not have what is chosen, or Blender
+        is not there as a module.
     """
     check_is_file(path)
     with interrupts.held():
@@ -70,6 +73,7 @@ def open_blend(path: Path) -> Iterator[Any]:
                 f"({error})"
             ) from error
         from .blender import registration
+        from .blender.choice import chosen
 
         registration.register()
     try:
@@ -81,6 +85,7 @@ def open_blend(path: Path) -> Iterator[Any]:
             except RuntimeError as error:
                 reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
                 raise SceneError(f"'{path}' cannot be opened: {reason}") from error
-        yield bpy
+        with chosen(choice):
+            yield bpy
     finally:
         registration.unregister()

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .framing import BACKWARD, UP, framing
+from .framing import ANGLE, BACKWARD, UP, framing, shown_points
 from .manifest import Manifest
 from .projections import projection_of
 from .scene import (
@@ -28,7 +28,6 @@ from .scene import (
     check_size,
     drop_non_finite,
 )
-from .tracer.vector import transform_points
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
@@ -228,9 +227,15 @@ def _strips(geometry: Any) -> np.ndarray:
 
 
 def scene_of_meshes(
-    meshes: list[tuple[Mesh, np.ndarray]], camera: Camera | None, width: int, height: int
+    meshes: list[tuple[Mesh, np.ndarray]],
+    camera: Camera | None,
+    width: int,
+    height: int,
+    angle: float = ANGLE,
 ) -> Scene:
     """Return a scene of meshes, each in its own grey, seen by `camera` or by one that frames them.
+
+    That one's vertical angle of view is given in degrees.
 
     Raises
     ------
@@ -246,12 +251,11 @@ def scene_of_meshes(
     )
     shown, names = tuple(m for m, _ in meshes), tuple(m.name for m, _ in meshes)
     if camera is None:
-        used = ((m.vertices[np.unique(m.triangles)].T, matrix) for m, matrix in meshes)
-        points = (transform_points(matrix, vertices).T for vertices, matrix in used)
+        points = shown_points(shown, instances)
         check_size(width, height)
         try:
             with np.errstate(all="ignore"):  # Camera refuses what is not finite
-                camera = framing(points, BACKWARD, UP, width, height)
+                camera = framing(points, BACKWARD, UP, width, height, angle)
         except SceneError as error:
             raise SceneError(f"'{names[0]}' is too large to be framed: scale it down") from error
     return Scene(camera, shown, instances, objects=names)

@@ -16,8 +16,9 @@ from reference_tracer.arguments import (
     INPUT_ERROR,
     WARNINGS,
     add_camera,
-    camera_from,
+    choice_from,
     printable,
+    typed,
 )
 from reference_tracer.commands.parts import Commands, command, write_study
 from reference_tracer.interrupts import progress_bar
@@ -152,7 +153,7 @@ def _opened(paths: Sequence[Path], options: argparse.Namespace) -> list[Named]:
 
     out = []
     for name, path in zip(stems(paths), paths, strict=True):
-        out.append((name, load(path, *camera_from(options, path))[0], path))
+        out.append((name, load(path, choice_from(options, path))[0], path))
     return out
 
 
@@ -161,9 +162,11 @@ def _camera_options(options: argparse.Namespace) -> tuple[str, ...]:
     out: list[str] = []
     for name in CAMERA_OPTIONS:
         value = getattr(options, name, None)
-        if value is not None:
+        if value is True:
+            out.append(typed(name))
+        elif value is not None and value is not False:
             values = value if isinstance(value, list) else [value]
-            out += [f"--{name.replace('_', '-')}", *map(str, values)]
+            out += [typed(name), *map(str, values)]
     return tuple(out)
 
 

@@ -131,7 +131,10 @@ def export_camera(scene: Any) -> Camera:
     """
     obj = scene.camera
     if obj is None:
-        raise SceneError(f"Scene '{scene.name}' has no camera: add one, or make one active.")
+        raise SceneError(
+            f"Scene '{scene.name}' has no camera: add one that frames all (the panel's button, or "
+            "--frame-all), place one (--eye X Y Z), or make one active (--camera NAME)."
+        )
     if obj.type != "CAMERA":
         raise SceneError(
             f"'{obj.name}', the active camera of scene '{scene.name}', is a {obj.type.lower()}: "

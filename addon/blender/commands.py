@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import bpy
 
 from .. import arguments, running
-from ..arguments import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser, settings_from
+from ..arguments import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser, choice_from, settings_from
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES
 from ..explain.candidates import LIMIT, gather_pixel
@@ -23,6 +24,7 @@ from ..study import tradeoff
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
 from . import studies
+from .choice import chosen
 from .compare import compare_all, compare_to_folder, export_open_file, made_folder
 from .judges import choices
 
@@ -63,16 +65,18 @@ def _parser() -> Parser:
     arguments.add_settings(sub)
     arguments.add_judge(sub, choices())
     arguments.add_page(sub)
+    arguments.add_camera(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
     sub = commands.add_parser("explain", help=text, epilog=DONE_HELP)
     sub.set_defaults(run=_explain)
     arguments.add_pixel(sub)
+    arguments.add_camera(sub)
     sub = command(
         "trade",
         _trade,
         "measure what every method, precision, number of samples and size costs on the open scene",
     )
-    sub.add_argument("--width", type=int, metavar="PIXELS", help="of the largest picture")
+    arguments.add_camera(sub, tradeoff.WIDTH, of_scenes=True)
     sub.add_argument("--samples", type=int, metavar="N", help="up to N x N rays a pixel")
     sub = command("extremes", _extremes, "find where every method breaks; needs no file")
     sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
@@ -81,13 +85,13 @@ def _parser() -> Parser:
 
 def _compare(options: Any) -> int:
     with comparison_report.failure_written(bpy.path.abspath(options.out)):
-        _check_open()
-        return compare_open_file(options)
+        with _opened(options):
+            return compare_open_file(options)
 
 
 def _explain(options: Any) -> int:
-    _check_open()
-    scene, _, _ = export_open_file(bpy.context)
+    with _opened(options):
+        scene, _, _ = export_open_file(bpy.context)
     source = bpy.path.basename(bpy.data.filepath)
     found = gather_pixel(scene, *options.pixel, options.limit or LIMIT, source)
     text = pixel.write(found, options.out, options.reproducer)
@@ -96,10 +100,10 @@ def _explain(options: Any) -> int:
 
 
 def _trade(options: Any) -> int:
-    _check_open()
-    folder = made_folder(options.out)
-    samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
-    found = result_of(studies.trade(bpy.context, options.width, samples))
+    with _opened(options):
+        folder = made_folder(options.out)
+        samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
+        found = result_of(studies.trade(bpy.context, options.width, samples))
     studies.write(trade_report, folder, found)
     print(trade_report.table(found), f"written to {folder}", sep="\n")
     return AGREE
@@ -113,9 +117,13 @@ def _extremes(options: Any) -> int:
     return AGREE
 
 
-def _check_open() -> None:
+@contextmanager
+def _opened(options: Any) -> Iterator[None]:
+    """Have the open file as the options choose, for a while."""
     if not bpy.data.filepath:
         raise SceneError("no file is open (is its name right?): name a .blend before --command")
+    with chosen(choice_from(options)):
+        yield
 
 
 def compare_open_file(options: Any, progress: Any = None) -> int:

@@ -177,11 +177,18 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     """
     w = camera.window
     extent = w.right - w.left
-    render, data = scene.render, bpy.data.cameras.new(camera.name)
+    render = scene.render
     render.resolution_x, render.resolution_y = camera.width, camera.height
     render.resolution_percentage = 100
     tall = (w.top - w.bottom) / camera.height / (extent / camera.width)  # of a pixel, in widths
     render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1 / tall), max(1.0, tall)
+    return place_camera(scene, camera)
+
+
+def place_camera(scene: Any, camera: Camera) -> Any:
+    """Add a camera for the picture that a Blender scene has, and make it the active one."""
+    w, data = camera.window, bpy.data.cameras.new(camera.name)
+    extent = w.right - w.left
     data.sensor_fit = "HORIZONTAL"
     data.type = camera.projection.blender
     if camera.projection.is_parallel:

@@ -117,7 +117,7 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
     What is `drawn` is that, or a temporary copy: for a judge, all of it is switched off there.
     """
     effect = Effect.NONE if judge_of(drawn) else Effect.UNPLACED
-    camera, render, shading = scene.camera, scene.render, scene.display.shading
+    camera, render, shading = drawn.camera, scene.render, scene.display.shading
     sequence = scene.sequence_editor
     strips = sequence and getattr(sequence, "strips_all", getattr(sequence, "sequences_all", ()))
     new = hasattr(scene, "compositing_node_group")  # from 5.0 on

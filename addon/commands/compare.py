@@ -11,7 +11,14 @@ from pathlib import Path
 import numpy as np
 
 from .. import images
-from ..arguments import add_camera, add_judge, add_page, add_settings, camera_from, settings_from
+from ..arguments import (
+    add_camera,
+    add_judge,
+    add_page,
+    add_settings,
+    choice_from,
+    settings_from,
+)
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
@@ -87,7 +94,7 @@ def _with_blender(options: argparse.Namespace) -> int:
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
             "with --against"
         )
-    with open_blend(options.scene):
+    with open_blend(options.scene, choice_from(options)):
         from ..blender.commands import compare_open_file
 
         with progress_bar() as progress:
@@ -109,7 +116,7 @@ def _against(options: argparse.Namespace) -> int:
 
 
 def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
-    with open_blend(options.scene) as blender:
+    with open_blend(options.scene, choice_from(options)) as blender:
         from ..blender.against import gather_against
         from ..blender.camera import export_camera
         from ..blender.compare import compared
@@ -123,7 +130,7 @@ def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[C
 
 
 def _file(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
-    scene, stored = load(options.scene, *camera_from(options, options.scene))
+    scene, stored = load(options.scene, choice_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     settings, shown = settings_from(options, stored), _shown(options, picture, scene.camera)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=bool(options.self_check))

@@ -10,7 +10,7 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
 from .. import images
-from ..arguments import add_camera, add_pixel, add_settings, camera_from, printable, settings_from
+from ..arguments import add_camera, add_pixel, add_settings, choice_from, printable, settings_from
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather_pixel
 from ..interrupts import progress_bar
@@ -46,7 +46,7 @@ def add_trace(commands: Commands) -> None:
 def trace(options: argparse.Namespace) -> int:
     """Trace, and write the picture."""
     with folders.made_for_file(options.out):
-        scene, stored = load(options.scene, *camera_from(options, options.scene))
+        scene, stored = load(options.scene, choice_from(options, options.scene))
         settings = settings_from(options, stored)
         with progress_bar() as progress:
             frame = render(scene, settings, progress)
@@ -81,6 +81,7 @@ def add_export(commands: Commands) -> None:
     )
     parser.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
     parser.set_defaults(endings={"out": (".npz",)})
+    add_camera(parser)
 
 
 def export(options: argparse.Namespace) -> int:
@@ -88,7 +89,7 @@ def export(options: argparse.Namespace) -> int:
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
     with folders.made_for_file(options.out):
-        scene, _ = load(options.scene)
+        scene, _ = load(options.scene, choice_from(options, options.scene))
         with folders.replacing_file(options.out) as new:
             save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
@@ -116,7 +117,7 @@ def explain(options: argparse.Namespace) -> int:
         found = reproducer.read(path)
     else:
         with _told_aside():
-            scene, _ = load(path, *camera_from(options, path))
+            scene, _ = load(path, choice_from(options, path))
         found = gather_pixel(scene, *options.pixel, options.limit or LIMIT, path.name)
     print(printable(pixel.write(found, options.out, options.reproducer)), end="")
     return 0

@@ -6,7 +6,7 @@ import argparse
 from contextlib import nullcontext
 from pathlib import Path
 
-from ..arguments import add_camera, camera_from, settings_from
+from ..arguments import add_camera, choice_from, settings_from
 from ..interrupts import progress_bar
 from ..opening import SOURCES, load
 from ..report import folders
@@ -38,7 +38,7 @@ def trade(options: argparse.Namespace) -> int:
     from ..study import tradeoff
 
     with folders.made(Path(options.out)) if options.out else nullcontext():
-        scene, _ = load(options.scene, *camera_from(options, options.scene))
+        scene, _ = load(options.scene, choice_from(options, options.scene))
         samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
         with progress_bar() as progress:
             work = tradeoff.measure(scene, options.width, samples, options.scene.name)

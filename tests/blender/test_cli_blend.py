@@ -57,6 +57,22 @@ def test_compare(small, tmp_path):
     ]
 
 
+def test_a_file_without_a_camera(small, tmp_path):
+    """It is framed, or seen from where the options say."""
+    bpy.context.scene.camera = None
+    bpy.ops.wm.save_mainfile()
+    done = reftrace("compare", small, "--out", tmp_path / "out", "--frame-all", "--width", "32")
+    assert done.returncode == 0, done.stderr
+    assert "camera 'framing'" in done.stdout and "verdict: agree" in done.stdout
+    found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
+    assert found["scene"]["camera"] == "framing" and found["pixels"]["agree"] == 32 * 18
+    eye = "--eye", "4", "-4", "3", "--ortho-scale", "5"
+    done = reftrace("export", small, "--out", tmp_path / "s.npz", *eye)
+    assert done.returncode == 0, done.stderr
+    camera = load_scene(tmp_path / "s.npz").camera
+    assert camera.projection.is_parallel and camera.origin.tolist() == [4, -4, 3]
+
+
 def test_compare_warns_by_its_exit_code(tmp_path):
     done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", cwd=tmp_path)
     assert done.returncode == 1, done.stderr

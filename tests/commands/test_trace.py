@@ -144,6 +144,8 @@ def test_up_turns_a_mesh_and_nothing_else(tmp_path, capsys, make):
     assert trace(tmp_path / "y.ply", tmp_path / "y.png", "--up", "y") == AGREE
     assert trace(tmp_path / "z.ply", tmp_path / "z.png") == AGREE
     assert (tmp_path / "y.png").read_bytes() == (tmp_path / "z.png").read_bytes()
+    assert trace(tmp_path / "z.ply", tmp_path / "wide.png", "--frame-all", "--angle", "90") == AGREE
+    assert (tmp_path / "wide.png").read_bytes() != (tmp_path / "z.png").read_bytes()
     save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
     options = ["--out", str(tmp_path / "s.png"), "--up", "y"]
     assert main(["trace", str(tmp_path / "s.npz"), *options]) == INPUT_ERROR

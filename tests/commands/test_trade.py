@@ -88,7 +88,7 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
 def test_trade_help_says_whose_the_width_is(capsys):
     with pytest.raises(SystemExit):
         main(["trade", "--help"])
-    before, after = capsys.readouterr().out.split("camera of a mesh")
+    before, after = capsys.readouterr().out.split("the camera and its picture")
     assert "width of the largest picture" in before and "--width" not in after
 
 

@@ -20,6 +20,7 @@ function drawSummary() {
   byId("title").textContent = scene.scene;
   byId("subtitle").textContent = [
     scene.file,
+    scene.view_layer && `view layer ${scene.view_layer}, frame ${scene.frame}`,
     `camera ${scene.camera}`,
     `${WIDTH} × ${HEIGHT} pixels`,
     blender.version ? `${OTHER}, ${words(blender.source)}` : OTHER,
