@@ -31,6 +31,7 @@ class LongWork:
     bl_options = {"UNDO"}  # what it leaves is one step
 
     running: ClassVar[str] = ""  # the label of the one that is, in whichever window
+    needs_camera: ClassVar[bool] = False
 
     directory: StringProperty(  # type: ignore[valid-type]
         name="Folder",
@@ -53,10 +54,11 @@ class LongWork:
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Allow one at a time."""
+        """Allow one at a time, with a camera if it needs one."""
         if LongWork.running:
             cls.poll_message_set(f"{LongWork.running} is running: Esc cancels it")
-        return not LongWork.running
+            return False
+        return not (cls.needs_camera and camera_missing(cls, context))
 
     def execute(self, context: Any) -> set[str]:
         """Run through, as a script wants it."""
@@ -139,6 +141,14 @@ class LongWork:
             traceback.print_exc()
         self.report({"ERROR"}, words(error))
         return {"CANCELLED"}
+
+
+def camera_missing(operator: Any, context: Any) -> bool:
+    """Return whether the scene has no camera, and have the operator's button say so."""
+    if context.scene.camera is None:
+        name = context.scene.name
+        operator.poll_message_set(f"Scene '{name}' has no camera: add one, or make one active")
+    return context.scene.camera is None
 
 
 def say(*lines: str) -> None:

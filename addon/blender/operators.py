@@ -14,10 +14,12 @@ from bpy.props import BoolProperty
 from ..compare import engines
 from ..compare.comparison import Comparison
 from ..report import page
+from ..scene import SceneError
 from ..study.extremes import BreakingPoint
 from ..study.trade import Trade
 from ..tracer.progress import Work
 from . import results
+from .choice import frame_all
 from .compare import compare_all, compare_to_folder, compared, gather_case
 from .judges import JUDGES
 from .long_work import LongWork, say
@@ -33,6 +35,7 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         "Trace the scene by the method that is chosen, and compare every pixel with Blender's own "
         "picture; the textbook's formulas and the proven picture are listed side by side"
     )
+    needs_camera = True
 
     def begin(self, context: Any) -> Work[Comparison]:
         """Have Blender draw the scene at once; return the work that is left."""
@@ -54,6 +57,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         f"Trace the scene, and compare {_ENGINES} with it, each in turn: which of them shows a "
         "wrong object, where, and why"
     )
+    needs_camera = True
 
     def begin(self, context: Any) -> Work[Any]:
         """Have every engine draw the scene at once; return the work that is left."""
@@ -124,7 +128,28 @@ def _session_folder() -> str:
     return tempfile.mkdtemp(prefix="reference-tracer-")
 
 
+class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
+    bl_idname = "reference_tracer.frame_all"
+    bl_label = "Add a Camera That Frames All"
+    bl_description = (
+        "Add a camera that sees all that a render shows, from the front, the right and above, and "
+        "make it the scene's"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Any) -> set[str]:
+        """Add it."""
+        try:
+            camera = frame_all(context.scene, context.view_layer)
+        except SceneError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        camera.name = camera.data.name = "Camera"
+        return {"FINISHED"}
+
+
 CLASSES = (
+    REFERENCE_TRACER_OT_frame_all,
     REFERENCE_TRACER_OT_compare,
     REFERENCE_TRACER_OT_compare_all,
     REFERENCE_TRACER_OT_open_page,

@@ -93,6 +93,8 @@ class _Main:
     def draw(self, context: Any) -> None:
         """Draw the button and what it will do."""
         layout, stored = self.layout, context.scene.reference_tracer
+        if context.scene.camera is None:
+            layout.operator(operators.REFERENCE_TRACER_OT_frame_all.bl_idname, icon="CAMERA_DATA")
         layout.operator(operators.REFERENCE_TRACER_OT_compare.bl_idname, icon="RENDER_RESULT")
         layout.use_property_split = True
         layout.use_property_decorate = False

@@ -68,6 +68,7 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         "Measure on this scene and camera what every method, precision, number of samples and "
         "size takes, and what it gets wrong"
     )
+    needs_camera = True
 
     width: IntProperty(  # type: ignore[valid-type]
         name="Width",

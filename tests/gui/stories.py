@@ -203,6 +203,33 @@ def compare_error():
     noted["same"] = before == (settings(), data_blocks())
 
 
+def no_camera():
+    """The buttons say what is missing; one adds it, and the next one compares; undo takes it."""
+    bpy.data.objects.remove(window().scene.camera)
+    bpy.ops.ed.undo_push(message="Delete")
+    window().scene.render.engine = "REFERENCE_TRACER"
+    show_panel()
+    yield from open_tab()
+    buttons = [getattr(bpy.ops.reference_tracer, n) for n in ("compare", "inspect", "trade")]
+    noted["before"] = [button.poll() for button in buttons]
+    screenshot("no_camera")
+    noted["pressed"] = list(invoke("frame_all"))
+    yield 1
+    noted["after"] = [button.poll() for button in buttons]
+    for area in window().screen.areas:
+        if area.type == "VIEW_3D":
+            area.spaces.active.region_3d.view_perspective = "CAMERA"
+    yield 1
+    screenshot("frame_all")
+    press_compare()
+    yield from until(compared)
+    noted["comparison"] = result().content.to_dict()
+    with bpy.context.temp_override(window=window()):
+        noted["undo"] = [list(bpy.ops.ed.undo()) for _ in range(2)]
+    yield 1
+    noted["cameras"] = [o.name for o in bpy.data.objects if o.type == "CAMERA"]
+
+
 def scenes():
     """Every sample scene, and the scene that Blender starts with, against the real viewport."""
     for path in (*sorted(Path("/project/sample_scenes").glob("*.blend")), Path("default_cube")):
@@ -229,5 +256,6 @@ STORIES = (
     compare_escape,
     compare_another_file,
     compare_error,
+    no_camera,
     scenes,
 )

@@ -30,7 +30,7 @@ FAULTS = {
 @pytest.fixture
 def folder(blender, request):
     """Give an empty folder of the test's own, with its name inside the root folder."""
-    path = blender.out / request.node.name.replace("[", "_").replace("]", "")
+    path = blender.out / "".join(c if c.isalnum() else "_" for c in request.node.name)
     shutil.rmtree(path, ignore_errors=True)
     path.mkdir()
     return path, f"/project/out/gui/{path.name}"
@@ -84,9 +84,11 @@ def test_operator_in_background(blender, folder):
     check_files(path)
 
 
-def test_command(blender, folder):
+@pytest.mark.parametrize("camera", ["", "--frame-all --frame 2", "--eye 3 -9 4 --ortho-scale 7"])
+def test_command(camera, blender, folder):
     path, inside = folder
-    done = blender.run(SCENE, "--command", "reference_tracer", "compare", "--out", inside)
+    command = "--command", "reference_tracer", "compare", "--out", inside
+    done = blender.run(SCENE, *command, *camera.split())
     assert done.returncode == 0, done.stdout + done.stderr
     assert "verdict: agree" in done.stdout
     check_files(path)

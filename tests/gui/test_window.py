@@ -55,6 +55,15 @@ def test_another_file_ends_a_comparison(noted):
     assert noted["comparison"]["verdict"] == "agree"
 
 
+@pytest.mark.story("no_camera")
+def test_a_camera_is_added_by_a_button_and_taken_away_by_undo(noted):
+    assert noted["before"] == [False] * 3 and noted["after"] == [True] * 3
+    assert noted["pressed"] == ["FINISHED"]
+    assert noted["comparison"]["scene"]["camera"] == "Camera"
+    assert noted["comparison"]["verdict"] == "agree"
+    assert noted["undo"] == [["FINISHED"]] * 2 and noted["cameras"] == []
+
+
 @pytest.mark.story("compare_error")
 def test_error_is_reported_and_changes_nothing(noted):
     assert "panoramic" in noted["message"] or "pano" in noted["message"]
