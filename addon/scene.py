@@ -7,7 +7,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -54,6 +54,14 @@ class Region:
     def height(self) -> int:
         """Rows, in pixels."""
         return self.y1 - self.y0
+
+    @property
+    def halves(self) -> tuple[Region, Region]:
+        """The lower and the upper half; of one row, the left and the right."""
+        y, x = (self.y0 + self.y1) // 2, (self.x0 + self.x1) // 2
+        if self.height > 1:
+            return replace(self, y1=y), replace(self, y0=y)
+        return replace(self, x1=x), replace(self, x0=x)
 
 
 @dataclass(frozen=True, eq=False)

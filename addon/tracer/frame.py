@@ -77,7 +77,7 @@ class Frame:
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
     certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
     rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
-    ties: Ties = field(default_factory=Ties.room)  # by the pixel's index, row by row
+    ties: Ties = field(default_factory=Ties.none)  # by the pixel's index, row by row
     cancelled: bool = False
     statistics: Statistics = field(default_factory=Statistics)
 

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .certified.certainty import Certainty
 from .certified.reasons import Reason, sentences
-from .vector import spread
+from .vector import groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Name = tuple[int, int]  # instance and triangle
 NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
+_TOGETHER = 1 << 17  # rows of ties looked at together
 _ARRAYS = ("t", "instance", "triangle", "s", "certainty")  # of `Hits`
 
 
@@ -55,65 +56,87 @@ class Statistics:
 
 @dataclass(frozen=True, eq=False)
 class Ties(Mapping[int, frozenset[Name]]):
-    """All that ambiguous rays may be said to see: a row for each ray and surface, (k,) each.
+    """All that ambiguous rays may be said to see; as a mapping it has the names of each.
 
-    Sorted by the ray's index. As a mapping it has the names of each ambiguous ray.
+    The k rays `ray`, in their order, may see the `count` (k,) surfaces from `start` (k,) on, of
+    those in `instance` and `triangle`, (m,) each: neighbours that may see the same share them.
     """
 
     ray: NDArray[np.int64]
+    start: NDArray[np.int64]
+    count: NDArray[np.int32]
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
 
     @classmethod
-    def room(cls, count: int = 0) -> Ties:
-        """Return room for so many rows; by default no ties."""
-        return cls(np.empty(count, np.int64), *np.empty((2, count), np.int32))
+    def none(cls) -> Ties:
+        """Return no ties."""
+        return cls.of(*np.zeros((3, 0), np.int64))
+
+    @classmethod
+    def of(cls, ray: NDArray, instance: NDArray, triangle: NDArray) -> Ties:
+        """Return the ties of rows of a ray and a surface, those of one ray together, in order."""
+        start = np.flatnonzero(np.diff(ray, prepend=-1))
+        count = np.diff(start, append=len(ray))
+        before = np.arange(len(ray)) - np.repeat(np.r_[0, count][: len(count)], count)
+        same = (instance == instance[before]) & (triangle == triangle[before])
+        own = np.ones(len(start), bool)  # else what the ray before it may see
+        if len(start):
+            own[1:] = (count[1:] != count[:-1]) | ~np.logical_and.reduceat(same, start)[1:]
+        first = np.cumsum(count * own) - count * own
+        kept = np.repeat(own, count)
+        names = (v[kept].astype(np.int32) for v in (instance, triangle))
+        first = first[own][np.cumsum(own) - 1]
+        return cls(ray[start].astype(np.int64), first, count.astype(np.int32), *names)
 
     @classmethod
     def joined(cls, parts: Sequence[Ties]) -> Ties:
         """Return the ties of several sets of rays, one after the other or mixed, as one."""
         parts = [part for part in parts if len(part.ray)]
         if len(parts) < 2:
-            return parts[0] if parts else cls.room()
-        ray, *name = map(np.concatenate, zip(*(vars(p).values() for p in parts), strict=True))
-        if (ray[1:] < ray[:-1]).any():
-            order = np.argsort(ray, kind="stable")
-            ray, name = ray[order], [v[order] for v in name]
-        return cls(ray, *name)
-
-    def enter(self, first: int, part: Ties) -> None:
-        """Write a part into the rows from `first` on."""
-        for own, rows in zip(vars(self).values(), vars(part).values(), strict=True):
-            own[first : first + len(rows)] = rows
+            return parts[0] if parts else cls.none()
+        ray, start, count, *names = map(
+            np.concatenate, zip(*(vars(p).values() for p in parts), strict=True)
+        )
+        sizes = [len(p.instance) for p in parts]
+        start += np.repeat(np.cumsum(sizes) - sizes, [len(p.ray) for p in parts])
+        order = np.argsort(ray, kind="stable")
+        return cls(ray[order], start[order], count[order], *names)
 
     def numbered(self, numbers: NDArray[np.integer] | int) -> Ties:
         """Return the ties with ray i called numbers[i], which ascend, or i + numbers."""
         if isinstance(numbers, int) and not numbers:
             return self
         ray = self.ray + numbers if isinstance(numbers, int) else numbers[self.ray]
-        return Ties(ray.astype(np.int64, copy=False), self.instance, self.triangle)
+        return replace(self, ray=ray.astype(np.int64, copy=False))
 
     def may_see(self, ray: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.bool_]:
         """Return which of these rays are ambiguous and may be said to see these surfaces, (n,)."""
-        start, end = (np.searchsorted(self.ray, ray, side) for side in ("left", "right"))
-        which, number = spread(np.arange(len(ray)), end - start)
-        row = start[which] + number
-        same = (self.instance[row] == instance[which]) & (self.triangle[row] == triangle[which])
-        return np.bincount(which, same, len(ray)) > 0
+        out = np.zeros(len(ray), bool)
+        at = np.searchsorted(self.ray, ray)
+        some = np.flatnonzero(np.append(self.ray, -1)[at] == ray)
+        for first, last in groups(self.count[at[some]], _TOGETHER):
+            asked = some[first:last]
+            of = at[asked]
+            which, number = spread(asked, self.count[of])
+            row = np.repeat(self.start[of], self.count[of]) + number
+            same = (self.instance[row] == instance[which]) & (self.triangle[row] == triangle[which])
+            out[which[same]] = True
+        return out
 
     def __getitem__(self, ray: int) -> frozenset[Name]:
-        start, end = (int(np.searchsorted(self.ray, ray, side)) for side in ("left", "right"))
-        if start == end:
+        at = int(np.searchsorted(self.ray, ray))
+        if at == len(self.ray) or self.ray[at] != ray:
             raise KeyError(ray)
-        rows = slice(start, end)
+        rows = slice(self.start[at], self.start[at] + self.count[at])
         pairs = zip(self.instance[rows].tolist(), self.triangle[rows].tolist(), strict=True)
         return frozenset(pairs)
 
     def __iter__(self) -> Iterator[int]:
-        return iter(np.unique(self.ray).tolist())
+        return iter(self.ray.tolist())
 
     def __len__(self) -> int:
-        return int((np.diff(self.ray, prepend=-1) != 0).sum())
+        return len(self.ray)
 
 
 @dataclass(eq=False)
@@ -131,7 +154,7 @@ class Hits:
     triangle: NDArray[np.int32]
     s: NDArray[np.float64]
     certainty: NDArray[np.uint8] = None  # type: ignore[assignment]  # by default NOT_CERTIFIED
-    ties: Ties = field(default_factory=Ties.room)
+    ties: Ties = field(default_factory=Ties.none)
 
     def __post_init__(self) -> None:
         if self.certainty is None:

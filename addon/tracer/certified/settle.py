@@ -81,7 +81,6 @@ class Decisions:
         count = np.diff(np.r_[start, len(found.ray)])
         first, decided, tied = self._first_by_order(found, start, count)
         of_ray = np.repeat(np.arange(len(start)), count)
-        tied &= np.arange(len(found.ray)) > first[of_ray]  # not those with one since beaten
         lost = decided[of_ray]
         rest = Candidates.joined((rest, found.take(np.flatnonzero(~lost))))
         lost[first] = False
@@ -96,7 +95,7 @@ class Decisions:
         self.hits.certainty[won.ray] = Certainty.EXACT
         tied[first[np.unique(of_ray[tied])]] = True
         ties = found.take(np.flatnonzero(tied))  # what lies in one plane, sorted by ray
-        self.ties.append(Ties(ties.ray, *self.surfaces.names(ties.surface)))
+        self.ties.append(Ties.of(ties.ray, *self.surfaces.names(ties.surface)))
         self.hits.certainty[ties.ray] = Certainty.AMBIGUOUS
         return rest
 
@@ -105,23 +104,30 @@ class Decisions:
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_], NDArray[np.bool_]]:
         """Return the nearest of each ray's candidates, whether it is known, and what ties with it.
 
-        Candidates are sorted by ray: `count` of each, from `start` on. The nearest so far of each
-        ray meets the ray's next one in every round.
+        Candidates are sorted by ray: `count` of each, from `start` on. In every round each second
+        one that is left of a ray meets the one before it, and one of the two stays.
         """
         none = np.zeros_like(found.ray)
         batch, _, surface = self.surfaces.integers(self.around, none, found.surface)
-        surface = np.array(surface)
-        first, decided, tied = start.copy(), np.ones(len(start), bool), np.zeros(len(surface), bool)
-        for number in range(1, count.max()):
-            at = np.flatnonzero(count > number)
-            other = start[at] + number
+        surface, of_ray = np.array(surface), np.repeat(np.arange(len(start)), count)
+        decided, tied = np.ones(len(start), bool), np.ones(len(surface), bool)
+        left, rounds = np.arange(len(surface)), []
+        while len(left) > len(start):
+            ray = of_ray[left]
+            begins = np.flatnonzero(np.diff(ray, prepend=-1))
+            second = np.flatnonzero((np.arange(len(left)) - begins[ray]) % 2)
+            one, other = left[second - 1], left[second]
             some = self.rays.take(found.ray[other])
-            result = order.order_of(self.around, some, batch, surface[first[at]], surface[other])
-            decided[at[result == order.UNDECIDED]] = False
-            tied[other] = result == order.COPLANAR
+            result = order.order_of(self.around, some, batch, surface[one], surface[other])
+            decided[ray[second[result == order.UNDECIDED]]] = False
             beaten = result == order.FARTHER
-            first[at[beaten]] = other[beaten]
-        return first, decided, tied
+            stays = np.where(beaten, other, one)
+            rounds.append((np.where(beaten, one, other), stays, result == order.COPLANAR))
+            left[second - 1] = stays
+            left = np.delete(left, second)
+        for loser, winner, coplanar in reversed(rounds):
+            tied[loser] = coplanar & tied[winner]
+        return left, decided, tied
 
     def by_integers(self, found: Candidates) -> None:
         """Enter rays, sorted, whose candidates are decided by integers, together."""
@@ -137,13 +143,13 @@ class Decisions:
             of_ray = [(names[k], hit) for k, hit in group if hit]
             seen, ties = seen_and_ties(of_ray, (NOTHING, NOTHING))
             self.hits.certainty[ray] = Certainty.AMBIGUOUS if ties else Certainty.EXACT
-            tied += [(ray, *name) for name in ties]
+            tied += [(ray, *name) for name in sorted(ties)]
             firsts[ray] = None
             if seen >= 0:
                 name, firsts[ray] = of_ray[seen]
                 self._enter(ray, name, firsts[ray], batch.t(firsts[ray]))
         ray, *name = np.array(tied, np.int64).reshape(-1, 3).T
-        self.ties.append(Ties(ray, *(v.astype(np.int32) for v in name)))
+        self.ties.append(Ties.of(ray, *name))
         self.reasons.update(self._reasons(found, groups, firsts))
 
     def _enter(self, ray: int, name: tuple[int, int], hit: exact.Hit, t: float) -> None:

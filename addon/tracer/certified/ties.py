@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cmp_to_key
+from math import gcd
 
 from ..hits import Name
 from .exact import PERTURBATION, Hit, Integers, Moves, crossing, gap, sign_of_difference, turning
@@ -52,19 +53,23 @@ def _ways(hits: Sequence[Hit]) -> list[Integers]:
 
     The answer changes where the moved ray meets an edge that the ray itself meets, or the line in
     which two surfaces cross that it meets there: lines through one point, seen along the ray. There
-    is a way between every two that follow one another.
+    is a way between every two that follow one another. What coincides has them once, not for each.
     """
-    lines = []
-    for k, hit in enumerate(hits):
+    lines, planes = [], {}
+    for hit in hits:
         edges = zip(hit.edges, hit.sides, hit.spans, strict=True)
         lines += [(m, span) for e, m, span in edges if e == 0]
-        lines += [crossing(hit, other) for other in hits[:k] if gap(hit, other) == 0]
+        plane = _reduced(*hit.normal, hit.numerator)
+        planes.setdefault(max(plane, tuple(-v for v in plane)), hit)
+    planes = list(planes.values())
+    for k, hit in enumerate(planes):
+        lines += [crossing(hit, other) for other in planes[:k] if gap(hit, other) == 0]
     d = hits[0].direction
     lines = [turning(*line, d) for line in lines]
     along = max(range(3), key=lambda axis: abs(d[axis]))  # not needed: moves along d change nothing
     x, y = (along + 1) % 3, (along + 2) % 3
-    rays = [(-s * m[y], s * m[x]) for m in lines if m[x] or m[y] for s in (1, -1)]
-    rays.sort(key=cmp_to_key(_by_angle))
+    found = {_reduced(-s * m[y], s * m[x]) for m in lines if m[x] or m[y] for s in (1, -1)}
+    rays = sorted(found, key=cmp_to_key(_by_angle))
     out = []
     for k, (ux, uy) in enumerate(rays):
         vx, vy = rays[(k + 1) % len(rays)]
@@ -79,6 +84,12 @@ def _ways(hits: Sequence[Hit]) -> list[Integers]:
         move[x], move[y] = between
         out.append(tuple(move))
     return out
+
+
+def _reduced(*vector: int) -> tuple[int, ...]:
+    """Return the least integers that have the same direction."""
+    unit = gcd(*vector)
+    return tuple(v // unit for v in vector)
 
 
 def _by_angle(u: tuple[int, int], v: tuple[int, int]) -> int:

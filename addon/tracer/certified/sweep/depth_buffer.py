@@ -96,6 +96,10 @@ class DepthBuffer:
                 low, high = (int(v) // (COARSE * self.stride) for v in (pixel.min(), pixel.max()))
                 self._stale[low : high + 1] = True
 
+    def not_hidden(self, some: Fragments) -> Index:
+        """Return which fragments are not surely behind something."""
+        return np.flatnonzero(~(some.nearest < gather(self.nearness, some.pixel)))
+
     def refresh(self, y0: int, y1: int) -> None:
         """Bring the cells of rows y0 <= y < y1 up to date."""
         per = COARSE // FINE

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ....scene import Plane, Region, Scene
 from ...camera import camera_rays, film_positions
 from ...hits import NOTHING, Hits, Statistics
-from ...progress import Steps, Work, quiet, timed
+from ...progress import Steps, Work, quiet, scaled, timed
 from ...vector import Index, gather
 from ..bounds import plane_fractions
 from .boxes import InstanceBoxes, boxes_of, by_depth
@@ -28,9 +28,11 @@ from .rasterise import LARGE_SHAPE, Boxes, Rasterised, rasterised, split
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
+_FRAGMENTS = 1 << 10  # for which there is always room
 _PIXELS = 1 << 15  # of a plane, at a time
 _PAIRS = 1 << 16  # that the depth buffer is asked about together
 _BYTES_PER_TRIANGLE = 128  # of a chunk, with its vertices
+_BYTES_PER_FRAGMENT = 48  # until its pixel is decided
 
 
 def sweep(
@@ -43,10 +45,31 @@ def sweep(
 ) -> Work[Hits]:
     """Find the nearest hits of a region's rays, as `plain` does.
 
-    `memory` is how many bytes a chunk of the scene may take, about.
+    `memory` is how many bytes a chunk of the scene may take, about, and as many its fragments.
     """
-    swept = Sweep(scene, Film(scene.camera, dx, dy), region, statistics or Statistics())
-    return quiet(swept.steps(triangles_in(memory)))
+    film = Film(scene.camera, dx, dy)
+    return quiet(_swept(scene, film, region, memory, statistics or Statistics()))
+
+
+def _swept(
+    scene: Scene, film: Film, region: Region, memory: int, statistics: Statistics
+) -> Work[Hits]:
+    """Sweep a region; where more surfaces tie than memory has room for, its halves, one by one."""
+    pairs, culling, share = statistics.pairs_tested, statistics.culling.copy(), 0.0
+    work = Sweep(scene, film, region, statistics).steps(memory)
+    while True:
+        try:
+            yield (share := next(work))
+        except StopIteration as stop:
+            if stop.value is not None:
+                return stop.value
+            break
+    statistics.pairs_tested, statistics.culling = pairs, culling  # each pair counts once
+    size, halves = (1 - share) / 2, []
+    for k, half in enumerate(region.halves):
+        part = _swept(scene, film, half, memory, statistics)
+        halves.append((yield from scaled(part, share + k * size, size)))
+    return Hits.joined(halves)
 
 
 def triangles_in(memory: int) -> int:
@@ -62,14 +85,19 @@ class Sweep:
         self._depths = DepthBuffer(region)
         self._clip = ClipRange(film.camera)
         self._fragments: list[Fragments] = []
+        self._held = 0  # of them
         self._numbers = Numbering()
 
-    def steps(self, limit: int) -> Work[Hits]:
-        """Sweep the scene in chunks of at most `limit` triangles, and decide every pixel."""
+    def steps(self, memory: int) -> Work[Hits | None]:
+        """Sweep the scene in chunks, and decide every pixel; None if memory is too little."""
+        limit = triangles_in(memory)
+        room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
         stages = self._statistics.stages
         yield 0.0  # to make room for the depth buffer of a large picture is a step of its own
         for _ in timed(self.enter_planes(), stages):
             yield 0.0
+            if not self._fits(room):
+                return None
         parts: list[Chunk] = []
         if self._scene.instances:
             around = InstanceBoxes.of(self._scene, self._film)
@@ -80,8 +108,24 @@ class Sweep:
                 chunk = self._not_behind(chunk, around)
             for _ in timed(self.enter(chunk), stages):
                 yield 0.6 * number / len(parts)
+                if not self._fits(room):
+                    return None
         verdict = Verdict(self._scene, self._film, self._depths, self._numbers, self._statistics)
         return (yield from timed(verdict.steps(self._fragments), stages, 0.6))
+
+    def _keep(self, some: Fragments) -> None:
+        self._fragments.append(some)
+        self._held += len(some)
+
+    def _fits(self, room: int) -> bool:
+        """Return whether there is room for more fragments, without those that are hidden by now."""
+        if self._held <= room:
+            return True
+        for k, some in enumerate(self._fragments):
+            self._fragments[k] = some.take(self._depths.not_hidden(some))
+        self._held = sum(map(len, self._fragments))
+        region = self._depths.region
+        return self._held <= 0.75 * room or region.width * region.height == 1
 
     def _not_behind(self, chunk: Chunk, around: InstanceBoxes) -> Chunk:
         """Return a chunk without the instances that what is nearer hides."""
@@ -100,7 +144,7 @@ class Sweep:
         for number, infinite in enumerate(planes):
             for low in range(0, size, _PIXELS):
                 pixel = np.arange(low, min(low + _PIXELS, size))
-                self._fragments.append(self._of_plane(infinite, pixel, start + number))
+                self._keep(self._of_plane(infinite, pixel, start + number))
                 yield "planes"
 
     def _of_plane(self, infinite: Plane, pixel: Index, surface: int) -> Fragments:
@@ -161,7 +205,7 @@ class Sweep:
                 boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
                 yield "set-up"
                 for pairs in self.pairs(found, boxes, shape):
-                    self._fragments.append(self.of_pairs(found, pairs, start + some))
+                    self._keep(self.of_pairs(found, pairs, start + some))
                     yield "pixels"
 
     def boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:

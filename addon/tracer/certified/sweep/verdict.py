@@ -7,8 +7,6 @@ all that they may see, go to a `Contest`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,7 +15,7 @@ from ...camera import Rays, camera_rays, corner_rays, film_positions
 from ...candidates import Pairs
 from ...hits import NOTHING, Hits, Statistics, Ties
 from ...progress import Steps, mapped
-from ...vector import Index, gather, grouped, parts
+from ...vector import Index, gather, grouped, groups, parts
 from ...world import WorldTriangles, world_corners
 from ..certainty import Certainty
 from ..contest import Contest
@@ -28,7 +26,7 @@ from .film import Film
 
 _PAIRS = 1 << 15  # that a contest tests at a time
 _FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
-_RAYS = 1 << 14  # of a contest
+_RAYS, _CANDIDATES = 1 << 14, 1 << 15  # of a contest, at most
 _PIXELS = 1 << 17  # whose surfaces are prepared together: what that takes is some MiB
 
 
@@ -48,8 +46,8 @@ class Verdict:
         self._planes = [(p.point, p.normal) for p in scene.planes]
         self._around = corner_rays(film.camera, film.dx, film.dy)
 
-    def steps(self, fragments: Sequence[Fragments]) -> Steps[Hits]:
-        """Decide every pixel by its fragments, in small steps that say what they were."""
+    def steps(self, fragments: list[Fragments]) -> Steps[Hits]:
+        """Decide every pixel by its fragments, which it empties, in small steps with names."""
         region = self._depths.region
         count = region.width * region.height
         hits = Hits.room(count)
@@ -60,9 +58,10 @@ class Verdict:
         near, total = [], 0
         last, surface = np.full(count, NOTHING, np.int32), np.empty(count, np.int64)
         yield "verdict"
-        for some in Fragments.together(fragments, _FRAGMENTS):
-            seen = ~(some.nearest < gather(self._depths.nearness, some.pixel))
-            some = some.take(np.flatnonzero(seen))
+        # Each is let go of as soon as it is looked at.
+        every = (fragments.pop(0) for _ in range(len(fragments)))
+        for some in Fragments.together(every, _FRAGMENTS):
+            some = some.take(self._depths.not_hidden(some))
             pixel = self._depths.pixels(some.pixel)
             number = np.arange(total, total + len(pixel), dtype=np.int32)
             last[pixel], surface[pixel] = number, some.surface
@@ -80,40 +79,43 @@ class Verdict:
                 at = decided[own]
                 if len(at):
                     yield from self._enter_sure(hits, at, gather(surface, at) - first, chunk)
-        yield from self._enter_open(hits, open_, [(pixel, of) for pixel, of, _, _ in near])
+        del last, surface
+        yield from self._enter_open(hits, open_, [near.pop(0)[:2] for _ in range(len(near))])
         return hits
 
     def _enter_open(
-        self, hits: Hits, open_: NDArray[np.bool_], pairs: Sequence[tuple[Index, Index]]
+        self, hits: Hits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
     ) -> Steps[None]:
         """Enter the pixels that may see several surfaces, or none for sure: some at a time.
 
-        `pairs` are pixels and surfaces, of these pixels and of others.
+        `pairs` are pixels and surfaces, of these pixels and of others; they are used up.
         """
         every = np.flatnonzero(open_)
-        starts = every[::_RAYS]
         self._statistics.culling["left"] += len(every)
-        groups: list[list[tuple[Index, Index]]] = [[] for _ in starts]
-        for pixel, surface in pairs if len(starts) else ():
+        amount = np.zeros(len(open_), np.int32)
+        for k, (pixel, surface) in enumerate(pairs):
             rest = np.flatnonzero(gather(open_, pixel))
-            pixel, surface = gather(pixel, rest), gather(surface, rest)
+            pairs[k] = pixel, _ = gather(pixel, rest), gather(surface, rest)
+            np.add.at(amount, pixel, 1)
+            yield "contest"
+        ends = list(groups(amount[every] + _CANDIDATES // _RAYS, _CANDIDATES))
+        starts = every[[first for first, _ in ends]]
+        contests: list[list[tuple[Index, Index]]] = [[] for _ in ends]
+        while pairs and ends:
+            pixel, surface = pairs.pop()
             group = (np.searchsorted(starts, pixel, side="right") - 1).astype(np.uint16)
-            for members, own in zip(groups, grouped(group, len(starts)), strict=True):
+            for members, own in zip(contests, grouped(group, len(ends)), strict=True):
                 if len(own):
                     members.append((pixel[own], surface[own]))
             yield "contest"
         ties = []
-        for number, members in enumerate(groups):
-            which = every[number * _RAYS : (number + 1) * _RAYS]
+        for (first, last), members in zip(ends, contests, strict=True):
+            which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
+            members.clear()
             ray = np.searchsorted(which, pixel)
             ties.append((yield from self._contest(hits, which, ray, surface)))
-        hits.ties = Ties.room(sum(len(part.ray) for part in ties))
-        first = 0
-        for part in ties:
-            hits.ties.enter(first, part)
-            first += len(part.ray)
-            yield "contest"
+        hits.ties = Ties.joined(ties)
 
     def _enter_sure(self, hits: Hits, at: Index, row: Index, chunk: Names) -> Steps[None]:
         """Enter pixels that surely see these surfaces of a chunk, which are all that they have."""
