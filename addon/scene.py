@@ -16,6 +16,12 @@ from numpy.typing import NDArray
 
 from .projections import PERSPECTIVE, PROJECTIONS, Projection
 
+# Of a camera's axes: their inverse, two factors by the determinant, is below 2^602.
+_LONGEST = 2.0**200
+# Of a pixel on the view window: its inverse is finite, and where gradual underflow puts a ray, some
+# 2^-1075 beside its place, is less than 2^-54 of a pixel beside it, far below the bounds' 2^-45.
+_LEAST_PIXEL = 2.0**-1020
+
 GREY = (0.8, 0.8, 0.8, 1.0)  # what Blender draws where a face has no material
 
 
@@ -89,8 +95,10 @@ class Camera:
 
     def __post_init__(self) -> None:
         _store(self, "world_from_camera", _matrix(self.world_from_camera, f"camera '{self.name}'"))
-        if not np.linalg.det(self.world_from_camera[:3, :3]):
-            raise SceneError(f"The axes of camera '{self.name}' lie in a plane: clear its scale.")
+        axes = self.world_from_camera[:3, :3]
+        if np.abs(axes).max() > _LONGEST or abs(np.linalg.det(axes)) < 1 / _LONGEST:
+            wrong = "are too long" if np.abs(axes).max() > _LONGEST else "lie in a plane"
+            raise SceneError(f"The axes of camera '{self.name}' {wrong}: clear its scale.")
         if self.region is None:
             _store(self, "region", Region(0, 0, self.width, self.height))
         check_size(self.width, self.height)
@@ -121,6 +129,11 @@ class Camera:
             raise SceneError(
                 f"Camera '{self.name}' has an empty or infinite view window ({w}): check its focal "
                 "length, sensor size, orthographic scale and shift."
+            )
+        if (least := min(size[0] / self.width, size[1] / self.height)) < _LEAST_PIXEL:
+            raise SceneError(
+                f"Camera '{self.name}' has pixels of {least:g}, which float64 cannot tell apart "
+                f"(below {_LEAST_PIXEL:g}): enlarge its sensor size or orthographic scale."
             )
 
     @property

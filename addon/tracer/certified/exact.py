@@ -58,6 +58,12 @@ class Hit(NamedTuple):
         """Whether the ray as it is meets an edge or a corner."""
         return 0 in self.edges
 
+    @property
+    def weights(self) -> tuple[float, ...]:
+        """The barycentrics, each correctly rounded; zeros of a plane."""
+        ab, bc, ca = self.edges or (0, 0, 0)
+        return bc / self.denominator, ca / self.denominator, ab / self.denominator
+
     def is_hit(self, moves: Moves = PERTURBATION) -> bool:
         """Return whether the ray that is infinitesimally moved meets it."""
         if not self.on_edge:

@@ -156,9 +156,7 @@ class Decisions:
         """Enter an exact hit."""
         self.hits.t[ray] = t
         self.hits.instance[ray], self.hits.triangle[ray] = name
-        if hit.edges:
-            ab, bc, ca = hit.edges
-            self.hits.s[:, ray] = [e / hit.denominator for e in (bc, ca, ab)]
+        self.hits.s[:, ray] = hit.weights
 
     def _reasons(self, found: Candidates, groups, firsts) -> list[Reason]:
         """Return why candidates were not decided by the bounds, one each."""

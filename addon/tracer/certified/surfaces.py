@@ -15,13 +15,14 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import NOTHING, Hits
-from ..vector import Arrays, Index, Vectors, cross, dot, gather, parts
+from ..vector import Arrays, Index, Vectors, cross, dot, gather, largest, parts
 from ..world import WorldTriangles
 from . import exact
 from .quotient import Quotients
 
 # What is in doubt of a candidate: nothing, the sign of an edge function or of D, the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
+_LEAST = 2.0**-960  # of the sum of edge functions: far above what gradual underflow may lose
 TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
 
 
@@ -110,12 +111,15 @@ class Prepared:
         hits.instance[at], hits.triangle[at] = instance.take(surface), triangle.take(surface)
 
     def finish(self, hits: Hits, rays_at: Callable[[Index], Rays]) -> None:
-        """Enter the t that could not be rounded for sure: integers divide."""
+        """Enter the t and barycentrics that are not known well: integers divide."""
         if not self._unsure:
             return
         at, surface = map(np.concatenate, zip(*self._unsure, strict=True))
         batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface)
-        hits.t[at] = [batch.t(batch.hit(*pair)) for pair in zip(*pairs, strict=True)]
+        found = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
+        hits.t[at] = [batch.t(hit) for hit in found]
+        for k in np.flatnonzero(np.isnan(hits.s[0, at])):
+            hits.s[:, at[k]] = found[k].weights
         self._unsure = []
 
     def meet(
@@ -127,21 +131,26 @@ class Prepared:
         s = self._weights(rays, row) if len(self._edges.T) else np.zeros((3, len(surface)))
         if self._planes:
             s[:, surface < self._planes] = 0
-        return t, sure, s
+        return t, sure & ~np.isnan(s[0]), s
 
     def _weights(self, rays: Rays, row: Index) -> Vectors:
-        """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum."""
+        """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum; NaN if that is lost."""
         edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
+        by = [rays.directions]  # what is multiplied last: as often underflow may count
         if len(edges[0]) == 1:
             of_each = [dot(normal, rays.directions) for (normal,) in edges]
         elif rays.directions.shape[1] == 1:
-            of_each = [dot(corner - rays.origins, normal) for corner, normal in edges]
+            by = [corner - rays.origins for corner, _ in edges]
+            of_each = [dot(arm, normal) for arm, (_, normal) in zip(by, edges, strict=True)]
         else:
             of_each = [
                 dot(rays.directions, cross(corner - rays.origins, side)) for corner, side in edges
             ]
         s = np.stack(of_each)
-        s /= s[0] + s[1] + s[2]
+        total = s[0] + s[1] + s[2]
+        size = np.abs(total)
+        least = _LEAST * (1 + largest(*np.abs(by).reshape(-1, by[0].shape[1])))
+        s /= np.where((size > least) & (size < np.inf), total, np.nan)
         return s
 
 

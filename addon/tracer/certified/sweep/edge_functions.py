@@ -135,6 +135,7 @@ def _fill(
         depths = [gather(vertices.depth, corner) for corner in corners]
         base, *rest = depths
         b, c = (d - base for d in rest)
+        terms = terms * largest(*map(np.abs, (*depths, b, c)), 1.0)  # what the nearness is made of
         for function in coefficients:
             np.divide(function[1] * b + function[2] * c, -amount, out=function[3])
         of_1[3] -= base
