@@ -14,6 +14,7 @@ from ..scene import Scene
 from ..tracer.certified.certainty import Certainty
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
+from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from .case import Case
@@ -237,7 +238,11 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     ------
     SizeError
         If the picture is not of the frame's size.
+    PictureTooLargeError
+        If there is not enough memory to compare them.
     """
+    region = case.scene.camera.region
+    check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # frames ask for theirs again
     frame = Frame.empty(case.scene)
     tracing = steps(case.scene, case.settings, frame)
     checking = _CHECKING if case.self_check else 0.0

@@ -17,9 +17,8 @@ from . import shading
 from .camera import camera_rays, film_positions
 from .certified.certainty import Certainty
 from .hits import NOTHING, Hits, Statistics, Ties
-from .memory import check_memory
+from .memory import TRACED, check_memory
 
-FRAME_BYTES_PER_PIXEL = 4 * 4 + 8 + 3 * 8 + 2 * 4 + 1  # of a frame's arrays
 _PIXELS = 1 << 15  # of which something is computed together
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
 
@@ -91,7 +90,7 @@ class Frame:
             If there is not enough memory for it.
         """
         h, w = scene.camera.region.height, scene.camera.region.width
-        check_memory(w, h, FRAME_BYTES_PER_PIXEL)
+        check_memory(w, h, TRACED)
         return cls(
             scene,
             np.zeros((h, w, 4), np.float32),

@@ -12,17 +12,23 @@ from pathlib import Path
 
 _GIB = 1 << 30
 
+# What a pixel takes at most at any time, of processes that make pictures of 1024 x 1024 pixels:
+# while it is traced, and made into what is written; and while it is compared. Measured by
+# `tools/memory_a_pixel.py`, rounded up.
+TRACED, COMPARED = 256, 512
+ALWAYS = 64 << 20  # bytes of temporaries, however small the picture is
+
 
 class PictureTooLargeError(MemoryError):
     """The picture cannot be held in memory; the message says by how much."""
 
 
-def check_memory(width: int, height: int, bytes_per_pixel: int) -> None:
+def check_memory(width: int, height: int, bytes_per_pixel: int, always: int = ALWAYS) -> None:
     """Raise a PictureTooLargeError if a picture of this size does not fit into free memory.
 
     Where the system does not say what is free, nothing is refused.
     """
-    needed, free = width * height * bytes_per_pixel, free_memory()
+    needed, free = always + width * height * bytes_per_pixel, free_memory()
     if free is not None and needed > free:
         raise PictureTooLargeError(
             f"The picture has {width} x {height} pixels, which take {needed / _GIB:.1f} GiB with "
@@ -35,7 +41,7 @@ def free_memory() -> int | None:
     """Return how many bytes can be had without swapping; None if the system does not say."""
     if sys.platform == "win32":
         return _free_on_windows()
-    found = [_free_of_machine(), _free_of_container()]
+    found = [_free_of_machine(), _free_of_container(), _free_of_process()]
     return min((f for f in found if f is not None), default=None)
 
 
@@ -54,6 +60,21 @@ def _free_of_container() -> int | None:
         return int(limit) - int(used)  # "max" is no number: there is no limit
     except (OSError, ValueError):
         return None
+
+
+def _free_of_process() -> int | None:
+    """Return what is left of the process's own limits, as `ulimit -v` and `-d` set them."""
+    try:
+        import resource
+
+        pages = Path("/proc/self/statm").read_text(encoding="ascii").split()
+    except (ImportError, OSError):
+        return None
+    limits = (resource.RLIMIT_AS, pages[0]), (resource.RLIMIT_DATA, pages[5])
+    soft = [(resource.getrlimit(kind)[0], int(used)) for kind, used in limits]
+    page = resource.getpagesize()
+    left = [limit - used * page for limit, used in soft if limit != resource.RLIM_INFINITY]
+    return min(left, default=None)
 
 
 def _free_on_windows() -> int | None:

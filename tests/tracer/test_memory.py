@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 
+import numpy as np
 import pytest
+import trimesh
+from reference_tracer import cli
+from reference_tracer.images import save_png, to_display
+from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer import memory
-from reference_tracer.tracer.frame import FRAME_BYTES_PER_PIXEL, Frame
-from reference_tracer.tracer.memory import PictureTooLargeError, check_memory, free_memory
+from reference_tracer.tracer.memory import (
+    ALWAYS,
+    COMPARED,
+    TRACED,
+    PictureTooLargeError,
+    check_memory,
+    free_memory,
+)
 from reference_tracer.tracer.render import render
-
-
-def test_the_share_of_a_pixel_is_that_of_the_arrays(make):
-    arrays = Frame.empty(make.scene(make.camera(7, 5))).arrays()
-    del arrays["rows_done"]
-    assert sum(a.nbytes for a in arrays.values()) == 7 * 5 * FRAME_BYTES_PER_PIXEL
 
 
 def test_free_memory_is_known_here():
@@ -34,7 +41,7 @@ def test_too_large_a_picture_is_refused(make):
     )
 
 
-@pytest.mark.parametrize("free, fits", [(None, True), (799, False), (800, True)])
+@pytest.mark.parametrize("free, fits", [(None, True), (ALWAYS + 799, False), (ALWAYS + 800, True)])
 def test_what_is_free_decides(free, fits, monkeypatch):
     monkeypatch.setattr(memory, "free_memory", lambda: free)
     if fits:
@@ -48,4 +55,70 @@ def test_the_least_of_machine_and_container_counts(monkeypatch):
     for machine, container, expected in ((5, None, 5), (None, 3, 3), (5, 3, 3), (None, None, None)):
         monkeypatch.setattr(memory, "_free_of_machine", lambda m=machine: m)
         monkeypatch.setattr(memory, "_free_of_container", lambda c=container: c)
+        monkeypatch.setattr(memory, "_free_of_process", lambda: None)
         assert free_memory() == expected
+
+
+CHILD = """
+import resource, sys
+from pathlib import Path
+from reference_tracer import cli
+
+kind, room, *argv = sys.argv[1:]
+cli.main([a.replace("large", "small") for a in argv])  # imports what the command needs
+page, field = resource.getpagesize(), {"AS": 0, "DATA": 5}[kind]
+used = int(Path("/proc/self/statm").read_text().split()[field]) * page
+kind = getattr(resource, "RLIMIT_" + kind)
+resource.setrlimit(kind, (used + int(room), resource.getrlimit(kind)[1]))
+sys.exit(cli.main(argv))
+"""
+REFUSED = r"reftrace: there is not enough memory \(The picture has \d+ x \d+ pixels, which take "
+WIDTH, HEIGHT = 360, 240
+TRACE_PNG = "trace", "large.npz", "--out", "large-traced.png"
+TRACE_EXR = "trace", "large.npz", "--out", "large-traced.exr"
+COMPARE = "compare", "large.npz", "--against", "large.png", "--out", "large-out"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux has such limits")
+@pytest.mark.parametrize(
+    "kind, command, share",
+    [
+        ("AS", TRACE_PNG, TRACED),
+        ("DATA", COMPARE, COMPARED),
+        pytest.param("DATA", TRACE_EXR, TRACED, marks=pytest.mark.torture),
+        pytest.param("AS", COMPARE, COMPARED, marks=pytest.mark.torture),
+    ],
+)
+def test_what_fits_is_done_and_what_does_not_is_refused(make, tmp_path, kind, command, share):
+    """In a process with a limit: two surfaces in one place, half of them hidden by a third."""
+    quad = make.quad(-9, 9, -9, 9, -5)
+    for name, width, height in (("small", 8, 6), ("large", WIDTH, HEIGHT)):
+        scene = make.scene(make.camera(width, height), quad, quad, make.quad(-9, 0, -9, 9, -4))
+        save_scene(tmp_path / f"{name}.npz", scene)
+        shown = to_display(render(scene).color)
+        shown[:4] = 99  # a few rows differ
+        save_png(tmp_path / f"{name}.png", shown)
+    needed = ALWAYS * (2 if command is COMPARE else 1) + WIDTH * HEIGHT * share
+    for room, codes in ((needed - (1 << 22), {4}), (needed + (1 << 22), {0, 1, 2})):
+        done = subprocess.run(
+            [sys.executable, "-c", CHILD, kind, str(room), *command],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+        )
+        assert done.returncode in codes, done.stderr
+        last = done.stderr.splitlines()[-1:] if 4 in codes else []
+        assert all(re.match(REFUSED, line) for line in last) and len(last) == (4 in codes)
+        assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("command", ["trace", "compare"])
+def test_the_largest_picture_that_blender_has_is_refused_at_once(tmp_path, command, capsys):
+    trimesh.creation.box().export(tmp_path / "box.ply")
+    save_png(tmp_path / "other.png", np.zeros((4, 4, 4), np.uint8))
+    own = ["--against", str(tmp_path / "other.png")] if command == "compare" else []
+    out = str(tmp_path / ("out" if own else "out.png"))
+    size = ["--width", "32767", "--height", "32767"]
+    assert cli.main([command, str(tmp_path / "box.ply"), *own, "--out", out, *size]) == 4
+    assert re.match(REFUSED, capsys.readouterr().err.splitlines()[-1])

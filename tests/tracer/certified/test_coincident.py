@@ -31,7 +31,7 @@ def coincident(make, count: int, width: int, height: int, **camera) -> Scene:
 
 def layers(make, rng, orthographic: bool) -> Scene:
     """Return coincident quads, in any order among others that are tilted, twice some of them."""
-    scene = coincident(make, 7, 16, 9, orthographic=orthographic, half=1.5)
+    scene = coincident(make, 7, 8, 6, orthographic=orthographic, half=1.5)
     tilted = [np.eye(4) + 0.02 * np.eye(4, k=k) for k in (0, 0, 2, 2, -2)]
     instances = [*scene.instances, *(Instance(0, 0, m) for m in tilted)]
     return replace(scene, instances=[instances[k] for k in rng.permutation(len(instances))])
@@ -60,10 +60,10 @@ def test_pieces_are_the_whole(make, rng, monkeypatch):
         expected = result_of(sweep.sweep(scene, scene.camera.region, 1 << 30, statistics=whole))
         truth = scene_sights(scene)
         names = list(zip(expected.instance.tolist(), expected.triangle.tolist(), strict=True))
-        assert names == [s.seen for s in truth] and len(expected.ties) > 40
+        assert names == [s.seen for s in truth] and len(expected.ties) > 12
         for k, tied in expected.ties.items():
             assert names[k] in tied and truth[k].may <= tied <= truth[k].touched
-        for room in (1, 40, 300):
+        for room in (30, 100):
             with monkeypatch.context() as patch:
                 patch.setattr(sweep, "_FRAGMENTS", room)
                 patch.setattr(sweep, "_swept", lambda *a: calls.append(a[2]) or in_one(*a))
@@ -74,7 +74,7 @@ def test_pieces_are_the_whole(make, rng, monkeypatch):
             assert found.ties == expected.ties and own.reasons == whole.reasons
             assert own.pairs_tested >= own.pairs_exact
             assert own.culling["left"] == whole.culling["left"]
-    assert len(calls) > 100 and {(r.width, r.height) for r in calls} >= {(16, 9), (16, 1), (1, 1)}
+    assert len(calls) > 20 and {(r.width, r.height) for r in calls} >= {(8, 6), (8, 1)}
 
 
 def test_the_price_grows_with_the_surfaces(make, monkeypatch):
