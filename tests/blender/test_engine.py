@@ -195,6 +195,54 @@ def test_a_pass_goes_through_the_compositor(name, solids, build, export, tmp_pat
         np.testing.assert_array_equal(pixels[..., :3], values)
 
 
+@pytest.fixture
+def handed_over(monkeypatch):
+    """Render in many bands, by a clock of which a step takes a second and a picture thirty.
+
+    Gives the first row and the number of rows of each tile, and when it was handed over.
+    """
+    clock, tiles, module = SimpleNamespace(now=0.0), [], "reference_tracer.blender.engine"
+    show = ReferenceTracerEngine._show
+
+    class Recorder:
+        def __init__(self, engine):
+            self._engine = engine
+
+        def __getattr__(self, name):
+            return getattr(self._engine, name)
+
+        def begin_result(self, x, y, width, height, layer):
+            tiles.append((y, height, clock.now))
+            clock.now += 30 * height / 54
+            return self._engine.begin_result(x, y, width, height, layer=layer)
+
+    def a_second_later(*args):
+        for share in rendering.steps(*args):
+            clock.now += 1
+            yield share
+
+    monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (96 * 2))
+    monkeypatch.setattr(ReferenceTracerEngine, "_show", lambda self, *a: show(Recorder(self), *a))
+    monkeypatch.setattr(f"{module}.steps", a_second_later)
+    monkeypatch.setattr(f"{module}.time", SimpleNamespace(monotonic=lambda: clock.now))
+    return tiles
+
+
+def test_no_row_is_shown_twice_before_the_end(solids, rendered, export, handed_over):
+    """However long Blender takes to show them, it is a tenth of the time; and all comes through."""
+    passes = rendered()["ViewLayer"]
+    *partial, (first, rows, ended) = handed_over
+    assert (first, rows) == (0, 54)
+    assert len(partial) > 3
+    known = 0
+    for first, rows, _ in partial:
+        assert first == known and rows > 0
+        known = first + rows
+    assert known <= 54
+    assert 30 * known / 54 <= ended / 10
+    assert_same(passes, render(export.render()[0]))
+
+
 class CancelledEngine:
     """What Blender gives an engine, with Esc pressed once so many questions were asked."""
 
