@@ -22,6 +22,7 @@ from .methods import PLAIN, Method
 from .scene import Camera, SceneError
 from .scene_files import MESH_SUFFIXES
 from .tracer.certified.certainty import AssumptionError
+from .tracer.memory import PictureTooLargeError
 from .tracer.settings import Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
@@ -259,7 +260,7 @@ def failed(error: Exception, program: str) -> int:
 def words(error: BaseException) -> str:
     """Return what a user is told of an error, in one line."""
     text = " ".join(str(error).split())
-    if isinstance(error, MemoryError):
+    if isinstance(error, MemoryError) and not isinstance(error, PictureTooLargeError):
         return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"
     return text or type(error).__name__
 

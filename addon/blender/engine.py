@@ -15,10 +15,10 @@ from typing import Any
 import bpy
 import numpy as np
 
+from ..arguments import EXPECTED, words
 from ..compare.certificate import CameraCertificate
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
-from ..tracer.certified.certainty import AssumptionError
 from ..tracer.frame import PASSES, Frame, Pass
 from ..tracer.render import steps
 from .camera import certify_camera
@@ -55,8 +55,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
                 _captured.append(export_certified(depsgraph))
                 return
             self._trace(depsgraph)
-        except (SceneError, ValueError, AssumptionError) as error:
-            self.report({"ERROR"}, str(error))
+        except (*EXPECTED, ValueError) as error:
+            self.report({"ERROR"}, words(error))
         except Exception as error:  # whatever it is, Blender must hear of it
             traceback.print_exc()
             self.report({"ERROR"}, f"Reference Tracer failed: {type(error).__name__}: {error}")

@@ -190,3 +190,34 @@ def test_a_script_ends_with_an_exit_code(fault, message, tmp_path):
     assert path.exists() == (message is None)
     assert (done.returncode == 0) == (message is None)
     assert message is None or message in done.stderr
+
+
+LARGE = """
+import bpy, reference_tracer, resource
+reference_tracer.register()
+scene = bpy.context.scene
+scene.render.engine, scene.render.resolution_percentage = "REFERENCE_TRACER", 100
+used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
+resource.setrlimit(resource.RLIMIT_AS, (used + (300 << 20),) * 2)
+for size in (4096, 32767):
+    scene.render.resolution_x = scene.render.resolution_y = size
+    try:
+        bpy.ops.render.render()
+    except RuntimeError as error:
+        print("refused:", error)
+scene.render.engine = "CYCLES"
+reference_tracer.unregister()
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for a limit")
+def test_a_picture_that_does_not_fit_is_refused_in_words():
+    """Whether that is known before the work, or found out: 4096² take 0.9 GiB, 300 MiB are left."""
+    done = subprocess.run([sys.executable, "-c", LARGE], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    refused = [line for line in done.stdout.splitlines() if line.startswith("refused: Error: ")]
+    assert len(refused) == 2
+    for line in refused:
+        assert line.count("choose a smaller size") == 1 and "failed" not in line
+    assert "32767 x 32767 pixels" in refused[1]
+    assert "Traceback" not in done.stdout + done.stderr
