@@ -32,7 +32,7 @@ from .judges import JUDGES, Judge, judge_named
 from .planes import stand_ins
 from .rasteriser import snapping_of
 from .temporary import temporary_scene, values_kept
-from .unmodelled import of_shading
+from .unmodelled import by_handlers, of_shading
 from .viewport import (
     anti_aliasing,
     picture,
@@ -87,6 +87,7 @@ def gather_case(
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, engine, like_for_like)
         exported, manifest, certificate = export_for_judge(tmp, layer, engine)
         certificate.check()
+        there = [o.name_full for o in scene.objects]
         if like_for_like and used["color_type"] == "RANDOM":
             engine.check_random(exported, manifest.owners)
         if not like_for_like:
@@ -111,6 +112,8 @@ def gather_case(
     if stored.identity if identity is None else identity:
         shown = with_identity(drawing, shown)
     shown, manifest = with_what_draws_itself(drawing, shown)
+    if there != [o.name_full for o in scene.objects]:
+        manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(scene)))
     return Case(
         with_planes, manifest, settings, shown, certificate, self_check=checked, next_frame=later
     )

@@ -71,8 +71,10 @@ def judge_of(scene: Any) -> Any:
 
 def _isolate(scene: Any, layer: str) -> None:
     render = scene.render
-    render.use_sequencer = render.use_compositing = render.use_multiview = False
+    render.use_compositing = render.use_multiview = False
     render.use_stamp = render.use_freestyle = render.use_motion_blur = False
+    # With `use_sequencer` off, handlers that add or remove data crash Blender (5.2).
+    scene.sequence_editor_clear()
     # Rendering another layer than the first by its name crashes Blender (5.2).
     for other in [v for v in scene.view_layers if v.name != layer]:
         scene.view_layers.remove(other)

@@ -147,6 +147,12 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
             yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)
 
 
+def by_handlers(scene: Any) -> Unmodelled:
+    """Return what it is when the scene's objects are others once Blender has drawn them."""
+    detail = "a script's handlers added or removed objects while Blender drew"
+    return Unmodelled(f"scene '{scene.name}'", "handlers", detail, None, Effect.PICTURE)
+
+
 def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
     """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it.
 
