@@ -31,6 +31,8 @@ class LongWork:
     bl_options = {"UNDO"}  # what it leaves is one step
 
     running: ClassVar[str] = ""  # the label of the one that is, in whichever window
+    _work: ClassVar[Work[Any]]  # of that one
+    _timer: ClassVar[Any]
     needs_camera: ClassVar[bool] = False
 
     directory: StringProperty(  # type: ignore[valid-type]
@@ -72,11 +74,11 @@ class LongWork:
         if bpy.app.background:
             return self.execute(context)
         try:
-            self._work = self.begin(context)
+            LongWork._work = self.begin(context)
         except Exception as error:
             return self._fail(error)
         manager = context.window_manager
-        self._timer = manager.event_timer_add(PAUSE, window=context.window)
+        LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         self._began = self._shown = time.monotonic()
@@ -122,10 +124,19 @@ class LongWork:
             f"{self.bl_label}: {int(100 * share)} %{left}  (Esc: cancel)"
         )
 
-    def _clean_up(self, context: Any) -> None:
+    @staticmethod
+    def stop() -> None:
+        """Stop whatever is running: Blender tells no operator that its add-on is switched off."""
+        if LongWork.running:
+            window = bpy.context.window or bpy.context.window_manager.windows[0]
+            with bpy.context.temp_override(window=window):  # a script may have none
+                LongWork._clean_up(bpy.context)
+
+    @staticmethod
+    def _clean_up(context: Any) -> None:
         LongWork.running = ""
-        self._work.close()
-        context.window_manager.event_timer_remove(self._timer)
+        LongWork._work.close()
+        context.window_manager.event_timer_remove(LongWork._timer)
         context.window_manager.progress_end()
         if context.workspace:
             context.workspace.status_text_set(None)

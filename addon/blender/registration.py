@@ -43,6 +43,7 @@ def register() -> None:
 def unregister() -> None:
     """Undo :func:`register`."""
     bpy.app.handlers.load_pre.remove(_file_closes)
+    LongWork.stop()
     results.forget()
     for module in reversed(MODULES):
         module.unregister()

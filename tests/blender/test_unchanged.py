@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+import reference_tracer
 from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.results import BLENDER, DIFFERENCE, TRACED
 
@@ -258,3 +259,21 @@ def test_the_snapshot_sees_what_it_is_for(user_scene):
         "/preferences/viewport_aa",
         "/names/meshes",
     } <= found
+
+
+def test_off_and_on_a_hundred_times_leaves_nothing(user_scene, compare):
+    """The user's own settings of the add-on are there again, too, each time."""
+    lists = (getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers))
+    handlers = [h for h in lists if isinstance(h, list)]
+    before, counts = state(), [len(h) for h in handlers]
+    classes = len(bpy.types.Operator.__subclasses__()), len(bpy.types.Panel.__subclasses__())
+    for _ in range(100):
+        reference_tracer.unregister()
+        reference_tracer.register()
+    assert differences(before, state()) == []
+    assert [len(h) for h in handlers] == counts
+    after = len(bpy.types.Operator.__subclasses__()), len(bpy.types.Panel.__subclasses__())
+    assert after == classes
+    assert user_scene.reference_tracer.method == "moller_trumbore"
+    compare()
+    assert differences(before, state()) == []

@@ -17,6 +17,7 @@ sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
 import hard_stories
 import inspector_stories
+import interruption_stories
 import page_stories
 import stories
 import study_stories
@@ -24,7 +25,14 @@ from story import OUT, noted, window
 
 STORIES = {
     story.__name__: (module.SCENE, story)
-    for module in (stories, hard_stories, inspector_stories, page_stories, study_stories)
+    for module in (
+        stories,
+        hard_stories,
+        inspector_stories,
+        interruption_stories,
+        page_stories,
+        study_stories,
+    )
     for story in module.STORIES
 }
 

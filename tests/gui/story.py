@@ -9,6 +9,7 @@ from pathlib import Path
 import bpy
 
 OUT = Path("/project/out/gui")
+MODULE = "bl_ext.user_default.reference_tracer"
 SIDEBAR_TAB = ("1308", "233")  # ours, in a window of 1600 x 900
 noted = {}  # what the story that is played has found; see play.py
 
@@ -101,7 +102,7 @@ def reports():
 
 def module(name):
     """A module of the installed extension."""
-    return sys.modules[f"bl_ext.user_default.reference_tracer.addon.{name}"]
+    return sys.modules[f"{MODULE}.addon.{name}"]
 
 
 def result(kind="compare.comparison.Comparison"):

@@ -1,0 +1,270 @@
+"""What a user, or a script, does while a comparison runs: nothing is lost, and nothing is left."""
+
+import subprocess
+from pathlib import Path
+
+import addon_utils
+import bpy
+from story import (
+    MODULE,
+    compared,
+    module,
+    noted,
+    press_compare,
+    result,
+    running,
+    settings,
+    until,
+    window,
+)
+
+TURNS = 100  # of the add-on, off and on
+FILE = "/project/out/gui/interrupted.blend"
+
+
+def interruptions():
+    """One after another, each on the sample scene opened anew."""
+    for story in INTERRUPTIONS:
+        yield from begun()
+        before = state()
+        found = noted[story.__name__] = {}
+        try:
+            yield from story(found)
+        except Exception as error:  # of one: the others are played all the same
+            found["error"] = f"{type(error).__name__}: {error}"
+            continue
+        yield 0.3
+        found["running"] = still_running()
+        if found.get("same_file", True):
+            found["left"] = changed(before)
+        if "stopped" in found:  # what ran through has shown that it works
+            yield from again(found)
+
+
+def begun():
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/suzanne.blend")
+    yield 0.3
+    window().scene.render.resolution_percentage = 30
+    bpy.context.view_layer.update()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message="begun")
+
+
+def state():
+    """All data by name, the settings, the handlers, and what the window shows."""
+    data = {  # without the screens: Blender keeps that of a closed window for a while
+        p.identifier: sorted(b.name_full for b in getattr(bpy.data, p.identifier))
+        for p in bpy.data.bl_rna.properties
+        if p.type == "COLLECTION" and p.identifier != "screens"
+    }
+    handlers = {
+        name: [getattr(h, "__qualname__", str(h)) for h in found]
+        for name in dir(bpy.app.handlers)
+        if isinstance(found := getattr(bpy.app.handlers, name), list)
+    }
+    return data | handlers | settings()
+
+
+def changed(before):
+    """What is other than it was, but for the pictures that a comparison leaves."""
+    after = state()
+    found = {k: (v, after[k]) for k, v in before.items() if v != after[k]}
+    if "images" in found:
+        first, then = found["images"]
+        if not {n for n in {*first} ^ {*then} if not n.startswith("Reference Tracer ")}:
+            del found["images"]
+    return found
+
+
+def again(found):
+    """A comparison after all that works as ever."""
+    window().scene.render.resolution_percentage = 10
+    module("blender.results").forget()
+    press_compare()
+    yield from until(compared, 60)
+    found["again"] = result().content.verdict
+
+
+def started():
+    press_compare()
+    yield 0.1
+    assert running(), "it ended before anything could interrupt it"
+
+
+def still_running():
+    """What runs by Blender's list and by the add-on's own."""
+    own = module("blender.long_work").LongWork.running
+    return [*running(), *([own] if own else [])]
+
+
+def wake():
+    """Move the pointer: Blender drops the handlers of what it ended with the next event."""
+    for x in ("500", "510"):
+        subprocess.run(["xdotool", "mousemove", x, "350"], check=True)
+
+
+def ended():
+    return not running()
+
+
+def undone(found):
+    """Undo and redo."""
+    window().scene.objects["Suzanne"].location.x += 0.001
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message="moved")
+    yield from started()
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo()
+        yield 0.2
+        bpy.ops.ed.redo()
+    yield from until(ended, 60)
+    yield 0.2
+    window().scene.objects["Suzanne"].location.x -= 0.001
+
+
+def saved(found):
+    """The file is saved; in it is nothing of the temporary scene."""
+    yield from started()
+    Path(FILE).unlink(missing_ok=True)
+    bpy.ops.wm.save_as_mainfile(filepath=FILE, copy=True)
+    yield from until(ended, 60)
+    with bpy.data.libraries.load(FILE) as (there, _):
+        found["saved"] = there.scenes
+
+
+def loaded(found):
+    """Another file, and the one that Blender starts with."""
+    yield from started()
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
+    yield 0.2
+    first = not still_running()
+    yield from started_large()
+    bpy.ops.wm.read_homefile(use_factory_startup=True)
+    yield 0.2
+    found["stopped"] = first and not still_running()
+    found["same_file"] = False
+
+
+def started_large():
+    window().scene.render.resolution_percentage = 400
+    yield from started()
+
+
+def switched_off(found):
+    """The add-on is switched off and on."""
+    yield from started()
+    off_and_on()
+    wake()
+    yield 0.2
+    found["stopped"] = not still_running()
+
+
+def switched_often(found):
+    """A hundred times, with no comparison."""
+    before = len(bpy.types.Operator.__subclasses__())
+    for _ in range(TURNS):
+        off_and_on()
+    found["classes"] = len(bpy.types.Operator.__subclasses__()) - before
+    found["stopped"] = not still_running()
+    yield 0.2
+
+
+def off_and_on():
+    addon_utils.disable(MODULE)
+    addon_utils.enable(MODULE)
+
+
+def closed_area(found):
+    """The 3D view turns into another editor, and comes back."""
+    area = next(a for a in window().screen.areas if a.type == "VIEW_3D")
+    yield from started()
+    area.type = "TEXT_EDITOR"
+    yield 0.2
+    area.type = "VIEW_3D"
+    yield from until(ended, 60)
+
+
+def closed_window(found):
+    """The window that it was started in is closed; another is there."""
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.wm.window_new()
+    yield 0.5
+    _, second = bpy.context.window_manager.windows
+    with bpy.context.temp_override(window=second):
+        bpy.ops.reference_tracer.compare("INVOKE_DEFAULT", True)
+    yield 0.1
+    with bpy.context.temp_override(window=second):
+        bpy.ops.wm.window_close()
+    yield 1
+    found["stopped"] = not still_running()
+
+
+def removed_scene(found):
+    """The scene that is compared is removed; what is shown then is another."""
+    scene = window().scene
+    other = bpy.data.scenes.new("Other")
+    yield from started()
+    window().scene = other
+    yield 0.2
+    copy = scene.copy()
+    copy.name = name = "Kept"
+    bpy.data.scenes.remove(scene)
+    yield from until(ended, 60)
+    window().scene = bpy.data.scenes[name]
+    bpy.data.scenes.remove(other)
+    window().scene.name = "Scene"
+    found["same_file"] = False
+
+
+def rendered(found):
+    """F12 while it runs."""
+    window().scene.render.engine = "REFERENCE_TRACER"
+    yield from started()
+    done = []
+
+    def told(*_):
+        done.append(True)
+
+    bpy.app.handlers.render_complete.append(told)
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.render.render("INVOKE_DEFAULT")
+    yield from until(lambda: done, 60)
+    yield from until(ended, 60)
+    bpy.app.handlers.render_complete.remove(told)
+    found["same_file"] = False
+
+
+def handled(found):
+    """A render handler adds an image and removes another, each time that Blender draws."""
+    for n in range(20):
+        bpy.data.images.new(f"Old {n}", 4, 4)
+
+    def handler(*_):
+        bpy.data.images.new("New", 4, 4)
+        old = [i for i in bpy.data.images if i.name.startswith("Old ")]
+        bpy.data.images.remove(old[0])
+
+    bpy.app.handlers.render_pre.append(handler)
+    window().scene.reference_tracer.judge = "WORKBENCH"
+    yield from started()
+    bpy.app.handlers.render_pre.remove(handler)
+    yield from until(ended, 60)
+    window().scene.reference_tracer.judge = "AUTO"
+    for image in [i for i in bpy.data.images if i.name.startswith(("Old ", "New"))]:
+        bpy.data.images.remove(image)
+
+
+INTERRUPTIONS = (
+    undone,
+    saved,
+    loaded,
+    switched_off,
+    switched_often,
+    closed_area,
+    closed_window,
+    removed_scene,
+    rendered,
+    handled,
+)
+SCENE = "suzanne"
+STORIES = (interruptions,)
