@@ -1,24 +1,27 @@
 """Arrays <-> picture files, and the way from linear colour to what a screen shows.
 
 Pictures are (h, w, 4), row 0 at the bottom; files are written with their first row on top.
-A PNG is written with zlib alone. The extra `images` has what the rest takes: Pillow reads a PNG,
-OpenEXR reads and writes an EXR.
+A PNG is written with zlib alone. The rest takes OpenImageIO, the extra `images`.
 """
 
 from __future__ import annotations
 
 import base64
+import os
 import struct
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
 _UP = 2  # PNG's filter: the difference from the row above
-_RGBA = 6  # PNG's colour type
+_RGBA, _PALETTE = 6, 3  # PNG's colour types
 
 
 class MissingLibraryError(RuntimeError):
@@ -111,26 +114,26 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
     Raises
     ------
     MissingLibraryError
-        If OpenEXR is not installed.
+        If OpenImageIO is not installed.
+    OSError
+        If the file cannot be written.
     """
-    try:
-        import OpenEXR
-    except ImportError:
-        raise _missing("EXR files", "OpenEXR") from None
-    channels = {}
+    oiio = _library()
+    names, channels = [], []
     for name, values in passes.items():
         if np.ndim(values) < 2:
             continue
         values = np.atleast_3d(values)
         letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
-        for index, letter in enumerate(letters):
-            key = letter if name == "color" else f"{name}.{letter}"
-            channels[key] = np.ascontiguousarray(values[::-1, :, index], dtype=np.float32)
-    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-    try:
-        OpenEXR.File(header, channels).write(str(path))
-    except RuntimeError as error:
-        raise OSError(f"cannot write '{path}': {error}") from error
+        names += [letter if name == "color" else f"{name}.{letter}" for letter in letters]
+        channels.append(values[::-1].astype(np.float32))
+    pixels = np.concatenate(channels, axis=-1)
+    spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], len(names), "float")
+    spec.channelnames = names
+    spec.attribute("compression", "zip")
+    file = oiio.ImageOutput.create(str(path))
+    if not (file.open(str(path), spec) and file.write_image(pixels) and file.close()):
+        raise OSError(f"cannot write '{path}': {_line(file.geterror())}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,58 +146,85 @@ class StoredPicture:
 
 
 def read_picture(path: str | Path) -> StoredPicture:
-    """Read a PNG, of 8 bits and sRGB's curve, or an EXR.
+    """Read a PNG, of sRGB's curve, or an EXR.
 
     Raises
     ------
     MissingLibraryError
-        If Pillow or OpenEXR is not installed.
+        If OpenImageIO is not installed.
     OSError
         If there is no such file, or it is no such picture.
     """
     path = Path(path)
     if not path.is_file():
         raise OSError(f"there is no file '{path}'")
-    readers = {".png": _load_png, ".exr": _load_exr}
+    readers = {".png": _png_of, ".exr": _exr_of}
     if path.suffix.lower() not in readers:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
-    return readers[path.suffix.lower()](path)
+    oiio = _library()
+    asked = oiio.ImageSpec()
+    asked.attribute("oiio:UnassociatedAlpha", 1)
+    with _quiet():
+        file = oiio.ImageInput.open(str(path), asked)
+        picture = file and readers[path.suffix.lower()](path, file)
+    if picture is None:
+        why = _line(file.geterror() if file else oiio.geterror())
+        raise OSError(f"'{path}' cannot be read, save it again: {why}")
+    return picture
 
 
-def _load_png(path: Path) -> StoredPicture:
+def _png_of(path: Path, file: Any) -> StoredPicture | None:
+    stored = file.read_image("unknown")
+    if stored is None:
+        return None
+    with path.open("rb") as header:
+        depth, kind = header.read(26)[24:]
+    most, channels = np.iinfo(stored.dtype).max, stored.shape[2]
+    order = [0] * 3 if channels < 3 else [0, 1, 2]  # grey, or RGB
+    order += [channels - 1] * (channels % 2 == 0)
+    color = np.ones((*stored.shape[:2], 4), np.float32)
+    for row, own in zip(color, stored[::-1], strict=True):
+        row[:, : len(order)] = decoded(own[:, order] / most)
+    return StoredPicture(color, 255 if kind == _PALETTE else 2**depth - 1, len(order) == 3)
+
+
+def _exr_of(path: Path, file: Any) -> StoredPicture | None:
+    names = list(file.spec().channelnames)
+    if not {"R", "G", "B"} <= set(names):
+        raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(names))}")
+    at = [names.index(c) for c in "RGBA" if c in names]
+    stored = file.read_image(min(at), max(at) + 1, "float")
+    if stored is None:
+        return None
+    color = np.ones((*stored.shape[:2], 4), np.float32)
+    color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
+    return StoredPicture(color, 0, len(at) == 3)
+
+
+def _library() -> Any:
     try:
-        from PIL import Image
+        import OpenImageIO
     except ImportError:
-        raise _missing("PNG files", "Pillow") from None
+        raise MissingLibraryError(
+            "to read PNG files, and to read or write EXR files, takes the library OpenImageIO: "
+            "pip install 'reference_tracer[images]'"
+        ) from None
+    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG by the name of a PNG is none
+    return OpenImageIO
+
+
+def _line(text: str) -> str:
+    return " ".join(text.split())
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep what C libraries print beside their error from the terminal."""
+    own, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 2)
     try:
-        with Image.open(path) as image:
-            if image.mode.startswith("I"):
-                raise OSError(f"'{path}' has 16 bits a channel: save it with 8, or as an EXR")
-            opaque = not (image.has_transparency_data or "A" in image.mode)
-            stored = np.asarray(image.convert("RGBA"))[::-1]
-    except (ValueError, SyntaxError) as error:
-        raise OSError(f"'{path}' cannot be read: {error}") from error
-    return StoredPicture(decoded(stored / 255).astype(np.float32), 255, opaque)
-
-
-def _load_exr(path: Path) -> StoredPicture:
-    try:
-        import OpenEXR
-    except ImportError:
-        raise _missing("EXR files", "OpenEXR") from None
-    try:
-        with OpenEXR.File(str(path), separate_channels=True) as file:
-            channels = {k: np.array(c.pixels, np.float32) for k, c in file.channels().items()}
-    except (RuntimeError, OSError) as error:
-        raise OSError(f"'{path}' cannot be read: {error}") from error
-    if not {"R", "G", "B"} <= channels.keys():
-        raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(channels))}")
-    alpha = channels.get("A", np.ones_like(channels["R"]))
-    color = np.stack((*(channels[c] for c in "RGB"), alpha), axis=-1)[::-1]
-    return StoredPicture(np.ascontiguousarray(color), 0, "A" not in channels)
-
-
-def _missing(what: str, library: str) -> MissingLibraryError:
-    return MissingLibraryError(
-        f"{what} need the library {library}: pip install 'reference_tracer[images]'"
-    )
+        yield
+    finally:
+        os.dup2(own, 2)
+        os.close(own)
+        os.close(nowhere)

@@ -56,7 +56,7 @@ def add(commands: Commands) -> None:
         "--against",
         type=Path,
         metavar="PICTURE",
-        help="a .png (8 bits, sRGB) or .exr (linear) of the same camera and size; a background of "
+        help="a .png (sRGB) or .exr (linear) of the same camera and size; a background of "
         "its own, of one colour or transparent, is named and not held against it",
     )
     group.add_argument(
@@ -144,7 +144,10 @@ def _shown(
     color, r = picture.color, camera.region
     if color.shape[:2] == (camera.height, camera.width):
         color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
-    dither = dither if options.dither is None else options.dither
+    if options.dither is not None:
+        dither = options.dither * picture.levels / 255
+    elif picture.levels > 255:  # Blender adds it to 8 bits alone
+        dither = 0.0
     return Picture(
         color,
         Source(file=options.against.name),

@@ -28,13 +28,13 @@ def scene(build):
 def drawn(scene, tmp_path):
     """Press F12 in the open file; leaves a PNG as the user would save it."""
 
-    def run(**view):
+    def run(mode="RGBA", depth="8", **view):
         for name, value in view.items():
             setattr(scene.view_settings, name, value)
         image = scene.render.image_settings
         if hasattr(image, "media_type"):
             image.media_type = "IMAGE"
-        image.file_format, image.color_mode, image.color_depth = "PNG", "RGBA", "8"
+        image.file_format, image.color_mode, image.color_depth = "PNG", mode, depth
         scene.render.filepath = str(tmp_path / "drawn.png")
         bpy.ops.render.render(write_still=True)
 
@@ -65,6 +65,15 @@ def test_blenders_own_png_of_a_plain_view(scene, drawn, judged):
     code, found, _ = judged()
     assert found["pixels"]["unexplained"] == 0
     assert code == 0 and found["verdict"] == "agree" and found["transform"] == ""
+
+
+@pytest.mark.parametrize("mode", ["RGB", "RGBA"])
+def test_blenders_own_png_of_16_bits(mode, scene, drawn, judged, tmp_path):
+    scene.render.film_transparent = mode == "RGBA"
+    drawn(mode, "16", view_transform="Standard")
+    assert images.read_picture(tmp_path / "drawn.png").levels == 65535
+    code, found, _ = judged()
+    assert code == 0 and found["pixels"]["agree"] == found["pixels"]["total"]
 
 
 @pytest.mark.parametrize(
