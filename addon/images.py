@@ -133,7 +133,7 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
     spec.attribute("compression", "zip")
     file = oiio.ImageOutput.create(str(path))
     if not (file.open(str(path), spec) and file.write_image(pixels) and file.close()):
-        raise OSError(f"cannot write '{path}': {_line(file.geterror())}")
+        raise OSError(f"cannot write '{path}': {_error(file)}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,8 +168,7 @@ def read_picture(path: str | Path) -> StoredPicture:
         file = oiio.ImageInput.open(str(path), asked)
         picture = file and readers[path.suffix.lower()](path, file)
     if picture is None:
-        why = _line(file.geterror() if file else oiio.geterror())
-        raise OSError(f"'{path}' cannot be read, save it again: {why}")
+        raise OSError(f"'{path}' cannot be read, save it again: {_error(file or oiio)}")
     return picture
 
 
@@ -213,8 +212,11 @@ def _library() -> Any:
     return OpenImageIO
 
 
-def _line(text: str) -> str:
-    return " ".join(text.split())
+def _error(of: Any) -> str:
+    try:
+        return " ".join(of.geterror().split())
+    except UnicodeDecodeError:  # it quotes what it read
+        return "its header is damaged"
 
 
 @contextmanager

@@ -42,7 +42,10 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
         check_size(*size)  # before a large file is read
         camera = choice.placed(*size) if choice.eye else None
         meshes = load_meshes(path, choice.up)
-        return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
+        try:
+            return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
+        except SceneError as error:
+            raise SceneError(f"'{path}': {error}") from error
     if suffix != ".blend":
         raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
     with open_blend(path, choice) as blender:

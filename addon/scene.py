@@ -188,15 +188,17 @@ class Mesh:
             vertices = vertices.astype(np.float64)
         triangles = np.asarray(self.triangles)
         slots = np.zeros(len(triangles), np.int32) if self.slots is None else self.slots
-        slots = np.asarray(slots, dtype=np.int32)
-        what = f"Mesh '{self.name}'"
+        slots, what = np.asarray(slots), f"Mesh '{self.name}'"
+        for name, array in (("triangles", triangles), ("slots", slots)):
+            if array.size and array.dtype.kind not in "iu":
+                raise SceneError(f"{what}: {name} must be integers, not {array.dtype}.")
         for name, first, array in (("vertices", "v", vertices), ("triangles", "n", triangles)):
             if array.shape[1:] != (3,):
                 raise SceneError(f"{what}: {name} must be ({first}, 3), not {array.shape}.")
         if triangles.size and not (0 <= triangles.min() and triangles.max() < len(vertices)):
             raise SceneError(f"{what}: a triangle names a vertex that is not there.")
-        if slots.shape != (len(triangles),) or (slots < 0).any():
-            raise SceneError(f"{what}: slots must be (n,) and not negative.")
+        if slots.shape != (len(triangles),) or ((slots < 0) | (slots >= 2**31)).any():
+            raise SceneError(f"{what}: slots must be (n,), from 0 to 2^31 - 1.")
         if not np.isfinite(vertices).all():
             do = "leave out their triangles (scene.drop_non_finite does)"
             raise SceneError(f"{what} has vertices that are not finite: {do}.")
@@ -205,7 +207,7 @@ class Mesh:
             if colors.shape != (len(triangles), 3, 4):
                 raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
             _store(self, "corner_colors", _locked(colors))
-        triangles = triangles.astype(np.int32, copy=False)
+        triangles, slots = (a.astype(np.int32, copy=False) for a in (triangles, slots))
         for name, array in (("vertices", vertices), ("triangles", triangles), ("slots", slots)):
             _store(self, name, _locked(array))
 

@@ -6,37 +6,40 @@ A .npz is read without pickle: it can hold numbers and nothing that runs.
 from __future__ import annotations
 
 import json
-from collections.abc import Generator
+import math
+import warnings
+from collections.abc import Generator, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import numpy as np
 
+from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, UP, framing, shown_points
 from .manifest import Manifest
-from .projections import projection_of
 from .scene import (
     Camera,
     Instance,
     Mesh,
     Plane,
-    Region,
     Scene,
     SceneError,
-    ViewWindow,
     check_size,
     drop_non_finite,
 )
+from .tracer.memory import free_memory
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
 _NO_FACES = np.zeros((0, 3), np.int64)
-_ARRAYS = {  # of a .npz, by what has them
-    "mesh": ("vertices", "triangles", "slots", "corner_colors"),
-    "instance": ("world_from_object", "colors"),
-    "plane": ("point", "normal", "color"),
+_ARRAYS = {  # of a .npz, by what has them: their shapes
+    "mesh": {"vertices": "n3", "triangles": "n3", "slots": "n", "corner_colors": "n34"},
+    "instance": {"world_from_object": "44", "colors": "n4"},
+    "plane": {"point": "3", "normal": "3", "color": "4"},
 }
+_DENSEST = 1032  # deflate makes no more of a byte (zlib's technical details)
 
 
 def diagnose(mesh: Mesh) -> dict[str, Any]:
@@ -121,41 +124,72 @@ def load_scene(path: str | Path) -> Scene:
     """
     check_is_file(path)
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            data = dict(stored)
-        head = json.loads(str(data["scene"]))
-        if head.get("schema") != _SCHEMA:
-            raise SceneError(f"'{path}' has the schema {head.get('schema')!r}, not {_SCHEMA!r}.")
-        c = head["camera"]
-        camera = Camera(
-            projection=projection_of(c.pop("orthographic", False)),
-            **c | {"window": ViewWindow(**c["window"]), "region": Region(**c["region"])},
-        )
-
-        def arrays(part: str, k: int, without: str = "") -> dict[str, np.ndarray]:
-            return {n: data[f"{part}{k}_{n}"] for n in _ARRAYS[part] if n != without}
-
-        meshes = [
-            Mesh(**arrays("mesh", k, "" if m["corner_colors"] else "corner_colors"), name=m["name"])
-            for k, m in enumerate(head["meshes"])
-        ]
-        instances = [
-            Instance(i["mesh"], i["object"], **arrays("instance", k))
-            for k, i in enumerate(head["instances"])
-        ]
-        planes = [Plane(p["object"], **arrays("plane", k)) for k, p in enumerate(head["planes"])]
-        background, objects = np.array(head["background"]), tuple(head["objects"])
-        return Scene(camera, tuple(meshes), tuple(instances), tuple(planes), background, objects)
+        with ZipFile(path) as stored, warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")  # of headers that an older numpy wrote
+            return _scene(stored)
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
+    except MemoryError as error:
+        raise MemoryError(f"for '{path}', {error}") from error
     except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
         raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
 
 
+def _scene(stored: ZipFile) -> Scene:
+    head = json.loads(str(_array(stored, "scene", "", "U")))
+    if head.get("schema") != _SCHEMA:
+        raise SceneError(f"its schema is {head.get('schema')!r}, not {_SCHEMA!r}")
+
+    def arrays(kind: str, k: int, without: str = "") -> dict[str, np.ndarray]:
+        shapes = {name: shape for name, shape in _ARRAYS[kind].items() if name != without}
+        return {name: _array(stored, f"{kind}{k}_{name}", s) for name, s in shapes.items()}
+
+    meshes = [
+        Mesh(**arrays("mesh", k, "" if m["corner_colors"] else "corner_colors"), name=m["name"])
+        for k, m in enumerate(head["meshes"])
+    ]
+    instances = [
+        Instance(whole(i, "mesh", ""), whole(i, "object", ""), **arrays("instance", k))
+        for k, i in enumerate(head["instances"])
+    ]
+    planes = [
+        Plane(whole(p, "object", ""), **arrays("plane", k)) for k, p in enumerate(head["planes"])
+    ]
+    camera = camera_of({"orthographic": False} | head["camera"])
+    background, objects = np.array(head["background"]), tuple(map(str, head["objects"]))
+    return Scene(camera, tuple(meshes), tuple(instances), tuple(planes), background, objects)
+
+
+def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> np.ndarray:
+    """Return one array of a .npz, once its header says that it is what is asked for."""
+    info, read = stored.getinfo(f"{name}.npy"), np.lib.format
+    with stored.open(info) as file:
+        first = read.read_magic(file) == (1, 0)
+        header = read.read_array_header_1_0 if first else read.read_array_header_2_0
+        own, _, dtype = header(file)
+        if dtype.kind not in kinds or len(own) != len(shape):
+            raise SceneError(f"{name} is no array of numbers, ({', '.join(shape)})")
+        if any(n not in (str(m), "n") for n, m in zip(shape, own, strict=True)):
+            raise SceneError(f"{name} has the shape {own}, not ({', '.join(shape)})")
+        size = math.prod(own) * dtype.itemsize
+        if not size < info.file_size <= _DENSEST * (info.compress_size + 1):
+            raise SceneError(f"{name} is not as long as it says: write the file again")
+        if size > (free_memory() or size):
+            raise MemoryError(f"{name} takes {size / 2**30:.1f} GiB")
+        file.seek(0)
+        return read.read_array(file, allow_pickle=False)
+
+
 def check_is_file(path: str | Path) -> None:
-    """Raise a SceneError if there is no such file."""
-    if not Path(path).is_file():
-        raise SceneError(f"there is no file '{path}'")
+    """Raise a SceneError if there is no such file, or it cannot be read."""
+    try:
+        if Path(path).exists() and not Path(path).is_file():
+            raise SceneError(f"'{path}' is no file but a folder, or a pipe: name a file")
+        Path(path).open("rb").close()
+    except FileNotFoundError:
+        raise SceneError(f"there is no file '{path}'") from None
+    except (OSError, ValueError) as error:  # a name may be too long, or none
+        raise SceneError(f"'{path}' cannot be read: {getattr(error, 'strerror', error)}") from error
 
 
 def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.ndarray]]:
@@ -180,30 +214,34 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.
     path = Path(path)
     check_is_file(path)
     try:
-        kind = path.suffix.lower().lstrip(".")
-        with np.errstate(all="ignore"):  # what is not finite is left out below
+        with warnings.catch_warnings(), np.errstate(all="ignore"):
+            warnings.simplefilter("ignore")  # trimesh's, of its own work
+            kind = path.suffix.lower().lstrip(".")
             loaded = trimesh.load(
                 path, file_type=kind, force="scene", process=False, skip_materials=True
             )
-        strips = {name: _strips(geometry) for name, geometry in loaded.geometry.items()}
+            is_y_up = (up or ("y" if kind == "glb" else "z")) == "y"
+            out = [m for node in loaded.graph.nodes_geometry for m in _mesh_of(loaded, node)]
     except Exception as error:  # each of trimesh's readers raises its own kinds
         why = str(error)
         if "unexpected length" in why:  # trimesh takes a PLY's first list for the length of all
             why = "it is cut off, or its faces or strips differ in length: save it as triangles"
         raise SceneError(f"'{path}' cannot be read as a mesh: {why}") from error
-    out = []
-    for node in loaded.graph.nodes_geometry:
-        matrix, name = loaded.graph[node]
-        if (up or ("y" if kind == "glb" else "z")) == "y":
-            matrix = np.stack((matrix[0], 0 - matrix[2], matrix[1], matrix[3]))
-        geometry = loaded.geometry[name]
-        faces = np.concatenate((getattr(geometry, "faces", _NO_FACES), strips[name]))
-        if len(faces):
-            vertices, keep = drop_non_finite(np.asarray(geometry.vertices), faces)
-            out.append((Mesh(vertices, faces[keep], name=str(name)), np.array(matrix)))
+    if is_y_up:
+        out = [(mesh, np.stack((m[0], 0 - m[2], m[1], m[3]))) for mesh, m in out]
     if not any(len(mesh.triangles) for mesh, _ in out):
         raise SceneError(f"'{path}' holds no triangles.")
     return out
+
+
+def _mesh_of(loaded: Any, node: str) -> Iterator[tuple[Mesh, np.ndarray]]:
+    """Yield what a node of a trimesh.Scene shows, if that has triangles."""
+    matrix, name = loaded.graph[node]
+    geometry = loaded.geometry[name]
+    faces = np.concatenate((getattr(geometry, "faces", _NO_FACES), _strips(geometry)))
+    if len(faces):
+        vertices, keep = drop_non_finite(np.asarray(geometry.vertices), faces)
+        yield Mesh(vertices, faces[keep], name=str(name)), np.array(matrix)
 
 
 def _strips(geometry: Any) -> np.ndarray:
@@ -257,5 +295,5 @@ def scene_of_meshes(
             with np.errstate(all="ignore"):  # Camera refuses what is not finite
                 camera = framing(points, BACKWARD, UP, width, height, angle)
         except SceneError as error:
-            raise SceneError(f"'{names[0]}' is too large to be framed: scale it down") from error
+            raise SceneError("it is too large to be framed: scale it down") from error
     return Scene(camera, shown, instances, objects=names)

@@ -16,6 +16,7 @@ ADDON = Path(__file__).parent.parent / "addon"
 FLOORS = {
     "projections": 0,
     "scene": 0,
+    "checked_json": 0,
     "manifest": 0,
     "images": 0,
     "interrupts": 0,

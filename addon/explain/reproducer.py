@@ -13,13 +13,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..projections import projection_of
-from ..scene import Camera, Region, SceneError, ViewWindow
+from ..checked_json import ENDLESS, camera_of, numbers, part, whole
+from ..scene import SceneError
+from ..scene_files import check_is_file
 from ..tracer.hits import NOTHING
 from .pixel import Candidate, Pixel
 
 SCHEMA = "reference_tracer.pixel/1"
-_ENDLESS = "inf"  # JSON has no number for it
 _COUNTS = "first_plane", "triangles", "left_out", "refused"
 
 
@@ -27,7 +27,7 @@ def text(pixel: Pixel) -> str:
     """Return a pixel as the text of a file."""
     camera = pixel.camera.to_dict()
     if np.isinf(pixel.camera.clip_end):
-        camera["clip_end"] = _ENDLESS
+        camera["clip_end"] = ENDLESS
     content = {
         "schema": SCHEMA,
         "rerun": "reftrace explain THIS_FILE.json",
@@ -55,8 +55,7 @@ def read(path: str | Path) -> Pixel:
         If there is no such file, it is none of ours, or something in it is wrong, which is named.
     """
     path = Path(path)
-    if not path.is_file():
-        raise SceneError(f"there is no file '{path}'")
+    check_is_file(path)
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
     except (ValueError, RecursionError) as error:
@@ -71,10 +70,10 @@ def _pixel(content: Any) -> Pixel:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema != SCHEMA:
         raise SceneError(f"its schema is {schema!r}, not {SCHEMA!r}: no pixel to explain")
-    first_plane = _whole(content, "first_plane", "")
+    first_plane = whole(content, "first_plane", "")
     candidates = tuple(
         _candidate(c, f"candidates[{k}]")
-        for k, c in enumerate(_get(content, "candidates", "", list))
+        for k, c in enumerate(part(content, "candidates", "", list))
     )
     planes = [c.instance for c in candidates if c.is_plane]
     if planes != list(range(first_plane, first_plane + len(planes))):
@@ -84,45 +83,26 @@ def _pixel(content: Any) -> Pixel:
     if len({c.name for c in candidates}) < len(candidates):
         raise SceneError("two of its candidates have the same instance and triangle")
     pixel = Pixel(
-        _camera(_get(content, "camera", "", dict)),
-        _whole(content, "x", ""),
-        _whole(content, "y", ""),
+        camera_of(part(content, "camera", "", dict)),
+        whole(content, "x", ""),
+        whole(content, "y", ""),
         candidates,
-        _colors(_array(content, "background", "", (4,)), "background"),
-        source=_get(content, "source", "", str),
-        **{name: _whole(content, name, "") for name in _COUNTS},
+        _colors(numbers(content, "background", "", (4,)), "background"),
+        source=part(content, "source", "", str),
+        **{name: whole(content, name, "") for name in _COUNTS},
     )
-    _check_ray(pixel, _get(content, "ray", "", dict))
+    _check_ray(pixel, part(content, "ray", "", dict))
     return pixel
 
 
 def _check_ray(pixel: Pixel, ray: dict) -> None:
     """Raise a SceneError if the file's ray is not its camera's: one of them was changed."""
     for name, own in (("origin", pixel.origin), ("direction", pixel.direction)):
-        if not np.array_equal(_array(ray, name, "ray.", (3,)), own):
+        if not np.array_equal(numbers(ray, name, "ray.", (3,)), own):
             raise SceneError(
                 f"ray.{name} is not that of the camera's pixel, {own.tolist()}: change the camera, "
                 "and write this there"
             )
-
-
-def _camera(c: dict) -> Camera:
-    window = _get(c, "window", "camera.", dict)
-    region = _get(c, "region", "camera.", dict)
-    if (projection := projection_of(c.get("orthographic"))) is None:
-        _get(c, "orthographic", "camera.", bool)  # says what is wrong with it
-    sides, ends = ("left", "right", "bottom", "top"), ("x0", "y0", "x1", "y1")
-    return Camera(
-        _array(c, "world_from_camera", "camera.", (4, 4)),
-        ViewWindow(**{k: float(_array(window, k, "camera.window.", ())) for k in sides}),
-        _whole(c, "width", "camera."),
-        _whole(c, "height", "camera."),
-        projection,
-        float(_array(c, "clip_start", "camera.", ())),
-        np.inf if c.get("clip_end") == _ENDLESS else float(_array(c, "clip_end", "camera.", ())),
-        Region(**{k: _whole(region, k, "camera.region.") for k in ends}),
-        _get(c, "name", "camera.", str),
-    )
 
 
 def _candidate(c: Any, where: str) -> Candidate:
@@ -130,21 +110,21 @@ def _candidate(c: Any, where: str) -> Candidate:
         raise SceneError(f"{where} must be an object in braces")
     where += "."
     is_plane = c.get("triangle") == NOTHING
-    triangle = NOTHING if is_plane else _whole(c, "triangle", where)
-    colors = _array(c, "colors", where, None)
+    triangle = NOTHING if is_plane else whole(c, "triangle", where)
+    colors = numbers(c, "colors", where, None)
     if colors.shape not in (((1, 4),) if is_plane else ((1, 4), (3, 4))):
         raise SceneError(f"{where}colors must be one RGBA, or one for each corner of a triangle")
-    points = _array(c, "points", where, (2, 3) if is_plane else (3, 3))
+    points = numbers(c, "points", where, (2, 3) if is_plane else (3, 3))
     if is_plane and not points[1].any():
         raise SceneError(f"{where}points[1], the plane's normal, is zero")
     return Candidate(
-        _get(c, "object", where, str),
-        _whole(c, "instance", where),
+        part(c, "object", where, str),
+        whole(c, "instance", where),
         triangle,
         points,
         _colors(colors, f"{where}colors"),
-        _get(c, "mesh", where, str),
-        _whole(c, "slot", where),
+        part(c, "mesh", where, str),
+        whole(c, "slot", where),
     )
 
 
@@ -152,38 +132,3 @@ def _colors(values: NDArray[np.float64], where: str) -> NDArray[np.float32]:
     if np.abs(values).max() > np.finfo(np.float32).max:
         raise SceneError(f"{where} is beyond what a float32 holds")
     return values.astype(np.float32)
-
-
-def _get(content: dict, key: str, where: str, kind: type) -> Any:
-    if key not in content:
-        raise SceneError(f"{where}{key} is missing")
-    value = content[key]
-    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
-        names = {dict: "an object in braces", list: "a list", str: "text", int: "an integer"}
-        raise SceneError(f"{where}{key} must be {names.get(kind, 'true or false')}")
-    return value
-
-
-def _whole(content: dict, key: str, where: str) -> int:
-    value = _get(content, key, where, int)
-    if not 0 <= value < 2**31:
-        raise SceneError(f"{where}{key} is {value}; it must be between 0 and 2^31 - 1")
-    return value
-
-
-def _array(
-    content: dict, key: str, where: str, shape: tuple[int, ...] | None
-) -> NDArray[np.float64]:
-    """Return finite numbers of a shape, any if None."""
-    if key not in content:
-        raise SceneError(f"{where}{key} is missing")
-    try:
-        values = np.array(content[key])
-        values = values.astype(np.float64 if values.dtype.kind in "iuf" else "no numbers")
-    except (ValueError, TypeError, OverflowError):
-        values = np.array(np.nan)
-    if not np.isfinite(values).all() or (shape is not None and values.shape != shape):
-        size = " x ".join(map(str, shape or ()))
-        what = "a finite number" if shape == () else f"{size} finite numbers".lstrip()
-        raise SceneError(f"{where}{key} must be {what}")
-    return values

@@ -1,0 +1,75 @@
+"""Content of a JSON file -> what it describes; what is wrong in it is named by where it stands.
+
+Whoever calls adds the file's name to the SceneError.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .projections import projection_of
+from .scene import Camera, Region, SceneError, ViewWindow
+
+ENDLESS = "inf"  # JSON has no number for it
+
+
+def camera_of(c: dict) -> Camera:
+    """Return a camera of which all is there."""
+    window = part(c, "window", "camera.", dict)
+    region = part(c, "region", "camera.", dict)
+    if (projection := projection_of(c.get("orthographic"))) is None:
+        part(c, "orthographic", "camera.", bool)  # says what is wrong with it
+    sides, ends = ("left", "right", "bottom", "top"), ("x0", "y0", "x1", "y1")
+    if (clip_end := c.get("clip_end")) not in (ENDLESS, np.inf):
+        clip_end = numbers(c, "clip_end", "camera.", ())
+    return Camera(
+        numbers(c, "world_from_camera", "camera.", (4, 4)),
+        ViewWindow(**{k: float(numbers(window, k, "camera.window.", ())) for k in sides}),
+        whole(c, "width", "camera."),
+        whole(c, "height", "camera."),
+        projection,
+        float(numbers(c, "clip_start", "camera.", ())),
+        float(clip_end),
+        Region(**{k: whole(region, k, "camera.region.") for k in ends}),
+        part(c, "name", "camera.", str),
+    )
+
+
+def part(content: dict, key: str, where: str, kind: type) -> Any:
+    """Return what an object has by a name, of a kind."""
+    if key not in content:
+        raise SceneError(f"{where}{key} is missing")
+    value = content[key]
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        names = {dict: "an object in braces", list: "a list", str: "text", int: "an integer"}
+        raise SceneError(f"{where}{key} must be {names.get(kind, 'true or false')}")
+    return value
+
+
+def whole(content: dict, key: str, where: str) -> int:
+    """Return an integer that is not negative."""
+    value = part(content, key, where, int)
+    if not 0 <= value < 2**31:
+        raise SceneError(f"{where}{key} is {value}; it must be between 0 and 2^31 - 1")
+    return value
+
+
+def numbers(
+    content: dict, key: str, where: str, shape: tuple[int, ...] | None
+) -> NDArray[np.float64]:
+    """Return finite numbers of a shape, any if None."""
+    if key not in content:
+        raise SceneError(f"{where}{key} is missing")
+    try:
+        values = np.array(content[key])
+        values = values.astype(np.float64 if values.dtype.kind in "iuf" else "no numbers")
+    except (ValueError, TypeError, OverflowError):
+        values = np.array(np.nan)
+    if not np.isfinite(values).all() or (shape is not None and values.shape != shape):
+        size = " x ".join(map(str, shape or ()))
+        what = "a finite number" if shape == () else f"{size} finite numbers".lstrip()
+        raise SceneError(f"{where}{key} must be {what}")
+    return values

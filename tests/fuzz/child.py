@@ -1,0 +1,95 @@
+"""Read hostile files in a process whose memory is limited; run by test_hostile_files.py.
+
+In come a folder of valid files, a seed, and which cases; out goes a line of JSON for each case that
+went wrong, and one for all. The number of the case at work is in the file `at`: if this process
+dies, that one has killed it.
+"""
+
+from __future__ import annotations
+
+import json
+import resource
+import signal
+import sys
+import traceback
+import warnings
+from collections import Counter
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+MEMORY = 2 << 30  # bytes of address space beyond what the libraries take
+PATIENCE = 60  # seconds for one file, so that a hang is found; what it costs is no question here
+TRACED = 8  # one scene of so many that can be read
+
+FOLDER, SEED, FIRST, COUNT = sys.argv[1], *map(int, sys.argv[2:5])
+sys.path.insert(0, str(Path(__file__).parent))
+from mutations import mutated  # noqa: E402
+from reference_tracer.arguments import EXPECTED, words  # noqa: E402
+from reference_tracer.explain import document, reproducer  # noqa: E402
+from reference_tracer.explain.derivation import derive_pixel  # noqa: E402
+from reference_tracer.images import read_picture  # noqa: E402
+from reference_tracer.opening import load  # noqa: E402
+from reference_tracer.scene import Region  # noqa: E402
+from reference_tracer.tracer.render import render  # noqa: E402
+
+PICTURES = ".png", ".exr"
+
+
+def read(path: Path, thorough: bool) -> None:
+    """Read a file as the commands do, and use what it holds."""
+    if path.suffix in PICTURES:
+        picture = read_picture(path)
+        assert picture.color.dtype == np.float32 and picture.color.shape[2:] == (4,)
+    elif path.suffix == ".json":
+        pixel = reproducer.read(path)
+        if thorough:
+            document.document_markdown(derive_pixel(pixel))
+    else:
+        scene, _ = load(path, None, (8, 8))
+        for mesh in scene.meshes:
+            assert np.isfinite(mesh.vertices).all()
+        if thorough:
+            small = replace(scene.camera, width=8, height=8, region=Region(0, 0, 8, 8))
+            frame = render(replace(scene, camera=small))
+            assert frame.color.shape == (8, 8, 4)
+
+
+def main() -> None:
+    valid = sorted(Path(FOLDER, "valid").iterdir())
+    contents = [path.read_bytes() for path in valid]
+    found: Counter[str] = Counter()
+    for path in valid:  # also loads every library before memory is limited
+        read(path, True)
+    limited = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() + MEMORY
+    resource.setrlimit(resource.RLIMIT_AS, (limited, limited))
+    warnings.simplefilter("error", RuntimeWarning)
+    warnings.simplefilter("error", UserWarning)
+    for case in range(FIRST, FIRST + COUNT):
+        Path(FOLDER, "at").write_text(str(case))
+        rng = np.random.default_rng((SEED, case))
+        number = case % len(valid)
+        suffix = valid[number].suffix
+        other = contents[rng.integers(len(contents))]
+        path = Path(FOLDER, f"hostile{suffix}")
+        path.write_bytes(mutated(suffix, contents[number], rng, other))
+        signal.alarm(PATIENCE)
+        try:
+            read(path, case // len(valid) % TRACED == 0)
+            found[f"{suffix} read"] += 1
+        except Exception as error:
+            said = words(error)
+            if isinstance(error, EXPECTED) and (
+                path.name in said or isinstance(error, MemoryError)
+            ):
+                found[f"{suffix} refused"] += 1
+            else:
+                lines = traceback.format_exception(error)[-4:]
+                print(json.dumps({"case": case, "suffix": suffix, "error": lines}), flush=True)
+        signal.alarm(0)
+    most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    print(json.dumps({"found": found, "memory": most}), flush=True)
+
+
+main()
