@@ -131,6 +131,7 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
     spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], len(names), "float")
     spec.channelnames = names
     spec.attribute("compression", "zip")
+    spec.attribute("DateTime", "")  # the same frame makes the same file
     file = oiio.ImageOutput.create(str(path))
     if not (file.open(str(path), spec) and file.write_image(pixels) and file.close()):
         raise OSError(f"cannot write '{path}': {_error(file)}")

@@ -88,6 +88,10 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
             except RuntimeError as error:
                 reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
                 raise SceneError(f"'{path}' cannot be opened: {reason}") from error
+        saved, own = (".".join(map(str, v.version[:2])) for v in (bpy.data, bpy.app))
+        if bpy.data.version[:2] > bpy.app.version[:2]:
+            do = f"open it with {saved} or newer, as what is new in it is lost here"
+            raise SceneError(f"'{path}' was saved by Blender {saved}; this is {own}: {do}")
         with chosen(choice):
             yield bpy
     finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 import sys
+import time
 import zlib
 
 import numpy as np
@@ -98,6 +99,14 @@ def test_exr_holds_every_pass(tmp_path, rng):
         )
     assert np.array_equal(channels["depth.V"], passes["depth"])
     assert np.array_equal(channels["object_index.V"], passes["object_index"])
+
+
+def test_the_same_picture_is_the_same_file(tmp_path, picture):
+    """Of another time, too: OpenImageIO would store when it was written."""
+    save_exr(tmp_path / "first.exr", {"color": picture})
+    time.sleep(1.1)
+    save_exr(tmp_path / "second.exr", {"color": picture})
+    assert (tmp_path / "first.exr").read_bytes() == (tmp_path / "second.exr").read_bytes()
 
 
 @pytest.mark.parametrize(
@@ -202,6 +211,17 @@ def test_a_truncated_picture_is_named_in_one_line(name, share, tmp_path, rng, ca
     with pytest.raises(OSError, match=rf"{name}' cannot be read, save it again: .") as error:
         read_picture(tmp_path / name)
     assert "\n" not in str(error.value) and capfd.readouterr() == ("", "")
+
+
+def test_a_damaged_name_of_a_channel_is_no_error_of_its_own(tmp_path):
+    """The library quotes the file's bytes, which are no UTF-8."""
+    save_exr(tmp_path / "p.exr", {"color": np.ones((4, 4, 4))})
+    content = (tmp_path / "p.exr").read_bytes()
+    (tmp_path / "p.exr").write_bytes(
+        content.replace(b"channels\0chlist", b"ch\xffnnels\0chli\xfft")
+    )
+    with pytest.raises(OSError, match=r"p\.exr' cannot be read"):
+        read_picture(tmp_path / "p.exr")
 
 
 @pytest.mark.parametrize("name", ["p.png", "p.exr"])

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer import opening
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.scene_files import (
     diagnose,
@@ -61,6 +63,8 @@ def test_a_file_of_several_meshes_keeps_them_apart(tmp_path):
         ("a.glb", ""),
         ("a.glb", "glTF"),
         ("a.obj", "words"),
+        ("a.obj", "v 0\nv 1\nv 2\nf 1 2 3\n"),
+        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n" + "f 1 2 4\n"),
         ("b.ply", None),
     ],
 )
@@ -262,6 +266,14 @@ class TestDiagnose:
 
     def test_nothing(self):
         assert diagnose(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))["duplicate_faces"] == 0
+
+
+def test_a_mesh_too_large_to_be_framed_is_named(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1e300 0 0\nv 0 1e300 0\nf 1 2 3\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(SceneError, match=r"a\.obj': The meshes are too large"):
+            opening.load(tmp_path / "a.obj")
 
 
 @pytest.mark.parametrize("load", [load_meshes, load_scene])

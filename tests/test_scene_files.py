@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import io
 import json
+import os
+import tracemalloc
+import warnings
+import zipfile
 
 import numpy as np
 import pytest
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
-from reference_tracer.scene_files import load_scene, save_scene
+from reference_tracer.scene_files import load_meshes, load_scene, save_scene
 
 
 @pytest.fixture
@@ -162,3 +167,105 @@ def test_content_is_checked(scene, tmp_path):
     np.savez(tmp_path / "scene.npz", **arrays | {"scene": np.array(json.dumps(head))})
     with pytest.raises(SceneError, match="resolution"):
         load_scene(tmp_path / "scene.npz")
+
+
+@pytest.fixture
+def rewritten(scene, tmp_path):
+    """Write the scene with arrays, or values of its head, replaced; returns the path."""
+
+    def write(arrays=(), **head):
+        save_scene(tmp_path / "scene.npz", scene)
+        stored = dict(np.load(tmp_path / "scene.npz"))
+        own = json.loads(str(stored["scene"]))
+        own["camera"] |= head
+        stored |= {"scene": np.array(json.dumps(own))} | dict(arrays)
+        np.savez_compressed(tmp_path / "bad.npz", **stored)
+        return tmp_path / "bad.npz"
+
+    return write
+
+
+@pytest.mark.parametrize(
+    ("array", "says"),
+    [
+        (("mesh0_triangles", np.zeros((5, 3))), "triangles must be integers, not float64"),
+        (("mesh0_triangles", np.full((5, 3), 99)), "a triangle names a vertex that is not there"),
+        (("mesh0_triangles", np.full((5, 3), -1)), "a triangle names a vertex that is not there"),
+        (("mesh0_slots", np.zeros(5)), "slots must be integers, not float64"),
+        (("mesh0_slots", np.full(5, 2**32)), "slots must be"),
+        (("mesh0_vertices", np.zeros((9, 3), "U3")), "mesh0_vertices is no array of numbers"),
+        (("mesh0_vertices", np.zeros((9, 3), complex)), "mesh0_vertices is no array of numbers"),
+        (("mesh0_vertices", np.zeros((9, 2))), r"mesh0_vertices has the shape \(9, 2\)"),
+        (("mesh0_vertices", np.full((9, 3), np.nan)), "not finite"),
+        (("mesh0_vertices", np.zeros(27)), "mesh0_vertices is no array of numbers"),
+        (("instance0_world_from_object", np.zeros((4, 3))), r"has the shape \(4, 3\)"),
+    ],
+)
+def test_a_wrong_array_is_named(array, says, rewritten):
+    with pytest.raises(SceneError, match=says) as error:
+        load_scene(rewritten([array]))
+    assert "bad.npz" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("head", "says"),
+    [
+        ({"width": -5}, "camera.width is -5"),
+        ({"width": 10**30}, "camera.width is 1000000"),
+        ({"width": 20.0}, "camera.width must be an integer"),
+        ({"region": {"x0": 0.5, "y0": 0, "x1": 2, "y1": 2}}, "camera.region.x0 must be an int"),
+        ({"clip_start": "0.1"}, "camera.clip_start must be a finite number"),
+        ({"clip_end": float("nan")}, "camera.clip_end must be a finite number"),
+    ],
+)
+def test_a_wrong_camera_is_named(head, says, rewritten):
+    with pytest.raises(SceneError, match=says) as error:
+        load_scene(rewritten(**head))
+    assert "bad.npz" in str(error.value)
+
+
+def test_what_nobody_asks_for_is_not_read(rewritten):
+    """A file of half a megabyte with an array of half a gigabyte in it, which is none of ours."""
+    path = rewritten([("more", np.zeros(2**26))])
+    assert path.stat().st_size < 2**20
+    tracemalloc.start()
+    load_scene(path)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert most < 2**24
+
+
+def test_a_claim_of_gigabytes_is_refused_before_any_is_taken(scene, tmp_path):
+    save_scene(tmp_path / "scene.npz", scene)
+    with zipfile.ZipFile(tmp_path / "scene.npz") as stored:
+        members = {name: stored.read(name) for name in stored.namelist()}
+    header = io.BytesIO()
+    claim = {"descr": "<f8", "fortran_order": False, "shape": (2**40, 3)}
+    np.lib.format.write_array_header_1_0(header, claim)
+    members["mesh0_vertices.npy"] = header.getvalue() + bytes(99)
+    with zipfile.ZipFile(tmp_path / "bad.npz", "w") as stored:
+        for name, content in members.items():
+            stored.writestr(name, content)
+    with pytest.raises(SceneError, match=r"bad\.npz': mesh0_vertices is not as long as it says"):
+        load_scene(tmp_path / "bad.npz")
+
+
+def test_no_warning_of_numpy_reaches_users(rewritten):
+    colors = np.full((2, 4), 1e300)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        load_scene(rewritten([("instance0_colors", colors)]))
+
+
+@pytest.mark.parametrize("name", ["a.npz", "a.obj"])
+def test_what_is_no_file_is_said(name, tmp_path):
+    load = load_scene if name == "a.npz" else load_meshes
+    (tmp_path / name).mkdir()
+    with pytest.raises(SceneError, match=r"'.*a\.\w+' is no file but a folder"):
+        load(tmp_path / name)
+    (tmp_path / name).rmdir()
+    os.mkfifo(tmp_path / name)
+    with pytest.raises(SceneError, match=r"'.*a\.\w+' is no file but a folder, or a pipe"):
+        load(tmp_path / name)
+    with pytest.raises(SceneError, match="cannot be read: File name too long"):
+        load(tmp_path / ("x" * 300))

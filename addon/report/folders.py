@@ -5,6 +5,7 @@ Results are written in a temporary folder, and moved to their names at the end.
 
 from __future__ import annotations
 
+import errno
 import json
 import math
 import os
@@ -16,6 +17,7 @@ from typing import Any
 
 from ..images import MissingLibraryError
 
+_FULL = errno.ENOSPC, errno.EDQUOT, errno.EFBIG
 _PREFIX = ".reftrace-"  # of the folder beside the results in which they are written
 
 
@@ -75,7 +77,10 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
         If the folder cannot be written.
     """
     make(directory)
-    with tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX) as new:
+    with (
+        _named(f"the folder '{directory}'"),
+        tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX) as new,
+    ):
         missing = None
         try:
             yield Path(new)
@@ -91,9 +96,22 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
 
 
 @contextmanager
+def _named(what: str) -> Iterator[None]:
+    """Say what cannot be written where the system says only why: that its disk is full, mostly."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno is None or error.filename is not None:
+            raise
+        do = "free some, or write elsewhere" if error.errno in _FULL else "write elsewhere"
+        raise OSError(f"cannot write to {what}: {error.strerror}: {do}") from error
+
+
+@contextmanager
 def replacing_file(path: Path) -> Iterator[Path]:
     """Give a temporary path; its file replaces the file `path` at the end."""
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=_PREFIX) as new:
+    folder = tempfile.TemporaryDirectory(dir=path.parent, prefix=_PREFIX)
+    with _named(f"'{path}'"), folder as new:
         yield Path(new) / path.name
         os.replace(Path(new) / path.name, path)
 

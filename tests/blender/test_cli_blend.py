@@ -210,3 +210,26 @@ def test_explain_prints_markdown_and_nothing_else(tmp_path):
     assert done.stdout.startswith("# The ray through pixel (320, 180) of exercise_triangle.blend")
     assert "objects exported" in done.stderr
     assert reftrace("explain", again).stdout == done.stdout
+
+
+def test_a_file_of_a_newer_blender(tmp_path, addon):
+    """What that knows and this doesn't would be lost without a word."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "own.blend"), compress=False)
+    content = (tmp_path / "own.blend").read_bytes()
+    major, minor, _ = bpy.app.version
+    newer = content.replace(b"v%02d%02d" % (major, minor), b"v%02d01" % (major + 1), 1)
+    assert newer != content
+    (tmp_path / "newer.blend").write_bytes(newer)
+    done = reftrace("export", "newer.blend", "--out", "a.npz", cwd=tmp_path)
+    assert done.returncode == 4 and not (tmp_path / "a.npz").exists()
+    said = f"'newer.blend' was saved by Blender {major + 1}.1; this is {major}.{minor}: open it"
+    assert said in done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize("size", [0, 9, 5000])
+def test_a_truncated_blend_is_named(size, tmp_path, addon):
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "own.blend"), compress=False)
+    (tmp_path / "cut.blend").write_bytes((tmp_path / "own.blend").read_bytes()[:size])
+    done = reftrace("export", "cut.blend", "--out", "a.npz", cwd=tmp_path)
+    assert done.returncode == 4
+    assert "'cut.blend' cannot be opened" in done.stderr.splitlines()[-1]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import resource
 
 import pytest
+from reference_tracer import cli
 from reference_tracer.images import MissingLibraryError
 from reference_tracer.report import folders
 
@@ -126,3 +128,34 @@ def test_a_folder_that_does_not_take_files(tmp_path, monkeypatch):
     assert not (tmp_path / "out").exists()
     with pytest.raises(OSError, match="it is a folder"), folders.made_for_file(tmp_path):
         pass
+
+
+@pytest.fixture
+def full():
+    """No file may have more than 300 bytes: as on a full disk, writing ends with an error."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (300, before[1]))
+    yield
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_full_disk_is_said_with_the_file(folder, full):
+    before = held(folder)
+    with pytest.raises(OSError, match=r"mine'.*: free some, or write elsewhere"):
+        folders.write_text(folder / "mine", "x" * 9999)
+    with pytest.raises(OSError, match=r"out'.*: free some, or write elsewhere"):
+        with folders.replacing(folder, NAMES) as new:
+            fill(new, "x" * 9999)
+    assert held(folder) == before
+
+
+@pytest.mark.parametrize("suffix", ["png", "exr"])
+def test_a_full_disk_ends_trace_in_one_line(suffix, tmp_path, full, capfd):
+    path = tmp_path / "a.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    out = tmp_path / f"picture.{suffix}"
+    size = ["--width", "300", "--height", "300", "--samples", "2"]
+    assert cli.main(["trace", str(path), "--out", str(out), *size]) == 4
+    printed = capfd.readouterr()
+    assert f"picture.{suffix}'" in printed.err and len(printed.err.splitlines()) == 1
+    assert "write" in printed.err and not out.exists() and len(list(tmp_path.iterdir())) == 1
