@@ -158,7 +158,7 @@ def read_picture(path: str | Path) -> StoredPicture:
     """
     path = Path(path)
     if not path.is_file():
-        raise OSError(f"there is no file '{path}'")
+        raise OSError(f"there is no file '{path}', or it is a folder or a pipe")
     readers = {".png": _png_of, ".exr": _exr_of}
     if path.suffix.lower() not in readers:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
@@ -223,11 +223,11 @@ def _error(of: Any) -> str:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Keep what C libraries print beside their error from the terminal."""
-    own, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 2)
+    own = os.dup(2)
     try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
         yield
     finally:
         os.dup2(own, 2)
         os.close(own)
-        os.close(nowhere)

@@ -90,8 +90,8 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
                 raise SceneError(f"'{path}' cannot be opened: {reason}") from error
         saved, own = (".".join(map(str, v.version[:2])) for v in (bpy.data, bpy.app))
         if bpy.data.version[:2] > bpy.app.version[:2]:
-            do = f"open it with {saved} or newer, as what is new in it is lost here"
-            raise SceneError(f"'{path}' was saved by Blender {saved}; this is {own}: {do}")
+            do = f"this is {own}: open it with {saved} or newer"
+            raise SceneError(f"'{path}' was saved by Blender {saved}; {do}")
         with chosen(choice):
             yield bpy
     finally:

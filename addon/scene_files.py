@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import warnings
 from collections.abc import Generator, Iterator
 from dataclasses import replace
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -129,8 +131,6 @@ def load_scene(path: str | Path) -> Scene:
             return _scene(stored)
     except SceneError as error:
         raise SceneError(f"'{path}': {error}") from error
-    except MemoryError as error:
-        raise MemoryError(f"for '{path}', {error}") from error
     except Exception as error:  # zip, zlib, numpy, JSON: each has its own ways to say no
         raise SceneError(f"'{path}' is not a scene that Reference Tracer wrote: {error}") from error
 
@@ -167,24 +167,23 @@ def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> np.nda
         first = read.read_magic(file) == (1, 0)
         header = read.read_array_header_1_0 if first else read.read_array_header_2_0
         own, _, dtype = header(file)
-        if dtype.kind not in kinds or len(own) != len(shape):
-            raise SceneError(f"{name} is no array of numbers, ({', '.join(shape)})")
-        if any(n not in (str(m), "n") for n, m in zip(shape, own, strict=True)):
-            raise SceneError(f"{name} has the shape {own}, not ({', '.join(shape)})")
+        fits = all(n == str(m) or (n == "n" and m is not None) for n, m in zip_longest(shape, own))
+        if not fits or dtype.kind not in kinds:
+            raise SceneError(f"{name} holds {own} of {dtype}, not ({', '.join(shape)}) numbers")
         size = math.prod(own) * dtype.itemsize
         if not size < info.file_size <= _DENSEST * (info.compress_size + 1):
             raise SceneError(f"{name} is not as long as it says: write the file again")
         if size > (free_memory() or size):
-            raise MemoryError(f"{name} takes {size / 2**30:.1f} GiB")
+            raise SceneError(f"{name} takes {size / 2**30:.1f} GiB, more than is free")
         file.seek(0)
         return read.read_array(file, allow_pickle=False)
 
 
 def check_is_file(path: str | Path) -> None:
     """Raise a SceneError if there is no such file, or it cannot be read."""
+    if os.path.exists(path) and not os.path.isfile(path):
+        raise SceneError(f"'{path}' is no file but a folder, or a pipe: name a file")
     try:
-        if Path(path).exists() and not Path(path).is_file():
-            raise SceneError(f"'{path}' is no file but a folder, or a pipe: name a file")
         Path(path).open("rb").close()
     except FileNotFoundError:
         raise SceneError(f"there is no file '{path}'") from None

@@ -193,12 +193,21 @@ def rewritten(scene, tmp_path):
         (("mesh0_triangles", np.full((5, 3), -1)), "a triangle names a vertex that is not there"),
         (("mesh0_slots", np.zeros(5)), "slots must be integers, not float64"),
         (("mesh0_slots", np.full(5, 2**32)), "slots must be"),
-        (("mesh0_vertices", np.zeros((9, 3), "U3")), "mesh0_vertices is no array of numbers"),
-        (("mesh0_vertices", np.zeros((9, 3), complex)), "mesh0_vertices is no array of numbers"),
-        (("mesh0_vertices", np.zeros((9, 2))), r"mesh0_vertices has the shape \(9, 2\)"),
+        (
+            ("mesh0_vertices", np.zeros((9, 3), "U3")),
+            r"mesh0_vertices holds .* not \(n, 3\) numbers",
+        ),
+        (
+            ("mesh0_vertices", np.zeros((9, 3), complex)),
+            r"mesh0_vertices holds .* not \(n, 3\) numbers",
+        ),
+        (("mesh0_vertices", np.zeros((9, 2))), r"mesh0_vertices holds \(9, 2\)"),
         (("mesh0_vertices", np.full((9, 3), np.nan)), "not finite"),
-        (("mesh0_vertices", np.zeros(27)), "mesh0_vertices is no array of numbers"),
-        (("instance0_world_from_object", np.zeros((4, 3))), r"has the shape \(4, 3\)"),
+        (
+            ("mesh0_vertices", np.zeros(27)),
+            r"mesh0_vertices holds .* not \(n, 3\) numbers",
+        ),
+        (("instance0_world_from_object", np.zeros((4, 3))), r"holds \(4, 3\)"),
     ],
 )
 def test_a_wrong_array_is_named(array, says, rewritten):
@@ -225,14 +234,14 @@ def test_a_wrong_camera_is_named(head, says, rewritten):
 
 
 def test_what_nobody_asks_for_is_not_read(rewritten):
-    """A file of half a megabyte with an array of half a gigabyte in it, which is none of ours."""
-    path = rewritten([("more", np.zeros(2**26))])
-    assert path.stat().st_size < 2**20
+    """A small file with an array of 64 MiB in it, which is none of ours."""
+    path = rewritten([("more", np.zeros(2**23))])
+    assert path.stat().st_size < 2**17
     tracemalloc.start()
     load_scene(path)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert most < 2**24
+    assert most < 2**22
 
 
 def test_a_claim_of_gigabytes_is_refused_before_any_is_taken(scene, tmp_path):
@@ -261,11 +270,11 @@ def test_no_warning_of_numpy_reaches_users(rewritten):
 def test_what_is_no_file_is_said(name, tmp_path):
     load = load_scene if name == "a.npz" else load_meshes
     (tmp_path / name).mkdir()
-    with pytest.raises(SceneError, match=r"'.*a\.\w+' is no file but a folder"):
+    with pytest.raises(SceneError, match=r"^'[^']*a\.\w+' is no file but a folder"):
         load(tmp_path / name)
     (tmp_path / name).rmdir()
     os.mkfifo(tmp_path / name)
-    with pytest.raises(SceneError, match=r"'.*a\.\w+' is no file but a folder, or a pipe"):
+    with pytest.raises(SceneError, match=r"^'[^']*a\.\w+' is no file but a folder, or a pipe"):
         load(tmp_path / name)
     with pytest.raises(SceneError, match="cannot be read: File name too long"):
         load(tmp_path / ("x" * 300))

@@ -17,7 +17,6 @@ from typing import Any
 
 from ..images import MissingLibraryError
 
-_FULL = errno.ENOSPC, errno.EDQUOT, errno.EFBIG
 _PREFIX = ".reftrace-"  # of the folder beside the results in which they are written
 
 
@@ -77,10 +76,8 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
         If the folder cannot be written.
     """
     make(directory)
-    with (
-        _named(f"the folder '{directory}'"),
-        tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX) as new,
-    ):
+    folder = tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX)
+    with _named(f"the folder '{directory}'"), folder as new:
         missing = None
         try:
             yield Path(new)
@@ -97,14 +94,14 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
 
 @contextmanager
 def _named(what: str) -> Iterator[None]:
-    """Say what cannot be written where the system says only why: that its disk is full, mostly."""
+    """Say what cannot be written where the system says only that its disk is full."""
     try:
         yield
     except OSError as error:
-        if error.errno is None or error.filename is not None:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             raise
-        do = "free some, or write elsewhere" if error.errno in _FULL else "write elsewhere"
-        raise OSError(f"cannot write to {what}: {error.strerror}: {do}") from error
+        why = f"{error.strerror}: free some, or write elsewhere"
+        raise OSError(f"cannot write to {what}: {why}") from error
 
 
 @contextmanager
