@@ -63,8 +63,6 @@ def test_a_file_of_several_meshes_keeps_them_apart(tmp_path):
         ("a.glb", ""),
         ("a.glb", "glTF"),
         ("a.obj", "words"),
-        ("a.obj", "v 0\nv 1\nv 2\nf 1 2 3\n"),
-        ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n" + "f 1 2 4\n"),
         ("b.ply", None),
     ],
 )
@@ -266,6 +264,16 @@ class TestDiagnose:
 
     def test_nothing(self):
         assert diagnose(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))["duplicate_faces"] == 0
+
+
+def test_a_mesh_that_only_we_refuse_is_named(tmp_path):
+    """Its reader takes points of one coordinate for points."""
+    trimesh.creation.box().export(tmp_path / "a.glb")
+    content = (tmp_path / "a.glb").read_bytes()
+    assert content.count(b'"type":"VEC3"') == 1
+    (tmp_path / "a.glb").write_bytes(content.replace(b'"type":"VEC3"', b'"type":"VEC2"'))
+    with pytest.raises(SceneError, match=r"a\.glb' cannot be read as a mesh: Mesh"):
+        load_meshes(tmp_path / "a.glb")
 
 
 def test_a_mesh_too_large_to_be_framed_is_named(tmp_path):
