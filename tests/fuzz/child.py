@@ -26,7 +26,7 @@ TRACED = 8  # one scene of so many that can be read
 FOLDER, SEED, FIRST, COUNT = sys.argv[1], *map(int, sys.argv[2:5])
 sys.path.insert(0, str(Path(__file__).parent))
 from mutations import mutated  # noqa: E402
-from reference_tracer.arguments import EXPECTED, words  # noqa: E402
+from reference_tracer.arguments import EXPECTED, Choice, words  # noqa: E402
 from reference_tracer.explain import document, reproducer  # noqa: E402
 from reference_tracer.explain.derivation import derive_pixel  # noqa: E402
 from reference_tracer.images import read_picture  # noqa: E402
@@ -47,7 +47,7 @@ def read(path: Path, thorough: bool) -> None:
         if thorough:
             document.document_markdown(derive_pixel(pixel))
     else:
-        scene, _ = load(path, None, (8, 8))
+        scene, _ = load(path, Choice(default_size=(8, 8)))
         for mesh in scene.meshes:
             assert np.isfinite(mesh.vertices).all()
         if thorough:
