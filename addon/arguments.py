@@ -13,6 +13,7 @@ from typing import NoReturn
 
 import numpy as np
 
+from .compare.animation import frames_named
 from .compare.comparison import SizeError
 from .explain.candidates import LIMIT
 from .explain.writers import WRITERS
@@ -127,7 +128,12 @@ def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
 
 
 def add_page(parser: argparse.ArgumentParser) -> None:
-    """Add what the page shows beside the comparison."""
+    """Add what the page shows beside the comparison, and of which frames there is one."""
+    frames = (
+        "compare an animation: 1-250, 1-250:5 for every fifth, 7, or all; frames that are whole in "
+        "DIR, and made by the same file and options, are not done again"
+    )
+    parser.add_argument("--frames", metavar="FRAMES", help=frames)
     group = parser.add_argument_group("the page (page.html in DIR)")
     trade = "measure the trade on this scene, too: half a minute"
     extremes = "find where every method breaks: two minutes"
@@ -179,6 +185,16 @@ def check_options(options: argparse.Namespace) -> None:
 
 def _refuse_unheard(options: argparse.Namespace) -> None:
     """Refuse options that the others leave without a meaning."""
+    if (frames := getattr(options, "frames", None)) is not None:
+        refuse(
+            options, ("frame", "against", "trade", "extremes"), "is for one frame, not for --frames"
+        )
+        if options.judge == "all":
+            raise SceneError("--judge all is for one frame: name one judge with --frames")
+        try:
+            frames_named(frames)
+        except ValueError as error:
+            raise SceneError(f"--frames {error}") from error
     if getattr(options, "against", ""):
         why = "is for Blender's picture, not for one of --against"
         refuse(options, ("judge", "identity", "as_is"), why)

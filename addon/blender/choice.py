@@ -20,9 +20,9 @@ from ..scene import Camera, SceneError, ViewWindow
 from .camera import resolution
 from .engine import export_for_render
 from .scenario_scene import place_camera
+from .stepping import visited
 from .temporary import temporary_scene
 
-_SIMULATED = {"CLOTH", "DYNAMIC_PAINT", "FLUID", "PARTICLE_SYSTEM", "SOFT_BODY"}  # modifiers
 _FAR = 1e18  # metres: farther away than anything, and its square is within float32
 
 
@@ -43,7 +43,8 @@ def chosen(choice: Choice) -> Iterator[None]:
     camera = _named("camera", choice.camera, cameras) or scene.camera
     with context.temp_override(scene=scene, view_layer=layer):
         if choice.frame is not None:
-            _step_to(scene, choice.frame)
+            for frame in visited(scene, [choice.frame]):
+                scene.frame_set(frame)
         _resize(scene.render, choice.width, choice.height)
         if choice.camera or choice.eye or choice.frame_all:
             for marker in scene.timeline_markers:  # which would make its own the active one
@@ -88,15 +89,6 @@ def _named(what: str, name: str | None, things: Iterable[Any]) -> Any:
     if name is not None and name not in found:
         raise SceneError(f"there is no {what} '{name}': {', '.join(found) or 'there is none'}")
     return found.get(name)
-
-
-def _step_to(scene: Any, frame: int) -> None:
-    """Go to a frame; from the first one on where something is simulated, which each step needs."""
-    modifiers = (m.type in _SIMULATED for o in bpy.data.objects for m in o.modifiers)
-    nodes = (n.bl_idname for group in bpy.data.node_groups for n in group.nodes)
-    steps = any(modifiers) or "GeometryNodeSimulationOutput" in nodes
-    for number in range(min(scene.frame_start, frame) if steps else frame, frame + 1):
-        scene.frame_set(number)
 
 
 def _resize(render: Any, width: int | None, height: int | None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,7 @@ from ..scene import SceneError
 from ..study import tradeoff
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
-from . import studies
+from . import animation, studies
 from .choice import chosen
 from .compare import compare_all, compare_to_folder, export_open_file, made_folder
 from .judges import choices
@@ -84,7 +84,8 @@ def _parser() -> Parser:
 
 
 def _compare(options: Any) -> int:
-    with comparison_report.failure_written(bpy.path.abspath(options.out)):
+    out = bpy.path.abspath(options.out)
+    with nullcontext() if options.frames is not None else comparison_report.failure_written(out):
         with _opened(options):
             return compare_open_file(options)
 
@@ -140,6 +141,9 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
         "identity": options.identity,
         "self_check": options.self_check,
     }
+    judge = options.judge.upper() if options.judge else None
+    if options.frames:
+        return animation.compare_open_file(options, progress, judge=judge, **chosen)
     if options.judge == "all":
         rows = result_of(compare_all(bpy.context, options.out, **chosen), progress)
         verdict = engines.worst(rows)
@@ -148,7 +152,6 @@ def compare_open_file(options: Any, progress: Any = None) -> int:
         pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
         print("open", *pages, "in a browser")
         return EXIT_CODES[verdict]
-    judge = options.judge.upper() if options.judge else None
     for_page = {"trade": options.trade, "extremes": options.extremes}
     work = compare_to_folder(bpy.context, options.out, **for_page, judge=judge, **chosen)
     comparison = result_of(work, progress)

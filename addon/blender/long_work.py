@@ -34,6 +34,8 @@ class LongWork:
     _work: ClassVar[Work[Any]]  # of that one
     _timer: ClassVar[Any]
     needs_camera: ClassVar[bool] = False
+    alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
+    left: str = "nothing was changed"  # at Esc
 
     directory: StringProperty(  # type: ignore[valid-type]
         name="Folder",
@@ -89,10 +91,10 @@ class LongWork:
         """Work for one step, or stop at Esc."""
         if event.type == "ESC" and event.value == "PRESS":
             self._clean_up(context)
-            self.report({"WARNING"}, f"{self.bl_label} was cancelled; nothing was changed")
+            self.report({"WARNING"}, f"{self.bl_label} was cancelled; {self.left}")
             return {"CANCELLED"}
         if event.type != "TIMER":
-            return {"PASS_THROUGH"}
+            return {"RUNNING_MODAL" if self.alone else "PASS_THROUGH"}
         until = time.monotonic() + SECONDS_A_STEP
         try:
             while time.monotonic() < until:

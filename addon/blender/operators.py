@@ -12,17 +12,19 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..compare import engines
+from ..compare.animation import FrameRow
 from ..compare.comparison import Comparison
 from ..report import page
 from ..scene import SceneError
 from ..study.extremes import BreakingPoint
 from ..study.trade import Trade
 from ..tracer.progress import Work
-from . import results
+from . import animation, results
 from .choice import frame_all
 from .compare import compare_all, compare_to_folder, compared, gather_case
 from .judges import JUDGES
 from .long_work import LongWork, say
+from .results import redraw
 
 *_FIRST, _LAST = ("the viewport" if j.needs_window else j.label for j in JUDGES.values())
 _ENGINES = f"{', '.join(_FIRST)} and {_LAST}"
@@ -69,6 +71,35 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         verdict = engines.worst(result)
         text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
         return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
+
+
+class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
+    bl_idname = "reference_tracer.compare_animation"
+    bl_label = "Compare Animation"
+    bl_description = (
+        "Step the scene through its frames, in order, and compare each: the worst come first. Esc "
+        "keeps the frames that are done; the scene goes back to where it is"
+    )
+    needs_camera = alone = True
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Return the work of all frames."""
+        if context.screen and context.screen.is_animation_playing:
+            raise SceneError("The animation is playing: stop it, then compare it.")
+        folder = self.folder() or Path(_session_folder()) / "animation"
+        frames = animation.frames_of(context.scene)
+
+        def told(rows: list[FrameRow]) -> None:
+            found = results.keep_frames(context, folder, frames, rows)
+            self.left = ", ".join(found.lines[-2:])
+            redraw(context)
+
+        return animation.compare_frames(str(folder), frames, told)
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the table."""
+        say(*results.latest(FrameRow, context.scene).lines)
+        return "INFO" if self.left.endswith(": agree") else "WARNING", self.left.capitalize()
 
 
 class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
@@ -152,6 +183,7 @@ CLASSES = (
     REFERENCE_TRACER_OT_frame_all,
     REFERENCE_TRACER_OT_compare,
     REFERENCE_TRACER_OT_compare_all,
+    REFERENCE_TRACER_OT_compare_animation,
     REFERENCE_TRACER_OT_open_page,
 )
 register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -9,6 +9,7 @@ from typing import Any
 import bpy
 
 from ..compare import self_check
+from ..compare.animation import FrameRow
 from ..compare.cause import Cause
 from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
@@ -18,6 +19,7 @@ from .engine import ENGINE
 from .judges import JUDGES
 
 _PARTS = "interior", "boundary"
+_WORST = 5  # frames of an animation that are listed
 NARROW = 0.37  # of a table's width: a short name
 
 _LETTER = 6.5  # mean width in pixels at a scale of 1: what Blender's own font has
@@ -119,6 +121,18 @@ class _Main:
                 shown = (p["differ"], wrong, p["unexplained"])
                 rows.append((JUDGES[row.engine].label, *map(str, shown)))
             draw_table(layout.box(), rows, NARROW)
+        button = operators.REFERENCE_TRACER_OT_compare_animation.bl_idname
+        layout.operator(button, icon="RENDER_ANIMATION")
+        if found := results.latest(FrameRow, context.scene):
+            path, rows = found.content
+            column = layout.box().column(align=True)
+            for row in rows[:_WORST]:
+                counts = f"{row.explained + row.unexplained} differ, {row.unexplained} open"
+                text = f"Frame {row.frame}: {row.error or counts}"
+                go = column.operator("wm.context_set_int", text=text)
+                go.data_path, go.value = "scene.frame_current", row.frame
+            button = column.operator("wm.url_open", text="Open Page of All Frames", icon="URL")
+            button.url = path.resolve().as_uri()
 
 
 class _Result:

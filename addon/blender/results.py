@@ -9,17 +9,20 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compare.animation import FrameRow, worst_first
 from ..compare.comparison import Comparison
 from ..compare.engines import EngineRow
 from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
 from ..methods import Method
+from ..report import animation as frames_report
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
@@ -37,7 +40,7 @@ class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
     file: str
-    content: Comparison | Derivation | Trade | tuple[BreakingPoint, ...] | tuple[EngineRow, ...]
+    content: Any  # of the kind that it is kept as
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
     rows: tuple[ExtremesRow, ...] = ()  # of the extremes, as they were measured
@@ -58,6 +61,12 @@ def keep_comparison(context: Any, comparison: Comparison) -> Result:
 def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
     """Remember the table of several engines."""
     return _keep(EngineRow, tuple(rows), engines_report.lines(rows), context.scene.name)
+
+
+def keep_frames(context: Any, folder: Path, frames: range, rows: Sequence[FrameRow]) -> Result:
+    """Remember the frames of an animation, the worst first, and where their page is."""
+    content = folder / frames_report.PAGE, worst_first(rows)
+    return _keep(FrameRow, content, frames_report.lines(frames, rows), context.scene.name)
 
 
 def keep_trade(context: Any, trade: Trade) -> Result:
@@ -133,7 +142,7 @@ def _keep(
 def latest(kind: type, scene: Any) -> Result | None:
     """Return the latest result of a kind, if it is of this scene in the file that is open.
 
-    The kinds are Comparison, Derivation, EngineRow, Trade and BreakingPoint.
+    The kinds are Comparison, Derivation, EngineRow, FrameRow, Trade and BreakingPoint.
     """
     found = _latest.get(kind)
     if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):

@@ -75,6 +75,11 @@ def _isolate(scene: Any, layer: str) -> None:
     render.use_stamp = render.use_freestyle = render.use_motion_blur = False
     # With `use_sequencer` off, handlers that add or remove data crash Blender (5.2).
     scene.sequence_editor_clear()
+    # These would be simulated in this scene: the user's own bodies, freed when it goes.
+    if bodies := scene.rigidbody_world:
+        cache = bodies.point_cache
+        if not cache.is_baked or scene.frame_current == cache.frame_start + 1:
+            bodies.enabled = False
     # Rendering another layer than the first by its name crashes Blender (5.2).
     for other in [v for v in scene.view_layers if v.name != layer]:
         scene.view_layers.remove(other)

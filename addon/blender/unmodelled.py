@@ -141,9 +141,10 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
         if has:
             yield Unmodelled(of, feature, detail, None, effect)
     bodies = scene.rigidbody_world
-    if is_temporary(drawn) and bodies and bodies.enabled and not bodies.point_cache.is_baked:
-        detail = "what is compared has them as they begin: bake them"
-        if scene.frame_current > bodies.point_cache.frame_start:
+    if is_temporary(drawn) and bodies and bodies.enabled and not drawn.rigidbody_world.enabled:
+        cache, detail = bodies.point_cache, "what is compared has them as they begin"
+        if scene.frame_current > cache.frame_start:
+            detail += ", at the second frame alone" if cache.is_baked else ": bake them"
             yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -81,10 +81,11 @@ def run(options: argparse.Namespace) -> int:
 
 @contextmanager
 def _failure_written(options: argparse.Namespace) -> Iterator[None]:
-    """Make the folder, and say there why there is no comparison if there is none."""
+    """Make the folder, and say there why there is no comparison: but for an animation's."""
     if options.out.startswith("//"):  # here it is the shell's: Blender's is beside the file
         options.out = os.path.realpath(options.out)
-    with folders.made(Path(options.out)), comparison_report.failure_written(options.out):
+    written = comparison_report.failure_written(options.out)
+    with folders.made(Path(options.out)), written if options.frames is None else nullcontext():
         yield
 
 

@@ -17,7 +17,7 @@ from .folders import replacing, write_json
 
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON = "frame.npz", "comparison.json"
-_NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
+NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 _DIM = 0.25  # of the traced picture below the causes
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
@@ -36,7 +36,7 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
     causes, owners = comparison.causes, comparison.identity
     # Whose surface each side shows, as numbers of the JSON's names, where it is known.
     whose = {"owner_traced": owners.traced, "owner_shown": owners.shown} if owners else {}
-    with replacing(Path(directory), _NAMES) as new:
+    with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
         np.savez_compressed(
@@ -78,6 +78,6 @@ def failure_written(directory: str | Path) -> Iterator[None]:
         said = {"type": type(error).__name__, "message": str(error)}
         content = {"schema": SCHEMA, "verdict": "failed", "error": said}
         # Where the folder cannot be written, that may be what the error is.
-        with suppress(OSError), replacing(Path(directory), _NAMES) as new:
+        with suppress(OSError), replacing(Path(directory), NAMES) as new:
             write_json(new / JSON, content)
         raise

@@ -6,6 +6,8 @@ scene that shows nothing hard proves nothing.
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import bpy
@@ -181,6 +183,36 @@ def test_rigid_bodies_that_are_not_baked(build, compare):
     assert evaluated_geometry() == geometry
     assert found.pixels["unexplained"] == 0
     assert found.verdict != AGREE or (found.picture == own_picture()).all()
+
+
+# A Blender of its own: one that frees what it still uses ends at once, and all tests with it.
+PLAYED_ON = """
+import sys, bpy, reference_tracer
+from reference_tracer.blender.compare import gather_case
+reference_tracer.register()
+bpy.ops.wm.open_mainfile(filepath=sys.argv[1], load_ui=False)
+scene = bpy.context.scene
+for frame in (*range(1, 9), 1, 2, 1):
+    scene.frame_set(frame)
+    gather_case(bpy.context, judge="WORKBENCH")
+    print("PLACES", [list(o.matrix_world.translation) for o in scene.objects])
+"""
+
+
+def test_rigid_bodies_fall_on_after_a_comparison(build, tmp_path):
+    """What a copy of the scene simulates is the user's own bodies, which go with the copy."""
+    hard.rigid_body(build)
+    path, scene = str(tmp_path / "falling.blend"), bpy.context.scene
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    argv = [sys.executable, "-c", PLAYED_ON, path]
+    done = subprocess.run(argv, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stderr
+    played = []
+    for frame in (*range(1, 9), 1, 2, 1):
+        scene.frame_set(frame)
+        played.append(f"PLACES {[list(o.matrix_world.translation) for o in scene.objects]}")
+    assert [x for x in done.stdout.splitlines() if x.startswith("PLACES")] == played
+    assert len(set(played)) == 8
 
 
 def test_upset_particles_are_seen_here(build):

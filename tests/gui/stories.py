@@ -16,6 +16,7 @@ from story import (
     render_result,
     reports,
     result,
+    running,
     screenshot,
     settings,
     show_panel,
@@ -140,6 +141,45 @@ def engines():
     screenshot("engines")
 
 
+def animation():
+    """Compare Animation: Esc keeps the frames that are done; another file ends it, too."""
+    scene = window().scene
+    scene.render.engine = "REFERENCE_TRACER"
+    scene.render.resolution_percentage = 10
+    scene.frame_end, scene.frame_current = 60, 7
+    show_panel()
+    yield 1
+    before = settings(), data_blocks()
+    noted["pressed"] = list(invoke("compare_animation"))
+
+    def some_are_done():
+        found = result("compare.animation.FrameRow")
+        return found and len(found.content[1]) > 2
+
+    def stopped():
+        return not running()
+
+    yield from until(some_are_done)
+    screenshot("animation_running")
+    press("Escape")
+    yield from until(stopped)
+    page, rows = result("compare.animation.FrameRow").content
+    noted["frames"] = [row.frame for row in rows]
+    noted["on_disk"] = sorted(p.parent.name for p in page.parent.glob("*/made_by.json"))
+    noted["page"] = page.read_text(encoding="utf-8")
+    noted["frame"] = scene.frame_current
+    after = settings(), data_blocks()
+    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
+    noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
+    yield from open_tab()
+    screenshot("animation")
+    noted["pressed_again"] = list(invoke("compare_animation"))
+    yield 1
+    bpy.ops.wm.open_mainfile(filepath="/project/sample_scenes/exercise_triangle.blend")
+    yield 1
+    noted["left"] = running()
+
+
 def compare_as_is():
     """The user's own shading: what smooths a window's edges is a preference, not the scene's."""
     window().scene.reference_tracer.shading = "AS_IS"
@@ -252,6 +292,7 @@ STORIES = (
     f12_error,
     compare,
     engines,
+    animation,
     compare_as_is,
     compare_escape,
     compare_another_file,

@@ -1,6 +1,7 @@
 """`blender -b` and `blender --command` of a whole Blender: files, exit codes, faults."""
 
 import json
+import re
 import shutil
 
 import pytest
@@ -92,6 +93,18 @@ def test_command(camera, blender, folder):
     assert done.returncode == 0, done.stdout + done.stderr
     assert "verdict: agree" in done.stdout
     check_files(path)
+
+
+def test_command_for_frames(blender, folder):
+    """Those that are whole are not done again."""
+    triangle = "/project/sample_scenes/exercise_triangle.blend"
+    outside, inside = folder
+    argv = [triangle, "--command", "reference_tracer", "compare", "--out", inside, "--frames"]
+    for frames, told in (("2", ["frame 2:"]), ("1-3", ["frame 1:", "frame 3:"])):
+        done = blender.run(*argv, frames)
+        assert done.returncode == 0, done.stdout + done.stderr
+        assert re.findall(r"^frame \d+:", done.stdout, re.M) == told
+    assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 3
 
 
 def test_command_for_the_trade(blender, folder):

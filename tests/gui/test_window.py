@@ -32,6 +32,18 @@ def test_every_engine_in_one_table(noted):
     assert noted["changed"] == noted["new"] == {}
 
 
+@pytest.mark.story("animation")
+def test_escape_keeps_the_frames_of_an_animation_that_are_done(noted):
+    assert noted["pressed"] == noted["pressed_again"] == ["RUNNING_MODAL"]
+    frames = noted["frames"]
+    assert 2 < len(frames) < 60 and sorted(frames) == list(range(1, len(frames) + 1))
+    assert noted["on_disk"] == [f"frame_{frame:04d}" for frame in sorted(frames)]
+    assert f"{len(frames)} of 60 frames are compared" in noted["page"]
+    assert noted["frame"] == 7
+    assert noted["changed"] == noted["new"] == {}
+    assert not noted["left"]
+
+
 @pytest.mark.story("compare_as_is")
 def test_as_it_is_names_what_the_window_adds(noted):
     comparison = noted["comparison"]

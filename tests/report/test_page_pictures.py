@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.compare.animation import FrameRow
 from reference_tracer.images import to_display
+from reference_tracer.report import animation
 from reference_tracer.report.page.content import content
 
 from .browser import choose, color_at, place_of, settled, shown, state, unmarked
@@ -220,3 +222,27 @@ def test_a_visited_pixel_shows_both_pictures_free_of_slider_and_mark(show, diffe
     choose(tab, "swap")
     tab.keyboard.press("n")
     assert state(tab, "mode") == "swap"  # what shows both is left as it is
+
+
+def test_an_animations_curve_is_seen_and_its_points_open_their_frames(chromium, tmp_path):
+    """Those that no cause explains are of another colour, and higher up where there are more."""
+    rows = [FrameRow(f, "agree", 1000 - f, f, 40 * (f == 9)) for f in range(1, 31) if f != 4]
+    animation.write(tmp_path, "shot.blend", range(1, 31), rows)
+    tab, wrong = chromium.new_page(), []
+    tab.on("console", lambda message: wrong.append(message.text))
+    tab.goto((tmp_path / animation.PAGE).as_uri())
+    assert not wrong
+    colors = [
+        tab.locator(f"{where} {what}").first.evaluate(f"e => getComputedStyle(e).{style}")
+        for where in (".explained", ".unexplained")
+        for what, style in (("path", "stroke"), ("circle", "fill"))
+    ]
+    assert colors[0] == colors[1] != colors[2] == colors[3]
+    assert tab.locator(".unexplained circle").count() == 29
+    assert "frame 9: agree 991" in tab.locator(".unexplained title").nth(7).text_content()
+    tops = [
+        tab.locator(".unexplained circle").nth(n).evaluate("e => e.getBoundingClientRect().top")
+        for n in (6, 7)
+    ]
+    assert tops[0] - tops[1] > 50  # higher up in the window
+    tab.close()

@@ -22,7 +22,7 @@ from ..folders import replacing_file
 from .content import content
 from .extras import Extras, extras
 
-__all__ = ["NAME", "Extras", "extras", "html", "json_text", "write"]
+__all__ = ["NAME", "Extras", "extras", "html", "json_text", "template", "write"]
 NAME = "page.html"  # of the file that a comparison leaves
 
 _HERE = Path(__file__).parent
@@ -47,14 +47,18 @@ def write(path: str | Path, comparison: Comparison, extras: Extras | None = None
 
 def html(held: Mapping[str, Any]) -> str:
     """Return the page that shows this content."""
-    text = _text("page.html")
+    text = template("page.html")
     policy = _policy([_text(name) for name in _SCRIPT.findall(text)])
-    # As functions: what replaces a match may hold backslashes.
-    text = _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", text)
     text = text.replace("</head>", f"<style>{explained.STYLE}</style>\n</head>")
     text = _SCRIPT.sub(lambda m: f"<script>{_text(m[1])}</script>", text)
     data = _DATA.replace("></", f">{json_text(held)}</")
     return text.replace(_POLICY, policy).replace(_DATA, data)
+
+
+def template(name: str) -> str:
+    """Return a page of this folder, its style sheets within it."""
+    # As functions, here and above: what replaces a match may hold backslashes.
+    return _STYLE.sub(lambda m: f"<style>\n{_text(m[1])}</style>", _text(name))
 
 
 def json_text(held: Mapping[str, Any]) -> str:

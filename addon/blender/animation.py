@@ -1,0 +1,125 @@
+"""The frames of an animation, one after the other: the scene is stepped, and each compared.
+
+What is simulated and not baked depends on the frames before: those are visited, too, in order.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+from ..arguments import words
+from ..compare.animation import CODES, FrameRow, frames_named
+from ..report import animation as report
+from ..scene import SceneError
+from ..tracer.progress import Work, result_of, scaled
+from .compare import compare_to_folder, made_folder
+from .stepping import visited
+from .temporary import values_kept
+
+_ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
+
+
+def compare_frames(
+    directory: str,
+    frames: range,
+    told: Callable[[list[FrameRow]], None],
+    made_by: Any = None,
+    **choices: Any,
+) -> Work[list[FrameRow]]:
+    """Step the scene that is shown to each frame, compare it, and write the table of all so far.
+
+    A frame that cannot be compared is a row, too. Frames that are whole in the folder, and made by
+    `made_by`, are not compared again. `told` hears all rows after each new one, which is the last.
+    The choices are those of :func:`compare.gather_case`.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written.
+    """
+    scene, folder = bpy.context.scene, made_folder(directory)
+    title = f"{bpy.path.basename(bpy.data.filepath)}, {scene.name}"
+    rows = [r for f in frames if (r := report.row_of_whole(folder, f, made_by))]
+    todo = sorted(set(frames) - {row.frame for row in rows})
+    report.write(folder, title, frames, rows)
+    before = scene.frame_current, scene.frame_subframe
+    with values_kept():
+        try:
+            for frame in visited(scene, todo):
+                scene.frame_set(frame)
+                share = sum(f < frame for f in todo) / len(todo)
+                yield share
+                if frame in todo:
+                    work = _compared(folder, frame, made_by, choices)
+                    rows.append((yield from scaled(work, share, 1 / len(todo))))
+                    report.write(folder, title, frames, rows)
+                    told(rows)
+        finally:
+            scene.frame_set(before[0], subframe=before[1])
+    return rows
+
+
+def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -> Work[FrameRow]:
+    own = report.folder_of(folder, frame)
+    try:
+        comparison = yield from compare_to_folder(bpy.context, str(own), **choices)
+    except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
+        return FrameRow(frame, error=words(error))
+    report.mark_whole(folder, frame, made_by)
+    return FrameRow.of(frame, comparison.to_dict())
+
+
+def frames_of(scene: Any) -> range:
+    """Return the frames that a scene's animation has."""
+    return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
+
+
+def compare_open_file(options: Any, progress: Any, **choices: Any) -> int:
+    """Compare the frames that the options name, print the table, return the worst's exit code.
+
+    The process is this command's own: rigid bodies are baked in it, as no copy of a scene has them
+    otherwise. Raises what :func:`compare_frames` does.
+    """
+    scene = bpy.context.scene
+    frames = frames_named(options.frames) or frames_of(scene)
+    if (bodies := scene.rigidbody_world) and bodies.enabled:
+        cache = bodies.point_cache
+        if not (cache.is_baked or cache.use_disk_cache):  # that would write beside the file
+            cache.frame_end = min(cache.frame_end, max(frames[-1], cache.frame_start + 1))
+            with bpy.context.temp_override(scene=scene, point_cache=cache):
+                bpy.ops.ptcache.bake(bake=True)
+    begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
+
+    def told(rows: list[FrameRow]) -> None:
+        print(begin + report.line(rows[-1]), file=sys.stderr, flush=True)
+
+    work = compare_frames(options.out, frames, told, _made_by(options), **choices)
+    try:
+        rows = result_of(work, progress)
+    except KeyboardInterrupt:
+        print("what is done is kept: the same command goes on from there", file=sys.stderr)
+        raise
+    print(*report.lines(frames, rows), f"written to {options.out}", sep="\n")
+    print(f"open {Path(options.out) / report.PAGE} in a browser")
+    return CODES[report.verdict(rows)]
+
+
+def _made_by(options: Any) -> dict[str, Any]:
+    """Return all that a frame's comparison is made by, but for the frame's number."""
+    libraries = (bpy.path.abspath(library.filepath) for library in bpy.data.libraries)
+    files = [path for path in map(Path, (bpy.data.filepath, *libraries)) if path.is_file()]
+    typed = {
+        k: str(v)
+        for k, v in vars(options).items()
+        if v is not None and not (callable(v) or isinstance(v, Path) or k in ("frames", "out"))
+    }
+    return {
+        "versions": [sys.modules[_ADDON].__version__, bpy.app.version_string],
+        "files": {str(f): [f.stat().st_size, f.stat().st_mtime_ns] for f in files},
+        "options": typed,
+    }

@@ -1,0 +1,62 @@
+"""Frame after frame of an animation, each compared by itself: the numbers, and the worst."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from .comparison import EXIT_CODES
+
+FAILED = "failed"
+CODES = EXIT_CODES | {FAILED: 4}  # the gravest last: a frame that is no input for a comparison
+_NAMED = re.compile(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?")
+_LAST = 1_048_574  # Blender's frames are so far from 0 at most
+
+
+def frames_named(text: str) -> range | None:
+    """Return the frames that a user names; None for `all`, those of the scene.
+
+    Raises
+    ------
+    ValueError
+        If it names none.
+    """
+    if text == "all":
+        return None
+    if found := _NAMED.fullmatch(text):
+        first, last, step = int(found[1]), int(found[2] or found[1]), int(found[3] or 1)
+        if -_LAST <= first <= last <= _LAST and step:
+            return range(first, last + 1, step)
+    raise ValueError(
+        f"is {text}; it must be 1-250, 1-250:5 for every fifth, 7, or all, for example"
+    )
+
+
+@dataclass(frozen=True)
+class FrameRow:
+    """What came of one frame: counts of pixels, or why it is not compared."""
+
+    frame: int
+    verdict: str = FAILED
+    agree: int = 0
+    explained: int = 0
+    unexplained: int = 0
+    error: str = ""
+
+    @classmethod
+    def of(cls, frame: int, found: dict[str, Any]) -> FrameRow:
+        """Return the row of a comparison, as its JSON holds it."""
+        p = found["pixels"]
+        explained = p["differ"] - p["unexplained"]
+        return cls(frame, found["verdict"], p["agree"], explained, p["unexplained"])
+
+
+def worst_first(rows: Iterable[FrameRow]) -> list[FrameRow]:
+    """Sort rows by verdict, then by unexplained pixels, then by all that differ."""
+
+    def gravity(row: FrameRow) -> tuple[int, ...]:
+        return -list(CODES).index(row.verdict), -row.unexplained, -row.explained, row.frame
+
+    return sorted(rows, key=gravity)

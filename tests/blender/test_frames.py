@@ -1,0 +1,226 @@
+"""An animation compared frame by frame: resumed, the worst first, simulations stepped in order."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import commands, results
+from reference_tracer.blender import compare as compare_module
+from reference_tracer.compare.animation import FrameRow
+
+from . import hard_cases as hard
+from .test_hard_cases import own_picture
+
+SIZE = 48, 27
+
+
+@pytest.fixture
+def moving(build, tmp_path):
+    """A saved scene in which a cube moves, and another is see-through at frame 3 alone."""
+    scene = build.scene(*SIZE)
+    build.camera()
+    cube = build.cube(material=build.material("Red", 0.8, 0.1, 0.1))
+    glass = build.material("Glass", 0.1, 0.2, 0.9)
+    build.cube("Glass", 1.0, location=(0, 0, 1.5), material=glass)
+    for frame, x in ((1, -1.0), (4, 1.0)):
+        cube.location.x = x
+        cube.keyframe_insert("location", frame=frame)
+    for frame, alpha in ((2, 1.0), (3, 0.5), (4, 1.0)):
+        glass.diffuse_color[3] = alpha
+        glass.keyframe_insert("diffuse_color", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 4
+    save(tmp_path)
+    return scene
+
+
+def save(tmp_path) -> None:
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "moving.blend"))
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "out"
+
+
+@pytest.fixture
+def run(out):
+    """Compare frames of the open file, as the command does; returns the exit code."""
+
+    def command(frames: str, *options: str) -> int:
+        given = ["--out", str(out), f"--frames={frames}", "--no-identity", *options]
+        return commands.run(["compare", *given])
+
+    return command
+
+
+def done(out) -> dict[int, tuple[int, int]]:
+    """Which files the frames' comparisons are: one that is done again is another."""
+    paths = sorted(out.glob("frame_*/comparison.json"))
+    stats = {int(path.parent.name.removeprefix("frame_")): path.stat() for path in paths}
+    return {frame: (s.st_ino, s.st_mtime_ns) for frame, s in stats.items()}
+
+
+def table(out) -> dict:
+    return json.loads((out / "animation.json").read_text(encoding="utf-8"))
+
+
+def test_the_worst_frame_is_first_and_its_code_the_exit_code(moving, run, out, capsys):
+    assert run("all") == 1
+    printed, meanwhile = capsys.readouterr()
+    found = table(out)
+    assert found["frames"][0]["frame"] == 3
+    assert {row["frame"]: row["verdict"] for row in found["frames"]} == {
+        1: "agree",
+        2: "agree",
+        3: "warnings",
+        4: "agree",
+    }
+    assert found["verdict"] == "warnings" and found["asked_for"] == [1, 4, 1]
+    for row in found["frames"]:
+        own = json.loads((out / f"frame_{row['frame']:04d}" / "comparison.json").read_text())
+        assert own["scene"]["frame"] == row["frame"]
+        assert own["pixels"]["agree"] == row["agree"]
+        assert own["pixels"]["differ"] == row["explained"] + row["unexplained"]
+    told = re.findall(
+        r"^frame (\d): agree [\d,]+ / explained [\d,]+ / unexplained 0$", meanwhile, re.M
+    )
+    assert told == ["1", "2", "3", "4"]
+    assert printed.splitlines()[-3:][0] == "verdict: warnings"
+    html = (out / "animation.html").read_text(encoding="utf-8")
+    links = re.findall(r'<td><a href="(frame_\d+/page.html)"', html)
+    assert links[0] == "frame_0003/page.html" and len(links) == 4
+    assert all((out / link).is_file() for link in links)
+
+
+def test_only_what_is_missing_is_done_again(moving, run, out):
+    """A frame is whole with all its files, and for the same file and options."""
+
+    def again(frames: str, *options: str) -> set[int]:
+        before = done(out)
+        run(frames, *options)
+        return {frame for frame, file in done(out).items() if before.get(frame) != file}
+
+    assert again("1-3:2") == {1, 3}
+    assert again("all") == {2, 4}
+    assert again("all") == set()
+    (out / "frame_0002" / "traced.png").unlink()
+    (out / "frame_0003" / "comparison.json").write_text("{}")
+    assert again("1-4") == {2, 3}
+    assert again("1-2", "--method", "textbook") == {1, 2}
+    assert [row["frame"] for row in table(out)["frames"]] == [1, 2]  # no more are of these options
+    assert again("all") == {1, 2}
+    assert again("2", "--identity") == {2}
+    save(out.parent)
+    assert again("3-4") == {3, 4}
+    assert [row["frame"] for row in table(out)["frames"]] == [3, 4]
+
+
+def test_an_interruption_keeps_what_is_done(moving, run, out, monkeypatch, capsys):
+    def interrupted(frame: int) -> None:
+        if frame == 3:
+            raise KeyboardInterrupt
+
+    changed_at(monkeypatch, interrupted)
+    assert run("1-4") == 130
+    assert "the same command goes on from there" in capsys.readouterr().err
+    assert moving.frame_current == 1
+    assert [row["frame"] for row in table(out)["frames"]] == list(done(out)) == [1, 2]
+    monkeypatch.undo()
+    before = done(out)
+    assert run("1-4") == 1
+    assert done(out).items() > before.items() and len(done(out)) == 4
+
+
+def changed_at(monkeypatch, change) -> None:
+    """Have Blender's picture of each frame go through a function of its number."""
+    real = compare_module.picture
+
+    def changed(tmp, *args, **options):
+        drawn = real(tmp, *args, **options)
+        other = change(tmp.frame_current)
+        return drawn if other is None else np.ascontiguousarray(other(drawn))
+
+    monkeypatch.setattr(compare_module, "picture", changed)
+
+
+def test_differences_and_failures_are_worse_than_warnings(moving, run, out, monkeypatch, capsys):
+    wrong = {2: lambda drawn: drawn[::-1] * np.float32(0.9)}
+    changed_at(monkeypatch, wrong.get)
+    assert run("1-4") == 2
+    assert [row["frame"] for row in table(out)["frames"]] == [2, 3, 1, 4]
+    camera = moving.camera
+    for frame, size in ((3, 1.0), (4, 0.0)):
+        camera.scale = (size, size, size)
+        camera.keyframe_insert("scale", frame=frame)
+    save(out.parent)
+    assert run("1-4") == 4
+    assert [row["frame"] for row in table(out)["frames"]] == [4, 2, 3, 1]
+    error = table(out)["frames"][0]["error"]
+    assert "Camera" in error and f"frame 4: {error}" in capsys.readouterr().err
+    assert error in (out / "frame_0004" / "comparison.json").read_text()
+    assert table(out)["verdict"] == "failed"
+
+
+SIMULATED = hard.particles_of_collection, hard.simulation_zone, hard.rigid_body
+
+
+@pytest.mark.parametrize("make", SIMULATED)
+def test_simulations_are_stepped_in_order(make, build, run, out, tmp_path):
+    """A frame shows what the scene does once it is played up to there, also when resumed."""
+    make(build)
+    bpy.context.scene.frame_set(1)
+    bpy.context.scene.render.resolution_x, bpy.context.scene.render.resolution_y = SIZE
+    save(tmp_path)
+
+    def opened(*frames: int) -> None:
+        bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "moving.blend"))
+        for frame in frames:
+            bpy.context.scene.frame_set(frame)
+
+    opened(10)
+    at_once = own_picture()
+    opened(*range(1, 11))
+    expected = own_picture()
+    assert (at_once != expected).any()
+    for redone in ({3, 10}, {10}):
+        opened()
+        before = done(out)
+        assert run("3-10:7") == 0
+        assert {f for f, file in done(out).items() if before.get(f) != file} == redone
+        found = np.load(out / "frame_0010" / "frame.npz")["blender"]
+        np.testing.assert_array_equal(found, expected)
+        (out / "frame_0010" / "made_by.json").unlink()
+    # A copy of the scene cannot have the second frame of rigid bodies: that is said.
+    assert run("2") == (make is hard.rigid_body)
+
+
+def test_the_operator_goes_back_to_the_users_frame(moving, out):
+    """And leaves what was moved but not keyed; all is compared anew, as it may have changed."""
+    moving.frame_set(2)
+    cube = bpy.data.objects["Cube"]
+    cube.location.x = 0.25
+    for _ in range(2):
+        before = done(out)
+        assert bpy.ops.reference_tracer.compare_animation(directory=str(out)) == {"FINISHED"}
+        assert moving.frame_current == 2 and cube.location.x == 0.25
+        assert not before.items() & done(out).items() and len(done(out)) == 4
+    path, rows = results.latest(FrameRow, moving).content
+    assert path == out / "animation.html" and rows[0].frame == 3
+
+
+def test_reftrace_goes_on_where_it_ended(moving, out):
+    """As a user's shell runs it."""
+    argv = [sys.executable, "-m", "reference_tracer.cli", "compare", bpy.data.filepath]
+    argv += ["--out", str(out), "--no-identity", "--frames"]
+    for frames, told in (("2", [2]), ("1-3", [1, 3])):
+        ended = subprocess.run([*argv, frames], capture_output=True, text=True, timeout=300)
+        assert ended.returncode == (3 in told), ended.stderr
+        assert [int(n) for n in re.findall(r"^frame (\d):", ended.stderr, re.M)] == told
+    assert not (out / "comparison.json").exists()
+    assert [row["frame"] for row in table(out)["frames"]] == [3, 1, 2]
