@@ -59,7 +59,8 @@ class Case:
     next_frame: Scene | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
+        if self.settings.color != Color.OBJECT:
+            object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
 
     def feature_of(self, *effects: Effect) -> NDArray[np.int32]:
         """Return which feature with one of the effects each instance's object has, each plane's.

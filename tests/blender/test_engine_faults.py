@@ -135,7 +135,7 @@ def test_settings_that_are_out_of_range_fail_the_render(scene, no_file, monkeypa
         bpy.ops.render.render(write_still=True)
 
 
-def fail_settings(**options):
+def fail_settings(*given, **options):
     raise ValueError("samples is 99; it must be between 1 and 64")
 
 
