@@ -2,9 +2,8 @@
 
 No script and no network: formulas are MathML, of what `formulas.py` writes: letters and words with
 indices (p₁, nₛ₁, u_min, x.y for a component), ² and operators, and one fraction, "/" between
-spaces, at the top of a right side. The fragment's classes begin with `derivation-`; its
-colours are the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page
-once.
+spaces, at the top of a right side. The fragment's classes begin with `derivation-`; its colours are
+the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page once.
 """
 
 from __future__ import annotations
@@ -12,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from html import escape
+from pathlib import Path
 
 from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Swatch, Table
 from .derivation import Derivation
@@ -19,58 +19,10 @@ from .digits import Parts
 from .document import lecture
 from .formulas import VECTORS, Formula
 
-STYLE = """
-.derivation { color: var(--ink); line-height: 1.5; }
-.derivation h1, .derivation h2, .derivation h3 { line-height: 1.25; text-wrap: balance; }
-.derivation h2 { margin-top: 2.2em; border-bottom: 1px solid var(--muted); padding-bottom: .2em; }
-.derivation h3 { margin-top: 1.8em; }
-.derivation p { max-width: 46em; }
-.derivation-answer { font-weight: 600; border-left: .25em solid var(--accent); padding-left: .8em; }
-.derivation-warning { font-weight: 600; color: var(--bad, var(--accent)); }
-.derivation-note { color: var(--muted); font-size: .92em; }
-.derivation-scroll { overflow-x: auto; margin: 1em 0; }
-.derivation table { border-collapse: collapse; font-size: .92em; }
-.derivation th, .derivation td { text-align: left; padding: .18em .9em .18em 0;
-  vertical-align: baseline; white-space: nowrap; }
-.derivation td:last-child, .derivation-text td { white-space: normal; overflow-wrap: anywhere; }
-.derivation td.derivation-number:last-child { min-width: 12ch; }
-.derivation summary { cursor: pointer; }
-.derivation summary h3 { display: inline-block; margin-bottom: .4em; }
-.derivation-contents ol { margin: 0; padding: 0; list-style: none; display: flex; flex-wrap: wrap;
-  gap: .2em 1.4em; }
-.derivation-contents a { color: var(--accent); }
-.derivation thead th { color: var(--muted); font-weight: 400;
-  border-bottom: 1px solid var(--muted); }
-.derivation tbody th { font-weight: 400; padding-right: 1em; white-space: normal; }
-.derivation-first th, .derivation-first td { padding-top: .55em; }
-.derivation-number { font-family: ui-monospace, Consolas, "DejaVu Sans Mono", monospace;
-  font-variant-numeric: tabular-nums; font-size: .94em; }
-.derivation td.derivation-off { color: var(--muted); font-size: .85em; text-align: right;
-  padding-right: 1.2em; }
-.derivation-remark { color: var(--muted); font-size: .85em; display: block; }
-.derivation-wrong { color: var(--paper); background: var(--bad, var(--accent));
-  border-radius: .15em; padding: 0 .1em; }
-.derivation-vector { font-weight: bold; font-style: normal; }
-.derivation-swatch { display: inline-block; width: 2.6em; height: 1.4em; vertical-align: middle;
-  margin-right: .8em; border: 1px solid var(--muted); border-radius: .2em; }
-@media print {
-  .derivation details::details-content { content-visibility: visible; height: auto; }
-  .derivation-contents { display: none; }
-  .derivation-scroll { overflow: visible; }
-}
-"""
-
-_PAGE_STYLE = """
-:root { color-scheme: light dark; --ink: #1b1b1f; --paper: #fdfdfb; --muted: #6a6a70;
-  --accent: #1d5a96; --bad: #a8201a; }
-@media (prefers-color-scheme: dark) {
-  :root { --ink: #e8e6e1; --paper: #17181b; --muted: #9a9aa2;
-    --accent: #86bdf4; --bad: #ff9d94; }
-}
-body { background: var(--paper); font: 17px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif;
-  margin: 0 auto; padding: 2em 1.5em 6em; max-width: 78em; }
-@media print { body { font-size: 10pt; } }
-"""
+_HERE = Path(__file__).parent
+STYLE, _PAGE_STYLE = (
+    "\n" + (_HERE / name).read_text(encoding="utf-8") for name in ("fragment.css", "document.css")
+)
 
 
 def fragment(derivation: Derivation) -> str:
