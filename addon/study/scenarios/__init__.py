@@ -1,1 +1,1 @@
-"""The scenarios of numerical stability: `sweeps.py` lists them."""
+"""The scenarios of numerical stability: `sweeps.toml` lists them."""
