@@ -208,7 +208,7 @@ def spread_error(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
             ring = around > (reach / 2 if reach > 1 else 0)
             ring &= (around <= reach) | (reach >= most)
             if ring.any():
-                largest = _largest_within(np.where(ring, around, 0.0), reach)[y - first :]
+                largest = largest_within(np.where(ring, around, 0.0), reach)[y - first :]
                 here = band[y : y + together]
                 np.maximum(here, largest[: len(here)], out=here)
             yield 1.0
@@ -217,8 +217,8 @@ def spread_error(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
         reach *= 2
 
 
-def _largest_within(values: NDArray[np.float64], reach: int) -> NDArray[np.float64]:
-    """Return the largest value at most `reach` rows and columns away."""
+def largest_within(values: NDArray, reach: int) -> NDArray:
+    """Return the largest of (h, w) values that are at most `reach` rows and columns away."""
     for axis in (0, 1):
         values = np.moveaxis(values, axis, 0).copy()
         done = 0  # so far away has been looked

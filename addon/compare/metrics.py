@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
+from .bounds import largest_within
 from .cause import Cause, Causes
 from .identity import Identity
 
@@ -126,13 +127,8 @@ def boundary(frame: Frame) -> NDArray[np.bool_]:
 
     The background is one, too. Beyond the picture's rim is what its outermost pixels see.
     """
-    seen = np.pad(frame.instance_index, 1, mode="edge")
-    out = np.zeros(frame.instance_index.shape, bool)
-    height, width = out.shape
-    for y in range(3):
-        for x in range(3):
-            out |= seen[y : y + height, x : x + width] != frame.instance_index
-    return out
+    seen = frame.instance_index
+    return (largest_within(seen, 1) != seen) | (largest_within(-seen, 1) != -seen)
 
 
 def count_pixels(

@@ -94,11 +94,15 @@ def find_transform(
     _, group = np.unique(keys, axis=0, return_inverse=True)
     group = group.reshape(-1)
     found: list[tuple[float, Curve]] = []
-    for named in _candidates(*_one_each(colors, some.color, group), picture.levels, more):
-        agree = _agreeing(~replace(some, transform=named.of).other_color(colors), group)
+    first, shown = _medians(some.color, group)
+    for named in _candidates(straight(colors[first]), straight(shown), picture.levels, more):
+        agree = ~replace(some, transform=named.of).other_color(colors)
+        of_group = np.bincount(group, agree) / np.bincount(group)
+        # Of the pixels, or of their groups where that is less.
+        share = min(float(agree.mean()), float((of_group > MAJORITY).mean()))
         yield 0.0
-        if agree > named.share:
-            found.append((agree, named))
+        if share > named.share:
+            found.append((share, named))
     for _, named in sorted(found, key=lambda pair: -pair[0]):
         after = yield from _differing(frame, replace(picture, transform=named.of))
         if not _refuted(frame, surface, right & after):
@@ -177,14 +181,6 @@ def _one_other_each(picture: Picture, colors: NDArray) -> bool:
     return bool(alike.mean() > FITTED_SHARE)
 
 
-def _one_each(
-    colors: NDArray, shown: NDArray, group: NDArray[np.integer]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the traced and the median shown straight RGB, (k, 3), of each group of n pixels."""
-    first, median = _medians(shown, group)
-    return straight(colors[first]), straight(median)
-
-
 def _medians(
     shown: NDArray, group: NDArray[np.integer]
 ) -> tuple[NDArray[np.intp], NDArray[np.floating]]:
@@ -193,12 +189,6 @@ def _medians(
     order = np.argsort(group, kind="stable")
     parts = np.split(shown[order], np.cumsum(np.bincount(group))[:-1])
     return first, np.array([np.median(part, axis=0) for part in parts])
-
-
-def _agreeing(agree: NDArray[np.bool_], group: NDArray[np.integer]) -> float:
-    """Return the share that agrees: of n pixels, or of their groups where that is less."""
-    of_group = np.bincount(group, agree) / np.bincount(group)
-    return min(float(agree.mean()), float((of_group > MAJORITY).mean()))
 
 
 def _candidates(

@@ -20,6 +20,7 @@ from ...tracer.camera import film_of
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work, scaled
+from ..bounds import largest_within
 from ..case import Case
 from ..cause import Cause
 from ..picture import Picture
@@ -54,28 +55,18 @@ def blind(case: Case, frame: Frame) -> NDArray[np.int32]:
     if picture.beneath is not None:
         out[:] = picture.drawn
     elif picture.drawn is not None:  # another renderer's may be a pixel wider
-        out = _spread(picture.drawn, max(filtered, 1))
+        out = largest_within(picture.drawn, max(filtered, 1))
     else:  # nobody drew the scene without it: all that it may cover
         for number, feature in features:
             if feature.effect is Effect.DRAWN and feature.bounds is not None:
                 out[covered(case.scene.camera, feature.bounds)] = number
     own = case.feature_of(Effect.COLOR)[frame.instance_index]
-    out = np.where(out == NOTHING, _spread(own, filtered), out)
+    own = largest_within(own, filtered)  # a filter mixes in what is beside
+    out = np.where(out == NOTHING, own, out)
     for number, feature in features:
         if feature.effect.everywhere:
             known = picture.known(frame.instance_index) & (feature.effect is Effect.LIGHT)
             out[~known & (out == NOTHING)] = number
-    return out
-
-
-def _spread(numbers: NDArray[np.int32], reach: int) -> NDArray[np.int32]:
-    """Return the largest number at most `reach` pixels away: a filter mixes it in."""
-    out = numbers
-    for axis in (0, 1) if reach and (numbers != NOTHING).any() else ():
-        out = np.moveaxis(out, axis, 0)
-        around = np.pad(out, ((reach, reach), (0, 0)), constant_values=NOTHING)
-        out = np.max([around[n : n + len(out)] for n in range(2 * reach + 1)], axis=0)
-        out = np.moveaxis(out, 0, axis)
     return out
 
 
