@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
 from ..study.extremes import written
-from ..study.scenarios.sweeps import SCENARIOS, Scenario
+from ..study.scenarios.sweeps import BY_NAME, Scenario
 from ..tracer.vector import transform_points
 from .camera import window_of
 from .engine import ENGINE
@@ -40,7 +40,7 @@ def open_scenario(context: Any, name: str, scale: str = "", width: int = 0) -> A
     SceneError
         If there is no such scale, or Blender's numbers cannot hold the scene.
     """
-    scenario = next(s for s in SCENARIOS if s.name == name)
+    scenario = BY_NAME[name]
     value = _number(scale, scenario)
     width = width or scenario.width
     height = max(1, round(width * scenario.height / scenario.width))

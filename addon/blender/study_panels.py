@@ -15,7 +15,7 @@ from ..explain.pixel import CERTAINTY_SENTENCES
 from ..explain.textbook import Arithmetic
 from ..methods import MEASURED, PLAIN, Method
 from ..study.extremes import BreakingPoint, written
-from ..study.scenarios.sweeps import SCENARIOS
+from ..study.scenarios.sweeps import BY_NAME
 from ..study.trade import Trade, TradeRow
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
@@ -24,7 +24,6 @@ from .scenario_scene import CHANGED
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
-_BY_NAME = {s.name: s for s in SCENARIOS}
 _COLUMNS = 3  # of buttons
 
 
@@ -59,11 +58,11 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
     box.label(text=f"Pixel ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
     wrapped(box, context, said)
     wrapped(box, context, f"This is {CERTAINTY_SENTENCES[derivation.certified.certainty]}.")
-    seen = next((t for t in derivation.tests if t.candidate is derivation.seen), None)
-    if seen:
-        _numbers(layout.box(), seen)
+    if derivation.seen_test:
+        _numbers(layout.box(), derivation.seen_test)
+    left_out = f", {pixel.left_out:,} more left out" if pixel.left_out else ""
     box = layout.box()
-    box.label(text=f"Tested: {len(derivation.tests)}" + _left_out(derivation))
+    box.label(text=f"Tested: {len(derivation.tests)}{left_out}")
     for number, test in enumerate(derivation.tests, 1):
         judged = test.verdicts[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
@@ -76,11 +75,6 @@ def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
 def _t(test: Test) -> str:
     t = next((q.values[Arithmetic.EXACT] for q in test.quantities if q.key == "t"), ())
     return f", t = {float(t[0]):.6g}" if t else ""
-
-
-def _left_out(derivation: Derivation) -> str:
-    left = derivation.pixel.left_out
-    return f", {left:,} more left out" if left else ""
 
 
 def _numbers(layout: Any, test: Test) -> None:
@@ -176,10 +170,9 @@ class _Extremes:
             _breaking_points(layout.box(), found.content, shown.precision)
         box = layout.box()
         box.prop(shown, "scenario", text="")
-        scenario = _BY_NAME[shown.scenario]
+        scenario = BY_NAME[shown.scenario]
         wrapped(box, context, scenario.explanation)
-        unit = f", {scenario.unit}" if scenario.unit else ""
-        box.label(text=f"Open as a Scene ({scenario.scale_name}{unit}):")
+        box.label(text=f"Open as a Scene ({scenario.scale_and_unit}):")
         operator = studies.REFERENCE_TRACER_OT_extreme_scene
         grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
         for scale in scenario.scales:
@@ -202,7 +195,7 @@ def _breaking_points(layout: Any, points: tuple[BreakingPoint, ...], precision: 
     for name in proven:
         of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
         cells = [_point(of[m]) for m in PLAIN] + ([] if holds else [_point(proven[name])])
-        scenario = _BY_NAME[name]
+        scenario = BY_NAME[name]
         column = layout.column(align=True)
         column.scale_y = 0.75
         column.label(text=f"{scenario.title}, {scenario.scale_name}")

@@ -48,6 +48,8 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
         ray passes, the closest miss first. More, where the proven answer, or what one of the plain
         methods sees, would not be the same.
         Infinite planes do not count.
+    source : str
+        What a reader calls the scene.
 
     Raises
     ------

@@ -95,6 +95,11 @@ class Derivation:
         """What is certainly seen; None for the background."""
         return self.named(self.certified.seen)
 
+    @property
+    def seen_test(self) -> Test | None:
+        """The ray against what is certainly seen."""
+        return next((t for t in self.tests if t.candidate is self.seen), None)
+
     def named(self, name: Name) -> Candidate | None:
         """Return the candidate of a name; None for NOWHERE."""
         return next((t.candidate for t in self.tests if t.candidate.name == name), None)
@@ -106,24 +111,7 @@ class Derivation:
 
 
 def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -> Derivation:
-    """Derive a pixel of a scene.
-
-    Parameters
-    ----------
-    scene : Scene
-    x, y : int
-        Of the traced picture, the camera's region; (0, 0) is its lower left pixel.
-    limit : int
-        Show at most so many triangles, unless the answer needs more: see
-        :func:`candidates.gather_pixel`.
-    source : str
-        What a reader calls the scene.
-
-    Raises
-    ------
-    SceneError
-        If there is no such pixel.
-    """
+    """Derive a pixel of a scene; takes and raises what :func:`candidates.gather_pixel` does."""
     return derive_pixel(gather_pixel(scene, x, y, limit, source))
 
 

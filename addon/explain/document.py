@@ -55,10 +55,14 @@ def _opening(derivation: Derivation) -> list[Block]:
         part = (
             f" The border shows a part: this is pixel ({pixel.column}, {pixel.row}) of the whole."
         )
+    other_t = []  # of what is seen: the one that the tables come to
+    if test := derivation.seen_test:
+        t = digits_text(test.number("t", Arithmetic.FLOAT64))
+        other_t.append(Paragraph(f"By the textbook’s formula in float64, t = {t} m.", "note"))
     return [
         Heading(1, f"The ray through pixel ({pixel.x}, {pixel.y}){of}"),
         Paragraph(answer_sentence(derivation), "answer"),
-        *_textbook_t(derivation),
+        *other_t,
         Paragraph(
             f"Camera “{camera.name}”: {camera.projection.name}, {camera.width} × {camera.height} "
             f"pixels, it shows depths from {digits_text(float(camera.clip_start))} m to "
@@ -79,15 +83,6 @@ def answer_sentence(derivation: Derivation) -> str:
     return (
         f"The pixel sees {seen.title}, at t = {digits_text(derivation.certified.t)} m ({origin})."
     )
-
-
-def _textbook_t(derivation: Derivation) -> list[Block]:
-    """Say the other t of what is seen: the one that the tables come to."""
-    for test in derivation.tests:
-        if test.candidate is derivation.seen:
-            t = digits_text(test.number("t", Arithmetic.FLOAT64))
-            return [Paragraph(f"By the textbook’s formula in float64, t = {t} m.", "note")]
-    return []
 
 
 def _camera(derivation: Derivation) -> list[Block]:

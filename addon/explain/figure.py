@@ -51,11 +51,13 @@ def shapes(derivation: Derivation) -> list[Shape]:
     o, d = pixel.origin, pixel.direction
     end = _end(derivation)
     size = max(abs(end), 1e-30)
-    largest = _OF_TRIANGLE * _extent(derivation)
+    seen = derivation.seen
+    extent = np.ptp(seen.points, axis=0).max() if seen and not seen.is_plane else np.inf
+    largest = _OF_TRIANGLE * float(extent)
     out = [_cone("Ray", o, d, end, min(_THIN * size, largest / 2), RAY)]
     for number, test in enumerate(derivation.tests, 1):
         t = _t(test)
-        is_seen = test.candidate is derivation.seen
+        is_seen = test.candidate is seen
         near = t is not None and abs(t) <= 3 * size
         if near and is_seen:
             out.append(_dot("Hit", o + t * d, min(_DOT * abs(t), largest), HIT))
@@ -65,12 +67,6 @@ def shapes(derivation: Derivation) -> list[Shape]:
         x = o + t * d if near else None
         out += _surface(test, f"2.{number}", x, 0.25 * size, -_LIFT / 2 * d if is_seen else None)
     return out
-
-
-def _extent(derivation: Derivation) -> float:
-    """Return the size of the triangle that is seen, inf where none is."""
-    seen = derivation.seen
-    return float(np.ptp(seen.points, axis=0).max()) if seen and not seen.is_plane else np.inf
 
 
 def _end(derivation: Derivation) -> float:

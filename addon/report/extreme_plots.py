@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..methods import MEASURED, Method
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
-from ..study.scenarios.sweeps import SCENARIOS, Map
+from ..study.scenarios.sweeps import BY_NAME, Map
 from . import plots
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ DOUBLED = "#d5e0f0"  # where no ray is lost, but some cross too many triangles
 _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 # Of lines that cover one another, each shows inside the one before: width, size of its marks.
 _WIDTHS, _SIZES = (6.0, 4.0, 2.4, 1.4), (11.0, 8.5, 6.5, 4.5)
-KNOWN = {s.name: s for s in SCENARIOS}
 _LEFT = -4.65  # of the scenes' names, where a column of the table is 1 wide
 _CENTRED = {"ha": "center", "va": "center"}
 
@@ -111,12 +110,11 @@ def by_scenario(rows: Sequence[ExtremesRow]) -> dict[str, list[ExtremesRow]]:
 
 def scale_of(scenario: str) -> str:
     """Return what a scenario's scale means, and its unit; nothing for one of a user's own."""
-    known = KNOWN.get(scenario)
-    return f"{known.scale_name}{f', {known.unit}' if known.unit else ''}" if known else ""
+    return BY_NAME[scenario].scale_and_unit if scenario in BY_NAME else ""
 
 
 def _title(scenario: str) -> str:
-    return KNOWN[scenario].title if scenario in KNOWN else scenario
+    return BY_NAME[scenario].title if scenario in BY_NAME else scenario
 
 
 def _colormap() -> Colormap:

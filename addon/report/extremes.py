@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from .. import images
 from ..methods import MEASURED
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
-from ..study.scenarios.sweeps import MAPS, SCENARIOS, Map, Scenario
+from ..study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS, Map, Scenario
 from . import extreme_plots
-from .extreme_plots import KNOWN, by_scenario, scale_of
+from .extreme_plots import by_scenario, scale_of
 from .folders import finite, replacing, write_json
 from .tables import columns, percent
 
@@ -54,7 +54,7 @@ def table(rows: Sequence[ExtremesRow]) -> str:
     lines: list[Sequence[str] | str] = []
     for name, sweep in by_scenario(rows).items():
         lines.append("")
-        if s := KNOWN.get(name):
+        if s := BY_NAME.get(name):
             lines.append(f"{s.title} ({scale_of(name)}): {s.explanation}")
         by = {(r.scale, r.method, r.precision): r for r in sweep}
         for scale in dict.fromkeys(r.scale for r in sweep):
@@ -99,7 +99,7 @@ def breaking_table(rows: Sequence[ExtremesRow]) -> str:
     points = breaking_points(rows)
     methods = _shown(points)
     by = {(p.scenario, p.method, p.precision): p for p in points}
-    scales = {s.name: s.scale_name for s in SCENARIOS}
+    scales = {name: s.scale_name for name, s in BY_NAME.items()}
     lines: list[Sequence[str] | str] = [""]
     for name in dict.fromkeys(p.scenario for p in points):
         cells = (_first_scale(by.get((name, *m))) for m in methods)

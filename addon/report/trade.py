@@ -6,7 +6,7 @@ The plot shows time against wrong pixels, and time against coverage error.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,11 +33,6 @@ _UNITS = {
     "peak_bytes": "bytes of the working arrays and the picture",
     "coverage_error": "root mean square of linear RGBA against the converged picture",
 }
-_HELD = (  # of a row, in the JSON
-    *("method", "precision", "samples", "width", "height", "seconds", "fastest", "slowest"),
-    *("wrong_pixels", "largest_t_error", "peak_bytes", "coverage_error"),
-    *("best", "best_pixels", "best_coverage"),
-)
 _HEAD = (
     *("method", "precision", "seconds", "(min - max)"),
     *("wrong pixels  ", "t error, m", "MiB", "coverage  "),
@@ -95,8 +90,9 @@ def to_dict(trade: Trade) -> dict[str, Any]:
 
 
 def _row(r: TradeRow) -> dict[str, Any]:
-    found = {name: getattr(r, name) for name in _HELD}
-    return found | {n: finite(found[n]) for n in ("largest_t_error", "coverage_error")}
+    held = vars(r) | {"fastest": r.fastest, "slowest": r.slowest, "best": r.best}
+    del held["rounds"]
+    return held | {n: finite(held[n]) for n in ("largest_t_error", "coverage_error")}
 
 
 def write(directory: str | Path, trade: Trade) -> None:
@@ -113,6 +109,11 @@ def write(directory: str | Path, trade: Trade) -> None:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(trade))
         images.save_png(new / PLOT, plot_picture(trade))
+
+
+def pictures(trade: Trade) -> Iterator[tuple[str, NDArray[np.uint8]]]:
+    """Yield the name and pixels of the one picture that there is, as :func:`plot_picture`."""
+    yield "tradeoff", plot_picture(trade)
 
 
 def plot_picture(trade: Trade) -> NDArray[np.uint8]:

@@ -6,20 +6,17 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import astuple
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import MissingLibraryError, data_uri, to_display
 from ...scene import Camera
-from ...study.extremes import ExtremesRow
-from ...study.trade import Trade
 from ...tracer.certified.certainty import Certainty
 from ...tracer.frame import Frame
 from ...tracer.triangle import SUM_TOLERANCE
@@ -74,8 +71,9 @@ def content(
             {"pixel": list(pixel), "html": html.fragment(derivation)}
             for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(extras.trade, trade_report.to_dict, _trade_plots, missing),
-        "extremes": _study(extras.extremes, _extremes_dict, extremes_report.pictures, missing),
+        "trade": _study(trade_report, extras.trade, missing),
+        # Without its thousands of rows, which the plots show.
+        "extremes": _study(extremes_report, extras.extremes, missing, without="rows"),
         "left_out": missing,
     }
 
@@ -181,22 +179,14 @@ def _by_priority(
     ]
 
 
-def _trade_plots(trade: Trade) -> Iterable[tuple[str, NDArray[np.uint8]]]:
-    yield "tradeoff", trade_report.plot_picture(trade)
-
-
-def _extremes_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
-    """Return what `extremes.json` holds, without its thousands of rows, which the plots show."""
-    return {k: v for k, v in extremes_report.to_dict(rows).items() if k != "rows"}
-
-
-def _study(found: Any, to_dict: Callable, plots: Callable, missing: list[str]) -> Any:
-    """Return a study for JSON, with its plots if Matplotlib is installed."""
+def _study(report: Any, found: Any, missing: list[str], without: str = "") -> Any:
+    """Return a study as its module of `report` has it, with plots if Matplotlib is installed."""
     if found is None:
         return None
-    shown = []
+    held = {k: v for k, v in report.to_dict(found).items() if k != without} | {"plots": []}
     try:
-        shown += ({"name": name, "png": data_uri(picture)} for name, picture in plots(found))
+        for name, picture in report.pictures(found):
+            held["plots"].append({"name": name, "png": data_uri(picture)})
     except MissingLibraryError as error:
         missing.append(f"Plots: {error}.")
-    return to_dict(found) | {"plots": shown}
+    return held

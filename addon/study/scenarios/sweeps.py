@@ -36,6 +36,11 @@ class Scenario:
     width: int = 32  # of the picture, in pixels
     height: int = 24
 
+    @property
+    def scale_and_unit(self) -> str:
+        """What the scale means, and its unit if it has one."""
+        return f"{self.scale_name}, {self.unit}" if self.unit else self.scale_name
+
 
 @dataclass(frozen=True)
 class Map:
@@ -65,5 +70,6 @@ def _map(listed: dict[str, Any]) -> Map:
 
 _LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 SCENARIOS: tuple[Scenario, ...] = tuple(map(_scenario, _LISTED["scenario"]))
+BY_NAME = {scenario.name: scenario for scenario in SCENARIOS}
 MAPS: tuple[Map, ...] = tuple(map(_map, _LISTED["map"]))
 ALL: tuple[Scenario, ...] = (*SCENARIOS, *(row for some in MAPS for row in some.rows))
