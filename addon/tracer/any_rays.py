@@ -20,7 +20,7 @@ from .certified.contest import Contest, in_range, sides
 from .certified.surfaces import SURE
 from .hits import Hits, Statistics
 from .nearest import test_pairs, test_planes
-from .progress import Work, result_of
+from .progress import Work
 from .settings import Settings
 from .world import WorldTriangles, batches, world_triangles
 
@@ -99,18 +99,3 @@ def decide(
             if found := batch.hit(k, k):
                 hit[pair], edge[pair] = found.is_hit(), found.on_edge
     return Decision(hit, edge, undecided)
-
-
-def nearest_hits(
-    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
-) -> Hits:
-    """Return what n rays see of m triangles (3, 3, m), each ray tested with each triangle.
-
-    Parameters are as of :func:`decide`. A hit has the instance 0, and the number of its triangle.
-    """
-    count = corners.shape[2]
-    triangles = WorldTriangles(corners, np.zeros(count, np.int32), np.arange(count, dtype=np.int32))
-    contest = Contest(rays, (), 0, start, end)
-    for some in _pairs(triangles, max(rays.origins.shape[1], rays.directions.shape[1])):
-        contest.enter(some)
-    return result_of(contest.hits(Statistics()))

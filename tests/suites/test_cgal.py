@@ -15,9 +15,10 @@ from itertools import permutations
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
-from reference_tracer.tracer.any_rays import decide, nearest_hits
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 
+from ..rays import nearest_hits
 from .meshes import bumpy_sphere, corners_of
 
 LOOPS = pytest.mark.parametrize("loops", [2000, pytest.param(200_000, marks=pytest.mark.torture)])

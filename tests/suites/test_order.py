@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import sights
-from reference_tracer.tracer.any_rays import nearest_hits
 from reference_tracer.tracer.camera import Rays
 
+from ..rays import nearest_hits
 from .families import FAMILIES, SIZES, at_any_size
 
 torture = pytest.mark.torture

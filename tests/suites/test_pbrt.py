@@ -18,10 +18,11 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
-from reference_tracer.tracer.any_rays import decide, nearest_hits
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.vector import cross, dot
 
+from ..rays import nearest_hits
 from .meshes import bumpy_sphere, corners_of, on_sphere, snapped
 from .shooting import crossings, decided
 

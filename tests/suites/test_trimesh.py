@@ -10,9 +10,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.tracer.any_rays import decide, nearest_hits
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 
+from ..rays import nearest_hits
 from .meshes import box, corners_of, cylinder, on_sphere
 from .shooting import crossings, decided
 

@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 from reference_tracer.methods import Method
 from reference_tracer.scene import Mesh, ViewWindow
-from reference_tracer.tracer.any_rays import decide, nearest_hits
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
+from ..rays import nearest_hits
 from .meshes import closed_fan, corners_of, split_square
 from .shooting import crossings
 

@@ -11,8 +11,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
-from reference_tracer.tracer import any_rays
-from reference_tracer.tracer.any_rays import decide, nearest_hits
+from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.certified.certainty import Certainty
@@ -22,6 +21,7 @@ from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import WorldTriangles
 
+from ...rays import nearest_hits
 from ..rational import t_of
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -219,7 +219,7 @@ def test_decide(rng, family, shared):
 
 @pytest.mark.parametrize("what", ["nothing", "origin", "direction"])
 @pytest.mark.parametrize("together", [1, 7, 100])
-def test_batches_and_their_parts_do_not_matter(rng, together, what, monkeypatch):
+def test_batches_and_their_parts_do_not_matter(rng, together, what):
     """Two batches, each in parts, the second first: as all triangles at once."""
     o, d, c = whole(rng)
     rays = share(o, d, what)
@@ -238,8 +238,7 @@ def test_batches_and_their_parts_do_not_matter(rng, together, what, monkeypatch)
     for name in ("t", "instance", "triangle", "s"):
         assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
     assert hits.ties == expected.ties
-    monkeypatch.setattr(any_rays, "PAIRS", together)
-    again = nearest_hits(rays, c)
+    again = nearest_hits(rays, c, together=together)
     assert np.array_equal(again.t, expected.t) and again.ties == expected.ties
     assert statistics.pairs_exact == sum(statistics.reasons.values()) > 0
     assert statistics.reasons[Reason.EDGE] > 0
