@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import combinations
 from typing import Any, NamedTuple
 
 from ..tracer.hits import NOWHERE, Name
@@ -96,28 +95,6 @@ def move(v: Vector, by: Sequence[Vector], beside: Sequence[Vector], k: int = 0) 
 def _digits(vectors: Sequence[Vector]) -> int:
     digits = max(abs(x) for v in vectors for x in v).bit_length()
     return 8 * digits + 64  # a comparison of two t has products of six of them
-
-
-def turning_planes(o: Vector, d: Vector, surfaces: Sequence[Surface]) -> set[tuple[int, ...]]:
-    """Return normals of all planes through the ray at which what it sees may change.
-
-    They are those through an edge that the ray meets, and those through the line in which two
-    surfaces meet that it meets at once.
-    """
-    found: set[tuple[int, ...]] = set()
-    for surface in surfaces:
-        corners = surface.points if surface.own_normal is None else ()
-        for k in range(len(corners)):
-            a, b = sub(corners[k - 1], o), sub(corners[k], o)
-            m = cross(a, b)
-            if dot(d, m) == 0:
-                found.add(tuple(m if any(m) else cross(sub(b, a), d)))
-    levels = [(dot(sub(s.points[0], o), s.normal), s.normal) for s in surfaces]
-    for (depth1, n1), (depth2, n2) in combinations(levels, 2):
-        w = [depth1 * b - depth2 * a for a, b in zip(n1, n2, strict=True)]
-        if dot(d, w) == 0:
-            found.add(tuple(w if any(w) or depth1 else cross(cross(n1, n2), d)))
-    return {m for m in found if any(m)}
 
 
 def in_integers(

@@ -12,8 +12,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
-from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -26,16 +24,13 @@ from ..tracer.vector import transform_points
 from .moved_rays import (
     THE_RULE,
     Surface,
-    cross,
     crosses,
     dot,
     in_integers,
     meet,
-    move,
     moved,
     nearest_of_moved,
     sub,
-    turning_planes,
 )
 
 OUTSIDE, EDGE, INSIDE = -1, 0, 1
@@ -131,26 +126,6 @@ class Sight:
     # at their edges before that.
     front: tuple[Surface, ...]
     covered: bool  # whether something is seen however the ray is moved
-
-    @property
-    def touched(self) -> frozenset[Name]:
-        """The names of `front`, and NOWHERE if the ray may pass all of it."""
-        return frozenset(s.name for s in self.front) | (set() if self.covered else {NOWHERE})
-
-    @cached_property
-    def may(self) -> frozenset[Name]:
-        """What any ray sees that is infinitesimally moved, to whichever side."""
-        if len(self.touched) == 1:
-            return self.touched
-        o, d, surfaces = in_integers(self.origin, self.direction, self.front)
-        found = {self.seen}
-        for normal in turning_planes(o, d, surfaces):
-            along = cross(normal, d)  # d moved along it stays on the boundary; `normal` leaves it
-            for s, r in product((1, -1), repeat=2):
-                beside = [s * x for x in along], [r * x for x in normal]
-                by = (move([0, 0, 0], beside, beside),)  # one way: o, if it moves, goes with d
-                found.add(nearest_of_moved(o, d, surfaces, by))
-        return frozenset(found)
 
 
 def scene_sights(scene: Scene, pixels: NDArray[np.integer] | None = None) -> list[Sight]:

@@ -25,6 +25,8 @@ from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 
+from ..moved import may, touched
+
 TINY = Fraction(1, 2**2000)  # beside integers of a few digits
 
 
@@ -95,9 +97,9 @@ def expected(scene):
 def matches(scene):
     """Check the oracle against fractions; return what may be seen."""
     answers = scene_sights(scene)
-    assert [a.touched for a in answers] == expected(scene)
-    assert all(a.seen in a.may and a.may <= a.touched for a in answers)
-    return [a.may for a in answers]
+    assert [touched(a) for a in answers] == expected(scene)
+    assert all(a.seen in may(a) and may(a) <= touched(a) for a in answers)
+    return [may(a) for a in answers]
 
 
 def small_integers(rng, count):
@@ -243,17 +245,17 @@ def test_what_may_be_seen_is_what_moved_rays_see(make, rng):
     [sight] = sights(o, d, corners)
     ways = rng.normal(size=(3, 800)) * 2.0**-40
     moved = sights(np.zeros((3, 800)), d + ways, corners)
-    assert {s.seen for s in moved} == sight.may
-    assert len(sight.may) > 20
+    assert {s.seen for s in moved} == may(sight)
+    assert len(may(sight)) > 20
 
 
 def test_coincident_triangles_and_planes_tie(make):
     quad = make.quad(-20, 40, -30, 70, -2)
     scene = make.scene(make.camera(4, 3), quad, quad, planes=[((0, 0, -2), (0, 0, 3))])
     answers = scene_sights(scene)
-    assert [a.touched for a in answers] == expected(scene)
-    assert all({i for i, _ in a.touched} == {0, 1, 2} for a in answers)
-    assert all(len(a.may) == 1 and a.seen[0] == 0 for a in answers)  # of one plane, the lowest
+    assert [touched(a) for a in answers] == expected(scene)
+    assert all({i for i, _ in touched(a)} == {0, 1, 2} for a in answers)
+    assert all(len(may(a)) == 1 and a.seen[0] == 0 for a in answers)  # of one plane, the lowest
 
 
 def test_a_gap_of_one_ulp_is_told(make):
@@ -285,7 +287,7 @@ def test_the_oracle_and_the_textbook_agree_away_from_edges(make):
     scene = make.scene(camera, make.mesh(torus))
     frame = render(scene, Settings("textbook"))
     given = zip(frame.instance_index.ravel(), frame.triangle_index.ravel(), strict=True)
-    assert all(name in s.may for name, s in zip(given, scene_sights(scene), strict=True))
+    assert all(name in may(s) for name, s in zip(given, scene_sights(scene), strict=True))
 
 
 def moved_hits(o, d, corners):
@@ -351,5 +353,5 @@ def test_some_pixels_are_those_of_all(make):
     scene = make.scene(make.camera(8, 8, half=4, orthographic=True, eye=(0.5, 0.5, 0)), grid([30]))
     all_of_them, some = scene_sights(scene), np.array([5, 27, 60])
     found = scene_sights(scene, some)
-    expected = [(all_of_them[k].seen, all_of_them[k].t, all_of_them[k].may) for k in some]
-    assert [(s.seen, s.t, s.may) for s in found] == expected
+    expected = [(all_of_them[k].seen, all_of_them[k].t, may(all_of_them[k])) for k in some]
+    assert [(s.seen, s.t, may(s)) for s in found] == expected

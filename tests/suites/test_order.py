@@ -7,6 +7,7 @@ import pytest
 from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
 
+from ..moved import may, touched
 from ..rays import nearest_hits
 from .families import FAMILIES, SIZES, at_any_size
 
@@ -67,7 +68,7 @@ def test_the_order_of_hits(rng, kind, share, start, count):
         assert not wrong, (o[:, wrong], d[:, wrong], corners)
         seen += (hits.triangle >= 0).sum()
         behind += (hits.t < 0).sum()
-        open_answers += sum(len(s.touched) > 1 for s in expected)
+        open_answers += sum(len(touched(s)) > 1 for s in expected)
     assert seen > 2 * count
     assert (behind > count) == (start < 0)
     if kind != "an ulp apart":
@@ -112,7 +113,7 @@ def test_ties_name_all_that_moved_rays_see(rng, kind, share):
         o, d = (np.broadcast_to(v, (3, 40)) for v in (o, d))
         for ray, sight in enumerate(sights(o, d, corners)):
             ties = hits.ties.get(ray, frozenset((sight.seen,)))
-            assert sight.may <= ties <= sight.touched
+            assert may(sight) <= ties <= touched(sight)
 
 
 @SHARE

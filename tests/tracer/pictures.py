@@ -10,6 +10,7 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
+from ..moved import may, touched
 from .rational import t_of_pixels
 
 CERTIFIED = Settings("certified")
@@ -64,11 +65,11 @@ def check(scene: Scene, settings: Settings = CERTIFIED) -> Frame:
     assert names == [s.seen for s in truth]
     assert np.array_equal(frame.t.ravel(), t_of_pixels(scene, names))
     certainty = frame.certainty.ravel()
-    ambiguous = [len(s.touched) > 1 for s in truth]
+    ambiguous = [len(touched(s)) > 1 for s in truth]
     assert np.array_equal(certainty == Certainty.AMBIGUOUS, ambiguous)
     assert (certainty != Certainty.NOT_CERTIFIED).all()
     assert sorted(frame.ties) == np.flatnonzero(ambiguous).tolist()
     for k, ties in frame.ties.items():
-        assert names[k] in ties and truth[k].may <= ties <= truth[k].touched
+        assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k])
     assert frame.statistics.method == "certified"
     return frame

@@ -19,6 +19,7 @@ from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import WorldTriangles
 
+from ..moved import touched
 from .pictures import names_of
 from .rational import t_of_pixels
 
@@ -105,7 +106,7 @@ def test_certified_and_auto_against_exact_brute_force(mess):
         frame = traced(mess, settings)
         assert names_of(frame) == names
         assert np.array_equal(frame.t.ravel(), t)
-    assert sum(len(s.touched) > 1 for s in truth) > 20 and len({i for i, _ in names}) > 6
+    assert sum(len(touched(s)) > 1 for s in truth) > 20 and len({i for i, _ in names}) > 6
 
 
 @pytest.mark.slow

@@ -21,6 +21,7 @@ from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import WorldTriangles
 
+from ...moved import may, touched
 from ...rays import nearest_hits
 from ..rational import t_of
 
@@ -87,10 +88,10 @@ def check(rays, corners, start=0.0, end=np.inf) -> Hits:
         column = origins[:, k], directions[:, k], corners[..., name[1]]
         assert hits.t[k] == (np.inf if name == NOWHERE else t_of(*column))
         ambiguous = hits.certainty[k] == Certainty.AMBIGUOUS
-        assert ambiguous == (len(truth.touched) > 1) == (k in hits.ties)
+        assert ambiguous == (len(touched(truth)) > 1) == (k in hits.ties)
         assert ambiguous or hits.certainty[k] in (Certainty.BOUND, Certainty.EXACT)
         ties = hits.ties.get(k, {name})
-        assert name in ties and truth.may <= ties <= truth.touched
+        assert name in ties and may(truth) <= ties <= touched(truth)
     return hits
 
 

@@ -25,6 +25,7 @@ from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
+from ....moved import may, touched
 from ...hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...rational import t_of_pixels
 
@@ -92,9 +93,9 @@ def test_as_the_oracle_has_it(make):
         names = list(zip(found.instance.tolist(), found.triangle.tolist(), strict=True))
         assert names == [s.seen for s in truth], seed
         assert np.array_equal(found.t, t_of_pixels(scene, names)), seed
-        assert sorted(found.ties) == [k for k, s in enumerate(truth) if len(s.touched) > 1], seed
+        assert sorted(found.ties) == [k for k, s in enumerate(truth) if len(touched(s)) > 1], seed
         for k, ties in found.ties.items():
-            assert names[k] in ties and truth[k].may <= ties <= truth[k].touched, seed
+            assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k]), seed
         ambiguous, hits = ambiguous + len(found.ties), hits + (found.triangle != NOTHING).sum()
     assert ambiguous > 600 and hits > 1800
 
