@@ -67,21 +67,19 @@ def _emission(material: Any, scene: Any) -> None:
     color = emission.inputs["Color"]
     if shading.color_type == "SINGLE":
         color.default_value = (*shading.single_color, 1.0)
-    elif shading.color_type == "OBJECT":
-        tree.links.new(_attribute(tree, "OBJECT", "color").outputs["Color"], color)
-    elif shading.color_type == "VERTEX":
-        tree.links.new(_vertex_color(tree), color)
     else:
-        tree.links.new(_material_color(tree), color)
+        made = {"OBJECT": _object_color, "VERTEX": _vertex_color}
+        tree.links.new(made.get(shading.color_type, _material_color)(tree), color)
+
+
+def _object_color(tree: Any) -> Any:
+    return _attribute(tree, "OBJECT", "color").outputs["Color"]
 
 
 def _vertex_color(tree: Any) -> Any:
     """Return a socket: the active colour attribute, or what is shown of a mesh without one."""
-    found = (
-        _material_color(tree)
-        if WITHOUT_ATTRIBUTE == "MATERIAL"
-        else _attribute(tree, "OBJECT", "color").outputs["Color"]
-    )
+    without = _material_color if WITHOUT_ATTRIBUTE == "MATERIAL" else _object_color
+    found = without(tree)
     # By name: Cycles itself would take the one that is active for renders.
     for name in sorted({m.color_attributes.active_color_name for m in bpy.data.meshes} - {""}):
         node = tree.nodes.new("ShaderNodeVertexColor")  # alpha 0 where a mesh has none of this name

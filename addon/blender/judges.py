@@ -16,10 +16,6 @@ from ..scene import Scene, SceneError
 AUTO = "AUTO"  # the viewport in a window, Workbench in background
 
 
-def _as_it_is(judge: Judge, scene: Any, layer: str) -> AbstractContextManager[None]:
-    return nullcontext()
-
-
 @dataclass(frozen=True)
 class Judge:
     """One of Blender's engines.
@@ -56,7 +52,7 @@ class Judge:
     number: int | None
     engine: str | None
     ignores: frozenset[str]
-    set_up: Callable[[Judge, Any, str], AbstractContextManager[None]] = _as_it_is
+    set_up: Callable[[Judge, Any, str], AbstractContextManager[None]] = lambda *_: nullcontext()
     sample_radius: float = 0.0
     filter_radius: float = 2.0
     solid: bool = True

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .derivation import Quantity
 from .digits import Parts, exact_text, marked, off_text, ulps
-from .formulas import Formula, component_labels
+from .formulas import Formula
 from .textbook import FLOATS
 
 
@@ -75,13 +75,13 @@ def numbers(quantities: tuple[Quantity, ...]) -> Numbers:
     """Return a table of numbers, a row for each component."""
     rows = []
     for q in quantities:
-        labels = component_labels(q.formula, q.count)
-        for k, label in enumerate(labels):
+        label = q.formula.label
+        for k, part in enumerate([label] if q.count == 1 else [f"{label}.{c}" for c in "xyz"]):
             exact = q.exact(k)
             values = [q.values[kind][k] for kind in FLOATS]
             floats = tuple((marked(v, exact), off_text(ulps(v, exact))) for v in values)
             truth = "undefined" if exact is None else exact_text(exact)
-            rows.append(BlockRow(label, None if k else q.formula, floats, truth))
+            rows.append(BlockRow(part, None if k else q.formula, floats, truth))
     return Numbers(tuple(rows))
 
 

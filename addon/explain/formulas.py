@@ -119,8 +119,3 @@ class Rejection(StrEnum):
 def ray_formulas(projection: Projection) -> dict[str, Formula]:
     """Return the formulas of a ray's origin and direction."""
     return {key: Formula(key, *own) for key, own in projection.formulas.items()}
-
-
-def component_labels(formula: Formula, count: int) -> list[str]:
-    """Return the label of a number, or the three of a vector's components."""
-    return [formula.label] if count == 1 else [f"{formula.label}.{k}" for k in "xyz"]

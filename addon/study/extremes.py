@@ -11,12 +11,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..methods import Method
-from ..scene import Camera
 from ..tracer.camera import Rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
@@ -24,10 +23,10 @@ from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.render import render
-from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.settings import PLAIN_SETTINGS, Settings
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
-from .truth import Truth, crossings, keys, pixel_rays, sample, truth_of
+from .truth import CERTIFIED, Truth, crossings, keys, pixel_rays, sample, truth_of
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 
@@ -164,27 +163,30 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     found = frame.triangle_index.ravel() != NOTHING
     wrong = np.flatnonzero(off & found)
     names = frame.instance_index.flat[wrong], frame.triangle_index.flat[wrong]
-    return ExtremesRow(
-        scenario.name,
-        scale,
-        settings.method.value,
-        settings.precision.value,
-        rays=off.size,
+    return _row(
+        *(scenario, scale, settings, truth, frame),
         missed=int((off & ~found).sum()),
         doubled=int((count > truth.count).sum()),
         wrong=len(wrong),
-        refused=frame.statistics.refused + _not_finite(camera, settings.precision),
         order=int(np.isin(keys(scene, wrong, *names), truth.crossed).sum()),
         largest_t_error=_largest_t_error(frame, truth.frame),
-        across=scenario.across,
-        seen=int((truth.frame.instance_index != NOTHING).sum()),
     )
 
 
-def _not_finite(camera: Camera, precision: Precision) -> int:
-    rays = pixel_rays(camera, precision)
+def _row(
+    scenario: Scenario, scale: float, settings: Settings, truth: Truth, frame: Frame, **found: Any
+) -> ExtremesRow:
+    """Return a row with what was found of a frame, and what all rows say alike."""
+    rays = pixel_rays(frame.scene.camera, settings.precision)
     finite = np.isfinite(rays.origins).all(axis=0) & np.isfinite(rays.directions).all(axis=0)
-    return int((~finite).sum())
+    return ExtremesRow(
+        *(scenario.name, scale, settings.method.value, settings.precision.value),
+        rays=truth.count.size,
+        refused=frame.statistics.refused + int((~finite).sum()),
+        across=scenario.across,
+        seen=int((truth.frame.instance_index != NOTHING).sum()),
+        **found,
+    )
 
 
 def _largest_t_error(frame: Frame, certified: Frame) -> float | None:
@@ -223,19 +225,12 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
             error = abs(Fraction(t) - sight.t) / Fraction(float(np.spacing(t)))
             worst = max(worst or 0.0, float(error))
     statistics = frame.statistics
-    return ExtremesRow(
-        scenario.name,
-        scale,
-        Method.CERTIFIED.value,
-        Precision.FLOAT64.value,
-        rays=count.size,
+    return _row(
+        *(scenario, scale, CERTIFIED, truth, frame),
         missed=int(missed.sum()),
         doubled=int(doubled.sum()),
         wrong=int(wrong.sum()),
-        refused=statistics.refused + _not_finite(frame.scene.camera, Precision.FLOAT64),
         largest_t_error=worst,
         exact=statistics.pairs_exact / statistics.pairs_tested if statistics.pairs_tested else 0.0,
         judged=len(pixels),
-        across=scenario.across,
-        seen=int(sees.sum()),
     )

@@ -6,7 +6,7 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import astuple
 from typing import Any
 
@@ -151,7 +151,14 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     if (identity := comparison.identity) is not None:
         found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
     missing, taken = [], arrays.size(found)
-    for name, what, made in _by_priority(comparison, seen):
+    scene, both = comparison.scene, {"traced": frame.color, "blender": comparison.picture}
+    triangles = "The triangles that are seen, and with them t and the derivation of every pixel"
+    colors = "The linear colours of every pixel (those of the screen are there)"
+    for name, what, made in (  # the most useful first
+        ("surfaces", triangles, lambda: arrays.surface_table(scene, seen)),
+        ("t_offset", "The last bits of t", lambda: packed(arrays.t_offsets(scene, frame, seen))),
+        ("colors", colors, lambda: {side: packed(color) for side, color in both.items()}),
+    ):
         part = made()
         size = arrays.size(part)
         if taken + size <= limit:
@@ -159,24 +166,9 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
         else:
             millions = size / 1e6
             missing.append(f"{what}: left out, as they would add {millions:.0f} MB to this page.")
-    if found["surfaces"] is None and found["t_offset"] is not None:
+    if found["surfaces"] is None:
         found["t_offset"] = None
     return found, missing
-
-
-def _by_priority(
-    comparison: Comparison, seen: arrays.SeenSurfaces
-) -> list[tuple[str, str, Callable[[], dict[str, Any]]]]:
-    """Return the name, description and maker of each optional array, the most useful first."""
-    scene, frame = comparison.scene, comparison.frame
-    triangles = "The triangles that are seen, and with them t and the derivation of every pixel"
-    colors = "The linear colours of every pixel (those of the screen are there)"
-    both = {"traced": frame.color, "blender": comparison.picture}
-    return [
-        ("surfaces", triangles, lambda: arrays.surface_table(scene, seen)),
-        ("t_offset", "The last bits of t", lambda: packed(arrays.t_offsets(scene, frame, seen))),
-        ("colors", colors, lambda: {side: packed(color) for side, color in both.items()}),
-    ]
 
 
 def _study(report: Any, found: Any, missing: list[str], without: str = "") -> Any:
