@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import product
 from typing import Any
 
 import bpy
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Plane, Scene, ViewWindow
-from ..tracer.camera import pixel_size
+from ..tracer.camera import dual_axes, pixel_size
 from .colors import random_color
 from .temporary import STANDS_FOR, leave_out
 
@@ -31,11 +32,10 @@ _SLACK = 2.0**-20
 def volume_corners(camera: Camera) -> NDArray[np.float64]:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
     w, out = _window(camera), []
-    for depth in (camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]):
-        for y in (w.bottom, w.top):
-            for x in (w.left, w.right):
-                across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
-                out.append(camera.origin + across + depth * camera.forward)
+    depths = camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]
+    for depth, y, x in product(depths, (w.bottom, w.top), (w.left, w.right)):
+        across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
+        out.append(camera.origin + across + depth * camera.forward)
     return np.array(out)
 
 
@@ -84,9 +84,7 @@ def _window(camera: Camera) -> ViewWindow:
 def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return normals (6, 3) and offsets (6,): n . (p - origin) + offset >= 0 within a side."""
     # The axes need not be orthonormal: a point's coordinates are its products with their dual.
-    axes = np.stack((camera.right, camera.up, camera.forward))
-    dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
-    x, y, depth = dual / (axes[0] * dual[0]).sum()
+    x, y, depth = dual_axes(camera)
     w = _window(camera)
     edges = np.array((w.left, -w.right, w.bottom, -w.top))
     across = np.stack((x, -x, y, -y))

@@ -87,8 +87,7 @@ def _numbers(layout: Any, test: Test) -> None:
         exact = quantity.exact(0)
         for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
             value = quantity.values[kind][0]
-            right, wrong, exponent = marked(value, exact)
-            shown = f"{right}[{wrong}]{exponent}" if wrong else right
+            shown = marked(value, exact).with_wrong("[{}]")
             _number(column, name, shown, off_text(ulps(value, exact)))
         _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
 

@@ -119,6 +119,5 @@ def markdown(block: Block) -> str:
 def _row(row: BlockRow) -> str:
     cells = [str(row.formula or ""), row.label]
     for parts, off in row.floats:
-        wrong = f"**{parts.wrong}**" if parts.wrong else ""
-        cells += [f"{parts.right}{wrong}{parts.exponent}", off]
+        cells += [parts.with_wrong("**{}**"), off]
     return f"| {' | '.join([*cells, row.exact])} |"

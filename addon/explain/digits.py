@@ -28,6 +28,10 @@ class Parts(NamedTuple):
     def __str__(self) -> str:
         return "".join(self)
 
+    def with_wrong(self, form: str) -> str:
+        """Return the text with its wrong digits, if there are any, in a form such as '[{}]'."""
+        return f"{self.right}{self.wrong and form.format(self.wrong)}{self.exponent}"
+
 
 def digits_text(value: Number) -> str:
     """Return a number as text that means it: reading it gives the same float, to the bit."""

@@ -15,7 +15,6 @@ from pathlib import Path
 
 from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Swatch, Table
 from .derivation import Derivation
-from .digits import Parts
 from .document import lecture
 from .formulas import VECTORS, Formula
 
@@ -108,19 +107,13 @@ def _number(row: BlockRow) -> str:
         shown = math(row.formula)
         if row.formula.remark:
             shown += f'<span class="derivation-remark">{escape(row.formula.remark)}</span>'
-    cells = "".join(
-        f'<td class="derivation-number">{_marked(parts)}</td><td class="derivation-off">{off}</td>'
-        for parts, off in row.floats
-    )
+    marked = '<td class="derivation-number">{}</td><td class="derivation-off">{}</td>'
+    wrong = '<mark class="derivation-wrong">{}</mark>'
+    cells = "".join(marked.format(parts.with_wrong(wrong), off) for parts, off in row.floats)
     return (
         f"<tr{first}><th>{shown}</th><td>{math(Formula(row.label))}</td>{cells}"
         f'<td class="derivation-number">{row.exact}</td></tr>'
     )
-
-
-def _marked(parts: Parts) -> str:
-    wrong = f'<mark class="derivation-wrong">{parts.wrong}</mark>' if parts.wrong else ""
-    return f"{parts.right}{wrong}{parts.exponent}"
 
 
 _TOKEN = re.compile(r"([A-Za-z]+)([ₛᵢ₁₂₃]+)?(?:_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
