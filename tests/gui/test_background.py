@@ -103,7 +103,7 @@ def test_command_for_frames(blender, folder):
     for frames, told in (("2", ["frame 2:"]), ("1-3", ["frame 1:", "frame 3:"])):
         done = blender.run(*argv, frames)
         assert done.returncode == 0, done.stdout + done.stderr
-        assert re.findall(r"^frame \d+:", done.stdout, re.M) == told
+        assert re.findall(r"^frame \d+:", done.stderr, re.M) == told
     assert len(json.loads((outside / "animation.json").read_text())["frames"]) == 3
 
 
