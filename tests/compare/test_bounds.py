@@ -18,6 +18,7 @@ from reference_tracer.compare.bounds import (
     view_error,
 )
 from reference_tracer.compare.cause import Cause
+from reference_tracer.images import decoded, encoded
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.nearest import Hits
@@ -209,3 +210,21 @@ def test_every_error_reaches_as_far_as_it_is_large(rng, monkeypatch, rows, shape
             near = expected[max(0, y - reach) : y + reach + 1, max(0, x - reach) : x + reach + 1]
             np.maximum(near, own[y, x], out=near)
         assert np.array_equal(result_of(bounds.spread_error(own)), expected)
+
+
+@pytest.mark.parametrize("missing", [0, 1, HALF_UNITS - 1])
+def test_half_floats_in_a_png_of_16_bits_miss_as_many_units_as_in_an_exr(missing, rng):
+    """At every brightness, as units are of the linear value; a colour twice as far off differs."""
+    first = np.exp2(rng.uniform(-14, 0, (5000, 3)))
+    half = first.astype(np.float16).astype(float)
+    half = half - (half > first) * np.spacing(half.astype(np.float16)).astype(float)
+    unit = np.spacing(half.astype(np.float16)).astype(float)
+
+    def stored(color):
+        return decoded(np.rint(encoded(color) * 65535) / 65535)
+
+    assert not differing(first, stored(half - missing * unit), levels=65535).any()
+    bright = (first > 2.0**-7).all(axis=-1)
+    assert bright.sum() > 100
+    assert differing(first, stored(half - 4 * HALF_UNITS * unit), levels=65535)[bright].all()
+    assert not differing(first, stored(first), levels=65535).any()
