@@ -139,7 +139,7 @@ def differing(
     HALF_UNITS of a half float's last place are allowed, but at least LEAST_STEP; where a colour is
     `interpolated` (...), INTERPOLATED more. What is not finite differs from everything. Where the
     second picture was stored in so many `levels` above 0 of sRGB's curve, as a PNG is, half a level
-    and `dither` levels of noise are allowed in place of that; and besides it, of more than 8 bits.
+    and `dither` levels of noise are allowed in place of that; of 16 bits, HALF_UNITS as well.
     A mean of `sums` samples, added up in half floats, loses half a unit with each.
     """
     size = np.maximum(np.abs(first), np.abs(second))
@@ -163,9 +163,7 @@ def difference(
         first, second = encoded(first), encoded(second)
     with np.errstate(invalid="ignore"):
         apart = np.abs(first - second)
-        if (
-            levels
-        ):  # a half float's units are, coded, at most of (e + 0.055) / 2.4: the curve's slope
+        if levels:  # a half float's units are of (e + 0.055) / 2.4 at most, by the curve's slope
             halves = HALF_UNITS * 2.0**-10 / 2.4 * (np.maximum(first, second) + 0.055)
             return apart, (0.5 + LEVEL_SLACK + dither) / levels + (levels > 255) * halves + more
         size = np.maximum(np.abs(first), np.abs(second))
