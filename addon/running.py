@@ -49,7 +49,8 @@ def _open_streams() -> None:
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w"))
-        getattr(sys, name).reconfigure(errors="backslashreplace")  # it may not have each letter
+        with suppress(AttributeError):  # a script's own stream; another may not have each letter
+            getattr(sys, name).reconfigure(errors="backslashreplace")
 
 
 def _said(work: Callable[[], int]) -> int:

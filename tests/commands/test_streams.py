@@ -8,11 +8,14 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import redirect_stderr, redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
 from reference_tracer import images, running
 from reference_tracer.arguments import AGREE, INPUT_ERROR
+from reference_tracer.cli import main
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.render import render
 
@@ -28,6 +31,13 @@ def compared(make, tmp_path_factory):
     save_scene(folder / "scene.npz", scene)
     images.save_png(folder / "picture.png", images.to_display(render(scene).color))
     return ["compare", folder / "scene.npz", "--against", folder / "picture.png"]
+
+
+def test_a_script_may_take_what_is_printed(compared, tmp_path):
+    with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err:
+        assert main([*map(str, compared), "--out", str(tmp_path / "out")]) == AGREE
+        assert main(["trace", "none.ply", "--out", str(tmp_path / "p.png")]) == INPUT_ERROR
+    assert "written to" in out.getvalue() and "none.ply" in err.getvalue()
 
 
 def closed_pipe() -> int:
