@@ -111,8 +111,8 @@ def compare_open_file(options: Any, progress: Any, **choices: Any) -> int:
 
 def _made_by(options: Any) -> dict[str, Any]:
     """Return all that a frame's comparison is made by, but for the frame's number."""
-    libraries = (bpy.path.abspath(library.filepath) for library in bpy.data.libraries)
-    files = [path for path in map(Path, (bpy.data.filepath, *libraries)) if path.is_file()]
+    used = {bpy.data.filepath, *bpy.utils.blend_paths(absolute=True)}  # libraries, Alembic, images
+    files = sorted(path for path in map(Path, used) if path.is_file())
     typed = {
         k: str(v)
         for k, v in vars(options).items()

@@ -121,6 +121,27 @@ def test_only_what_is_missing_is_done_again(moving, run, out):
     assert [row["frame"] for row in table(out)["frames"]] == [3, 4]
 
 
+@pytest.mark.parametrize("kind", ["cache_files", "images"])
+def test_a_frame_is_done_again_if_a_file_that_it_uses_is_another(kind, moving, run, out):
+    path = out.parent / "used.abc"
+    path.write_bytes(b"1")
+    if kind == "images":
+        bpy.data.images.new("Used", 1, 1).source = "FILE"
+        bpy.data.images["Used"].filepath = str(path)
+    else:
+        bpy.ops.cachefile.open(filepath=str(path))
+    [block] = getattr(bpy.data, kind)
+    block.use_fake_user = True
+    save(out.parent)
+    run("1")
+    before = done(out)
+    run("1")
+    assert done(out) == before
+    path.write_bytes(b"12")
+    run("1")
+    assert done(out) != before
+
+
 def test_an_interruption_keeps_what_is_done(moving, run, out, monkeypatch, capsys):
     def interrupted(frame: int) -> None:
         if frame == 3:
