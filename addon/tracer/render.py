@@ -126,12 +126,13 @@ def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     tracer = yield from _tracer(scene, settings, reach, frame.statistics)
     rounds, every = [(offsets, settings.color)], bands(scene.camera, settings)
     if settings.color is Color.DEPTH:  # whose greys are between the nearest and the farthest hit
-        rounds.insert(0, ([], Color.OBJECT))
+        rounds.insert(0, ([], None))
     share = WHOLE / (len(rounds) * len(every))
     for k, (some, color) in enumerate(rounds):
-        shade = partial(color.of, scene, frame.depths())
+        shade = color and partial(color.of, scene, frame.depths())
         for number, band in enumerate(every, start=k * len(every)):
-            yield from scaled(_band(scene, tracer, band, some, shade, frame), number * share, share)
+            work = _band(tracer, band, some, shade, frame, is_traced=k > 0)
+            yield from scaled(work, number * share, share)
     yield 1.0
 
 
@@ -163,21 +164,21 @@ def resolved(settings: Settings, statistics: Statistics) -> Settings:
 
 
 def _band(
-    scene: Scene, tracer, band: Region, offsets: list, shade: Callable, frame: Frame
+    tracer, band: Region, offsets: list, shade: Callable | None, frame: Frame, is_traced: bool
 ) -> Work[None]:
     """Trace a band through its pixels' centres and, for its colour, at these offsets from them.
 
-    What is known of the centres already is not traced again.
+    What is known of the centres already is not traced again. Without `shade` it is not done yet.
     """
-    share = 1 / (1 + len(offsets))
-    rows = slice(band.y0 - scene.camera.region.y0, band.y1 - scene.camera.region.y0)
+    share, camera = 1 / (1 + len(offsets)), frame.scene.camera
+    rows = slice(band.y0 - camera.region.y0, band.y1 - camera.region.y0)
     hits = frame.hits(rows)
-    if not frame.rows_done[rows].all():
+    if not is_traced:
         hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
 
     def shaded(hits: Hits, part: slice, dx: float = 0.0, dy: float = 0.0) -> NDArray[np.float32]:
         pixel = np.arange(part.start, part.start + len(hits.t))
-        return shade(lambda: camera_rays(scene.camera, *film_positions(band, dx, dy, pixel)), hits)
+        return shade(lambda: camera_rays(camera, *film_positions(band, dx, dy, pixel)), hits)
 
     color = None
     for number, (dx, dy) in enumerate(offsets, start=1):
@@ -187,7 +188,7 @@ def _band(
         for part in parts(len(hits.t), PIXELS // 8):
             color[part] += shaded(other.take(part), part, dx, dy) / len(offsets)
             yield (number + 1) * share
-    written = _write(frame, rows, hits, color, shaded)
+    written = _write(frame, rows, hits, color, shade and shaded)
     yield from timed(written, frame.statistics.stages, 1.0)
 
 
@@ -219,15 +220,16 @@ def _rows(r: Region, rows: int) -> list[Region]:
 
 
 def _write(
-    frame: Frame, rows: slice, hits: Hits, color: NDArray | None, shaded: Callable
+    frame: Frame, rows: slice, hits: Hits, color: NDArray | None, shaded: Callable | None
 ) -> Steps[None]:
     """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
     flat = frame.hits(rows)
     colors = frame.color[rows].reshape(-1, 4)
     for part in parts(len(hits.t), PIXELS // 8):
         some = hits.take(part)
-        colors[part] = shaded(some, part) if color is None else color[part]
+        if shaded:
+            colors[part] = shaded(some, part) if color is None else color[part]
         flat.enter(part, some)
         yield "shade"
     frame.ties = Ties.joined((frame.ties, hits.ties.numbered(rows.start * frame.t.shape[1])))
-    frame.rows_done[rows] = True
+    frame.rows_done[rows] = shaded is not None

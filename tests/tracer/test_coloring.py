@@ -161,3 +161,15 @@ def test_progress_of_depth_rises_to_1(room, samples):
     settings = Settings(color="depth", samples=samples)
     shares = list(steps(room, settings, Frame.empty(room)))
     assert shares == sorted(shares) and shares[-1] == 1 and shares[-2] < 1
+
+
+@pytest.mark.parametrize("samples", [1, 2])
+def test_what_is_done_of_a_depth_that_is_cancelled_is_of_the_whole(room, samples):
+    """Wherever it is stopped: a pixel is as in the whole picture, or empty in a row to be done."""
+    settings, part, done = Settings(color="depth", samples=samples), Frame.empty(room), []
+    whole = render(room, settings).color
+    for _ in steps(room, settings, part):
+        rows, other = part.rows_done, part.color != whole
+        assert not other[rows].any() and not part.color[other].any()
+        done.append(int(rows.sum()))
+    assert done[0] == 0 and done[-1] == len(rows) and done == sorted(done)
