@@ -5,9 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 import traceback
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
 
@@ -17,17 +16,17 @@ from .compare.animation import frames_named
 from .compare.comparison import SizeError
 from .explain.candidates import LIMIT
 from .explain.writers import WRITERS
-from .framing import ANGLE, placed
+from .framing import ANGLE, Choice
 from .images import MissingLibraryError
 from .methods import PLAIN, Method
-from .scene import Camera, SceneError
+from .scene import SceneError
 from .scene_files import MESH_SUFFIXES
 from .tracer.certified.certainty import AssumptionError
 from .tracer.memory import PictureTooLargeError
 from .tracer.settings import Precision, Settings
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
-INTERRUPTED = 130  # by Ctrl-C, as shells have it: see `interrupts.py`
+INTERRUPTED = 130  # by Ctrl-C, as shells have it: see `running.py`
 
 _CODES = """
   4  the input is wrong, or cannot be read; or standard output cannot be written: files stay
@@ -55,33 +54,6 @@ _RANGES = {
     "frame": (lambda v: abs(v) <= 1048574, "from -1048574 to 1048574, as Blender's frames are"),
     "ortho_scale": (lambda v: v > 0, "above 0, as an orthographic scale is"),
 }
-
-
-@dataclass(frozen=True)
-class Choice:
-    """What of a file is looked at, through which camera; of a .blend, `blender.choice` makes it so.
-
-    What is None is as the file was saved, or is found from its meshes.
-    """
-
-    scene_name: str | None = None  # this and the next three are of a .blend
-    view_layer: str | None = None
-    frame: int | None = None
-    camera: str | None = None  # the name of one that is there
-    frame_all: bool = False  # or one that frames all
-    eye: Sequence[float] | None = None  # or one that is placed
-    target: Sequence[float] | None = None
-    angle: float | None = None  # vertical, degrees
-    ortho_scale: float | None = None  # height of the picture, metres
-    width: int | None = None  # of the picture, pixels; of a .blend, the other follows from one
-    height: int | None = None
-    up: str | None = None  # which axis of a mesh's file is
-    default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
-
-    def placed(self, width: int, height: int, tall: float = 1.0) -> Camera:
-        """Return the camera at `eye`; what comes in and out is as of :func:`framing.placed`."""
-        target, angle = self.target or (0.0, 0.0, 0.0), self.angle or ANGLE
-        return placed(self.eye, target, width, height, angle, self.ortho_scale, tall)
 
 
 class Parser(argparse.ArgumentParser):

@@ -6,6 +6,7 @@ In come points in world space, or where the eye is and what it looks at; out goe
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,33 +97,46 @@ def shown_points(
         yield transform_points(instance.world_from_object, used[instance.mesh]).T
 
 
-def placed(
-    eye: Sequence[float],
-    target: Sequence[float],
-    width: int,
-    height: int,
-    angle: float = ANGLE,
-    ortho_scale: float | None = None,
-    tall: float = 1.0,
-) -> Camera:
-    """Return a camera at a point that looks at another; what is up is as in :func:`framing`.
+@dataclass(frozen=True)
+class Choice:
+    """What of a file is looked at, through which camera; of a .blend, `blender.choice` makes it so.
 
-    `ortho_scale` is the height of the picture in metres, and makes the camera orthographic.
-
-    Raises
-    ------
-    SceneError
-        If the two are one point, or the picture has no pixel.
+    What is None is as the file was saved, or is found from its meshes.
     """
-    check_size(width, height)
-    half = np.tan(np.radians(angle) / 2) if ortho_scale is None else ortho_scale / 2
-    backward = np.subtract(eye, target, dtype=np.float64)
-    distance = float(np.linalg.norm(backward))
-    if not distance:
-        raise SceneError("--eye and --target are the same point: move one of them.")
-    aspect, clip = width / (tall * height), (distance * 1e-3, distance * 1e3)
-    axes, is_parallel = axes_of(backward, UP), ortho_scale is not None
-    return _camera("--eye", axes, eye, width, height, half, aspect, is_parallel, clip)
+
+    scene_name: str | None = None  # this and the next three are of a .blend
+    view_layer: str | None = None
+    frame: int | None = None
+    camera: str | None = None  # the name of one that is there
+    frame_all: bool = False  # or one that frames all
+    eye: Sequence[float] | None = None  # or one that is placed, up as in :func:`framing`
+    target: Sequence[float] | None = None  # where it looks; None for the origin
+    angle: float | None = None  # vertical, degrees
+    ortho_scale: float | None = None  # height of the picture, metres
+    width: int | None = None  # of the picture, pixels; of a .blend, the other follows from one
+    height: int | None = None
+    up: str | None = None  # which axis of a mesh's file is
+    default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
+
+    def placed(self, width: int, height: int, tall: float = 1.0) -> Camera:
+        """Return the camera at `eye`, for a picture as of :func:`framing`.
+
+        Raises
+        ------
+        SceneError
+            If eye and target are one point, or the picture has no pixel.
+        """
+        check_size(width, height)
+        is_parallel = self.ortho_scale is not None
+        half = self.ortho_scale / 2 if is_parallel else np.tan(np.radians(self.angle or ANGLE) / 2)
+        target = (0, 0, 0) if self.target is None else self.target
+        backward = np.subtract(self.eye, target, dtype=np.float64)
+        distance = float(np.linalg.norm(backward))
+        if not distance:
+            raise SceneError("--eye and --target are the same point: move one of them.")
+        aspect, clip = width / (tall * height), (distance * 1e-3, distance * 1e3)
+        axes = axes_of(backward, UP)
+        return _camera("--eye", axes, self.eye, width, height, half, aspect, is_parallel, clip)
 
 
 def _camera(name, axes, at, width, height, half, aspect, is_parallel, clip) -> Camera:

@@ -11,9 +11,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from . import interrupts
-from .arguments import Choice
-from .framing import ANGLE
+from . import running
+from .framing import ANGLE, Choice
 from .scene import Scene, SceneError, check_size
 from .scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
 from .tracer.settings import Settings
@@ -67,7 +66,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         is not there as a module.
     """
     check_is_file(path)
-    with interrupts.held():
+    with running.held():
         try:
             import bpy
         except ImportError as error:
@@ -80,7 +79,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
 
         registration.register()
     try:
-        with interrupts.held():
+        with running.held():
             try:
                 bpy.ops.wm.open_mainfile(
                     filepath=str(path.resolve()), load_ui=False, use_scripts=False

@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 
 from reference_tracer.commands.parts import Commands, command, write_study
-from reference_tracer.interrupts import progress_bar
 from reference_tracer.report import folders
+from reference_tracer.running import progress_bar
 
 
 def add(commands: Commands) -> None:

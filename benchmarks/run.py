@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from reference_tracer import interrupts
+from reference_tracer import running
 from reference_tracer.tracer.progress import result_of
 
 from .measure import METHODS, measure
@@ -53,8 +53,8 @@ def run(
         with closing(measure(wanted, bench, directory)) as work:
             result_of(work, show)
     except KeyboardInterrupt:
-        bench.interrupted, word = interrupts.ended()
-        interrupts.answered()
+        bench.interrupted, word = running.ended()
+        running.answered()
         done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
         print(f"\nreftrace: {word}: {done} were measured", file=sys.stderr)
     return bench, baseline

@@ -21,9 +21,9 @@ from reference_tracer.arguments import (
     typed,
 )
 from reference_tracer.commands.parts import Commands, command, write_study
-from reference_tracer.interrupts import progress_bar
 from reference_tracer.opening import SOURCES, load
 from reference_tracer.report import folders
+from reference_tracer.running import progress_bar
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.progress import Work, result_of, scaled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.framing import FILLED, NEAREST, axes_of, framing, placed
+from reference_tracer.framing import FILLED, NEAREST, Choice, axes_of, framing
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import film_of
@@ -76,7 +76,8 @@ def test_axes_are_a_right_handed_frame(rng):
 @pytest.mark.parametrize("scale", [None, 3.0])
 def test_a_placed_camera_has_its_target_in_the_middle(scale, rng):
     eye, target = rng.normal(size=(2, 3))
-    camera = placed(eye, target, 30, 20, 40.0, scale, tall=2.0)
+    choice = Choice(eye=eye, target=target, angle=40.0, ortho_scale=scale)
+    camera = choice.placed(30, 20, tall=2.0)
     x, y, depth = film_of(camera, target[:, None])
     assert (x[0], y[0]) == pytest.approx((15, 10))
     assert depth[0] == pytest.approx(np.linalg.norm(eye - target))
@@ -84,4 +85,4 @@ def test_a_placed_camera_has_its_target_in_the_middle(scale, rng):
     assert camera.window.right / camera.window.top == pytest.approx(30 / 40)
     assert (camera.projection is ORTHOGRAPHIC) == bool(scale)
     with pytest.raises(SceneError, match="--target are the same point"):
-        placed(eye, eye, 30, 20)
+        Choice(eye=eye, target=eye).placed(30, 20)

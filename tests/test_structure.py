@@ -19,7 +19,6 @@ FLOORS = {
     "checked_json": 0,
     "manifest": 0,
     "images": 0,
-    "interrupts": 0,
     "tracer": 1,
     "framing": 1,
     "scene_files": 1,

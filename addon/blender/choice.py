@@ -1,4 +1,4 @@
-"""What is looked at of an open file, and through which camera: as `arguments.Choice` says.
+"""What is looked at of an open file, and through which camera: as `framing.Choice` says.
 
 A file is opened for one command and never saved: what is chosen is set in it. The picture is that
 of a file which was saved like this.
@@ -13,8 +13,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..arguments import Choice
-from ..framing import ANGLE, BACKWARD, UP, framing, shown_points
+from ..framing import ANGLE, BACKWARD, UP, Choice, framing, shown_points
 from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, SceneError, ViewWindow
 from .camera import resolution

@@ -22,11 +22,11 @@ from ..arguments import (
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
-from ..interrupts import progress_bar
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
 from ..report import comparison as comparison_report
 from ..report import folders, page
+from ..running import progress_bar
 from ..scene import Camera, Scene, SceneError
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, result_of

@@ -13,9 +13,9 @@ from .. import images
 from ..arguments import add_camera, add_pixel, add_settings, choice_from, printable, settings_from
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather_pixel
-from ..interrupts import progress_bar
 from ..opening import SOURCES, load
 from ..report import folders, pixel
+from ..running import progress_bar
 from ..scene import SceneError
 from ..scene_files import MESH_SUFFIXES, save_scene
 from ..tracer.coloring import Color

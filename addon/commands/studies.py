@@ -7,9 +7,9 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from ..arguments import add_camera, choice_from, settings_from
-from ..interrupts import progress_bar
 from ..opening import SOURCES, load
 from ..report import folders
+from ..running import progress_bar
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
 from .parts import Commands, command, write_study

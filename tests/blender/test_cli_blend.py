@@ -176,9 +176,9 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
     """What is swallowed there is heard all the same, and nothing is left."""
     code = (
         "import signal, sys, threading, time\n"
-        "from reference_tracer import cli, interrupts\n"
+        "from reference_tracer import cli, running\n"
         "def later():\n"
-        "    while not interrupts._holding:\n"
+        "    while not running._holding:\n"
         "        time.sleep(0.001)\n"
         "    time.sleep(0.05)\n"
         "    signal.raise_signal(signal.SIGINT)\n"

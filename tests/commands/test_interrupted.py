@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 
 import pytest
-from reference_tracer import images, interrupts
+from reference_tracer import images, running
 from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.commands import files
@@ -29,7 +29,7 @@ def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
     assert not (tmp_path / "new").exists()
 
 
-@pytest.fixture(params=list(interrupts.SIGNALS), ids=lambda number: number.name)
+@pytest.fixture(params=list(running.SIGNALS), ids=lambda number: number.name)
 def number(request):
     """Return each of the signals that end the work."""
     return request.param
@@ -52,15 +52,15 @@ def interrupted_work(monkeypatch, number):
 @pytest.mark.usefixtures("interrupted_work")
 @pytest.mark.parametrize("command", ["trace", "trade", "extremes"])
 def test_interrupted(command, number, ball, tmp_path, capsys):
-    handlers = [signal.getsignal(n) for n in interrupts.SIGNALS]
+    handlers = [signal.getsignal(n) for n in running.SIGNALS]
     before = sorted(tmp_path.rglob("*"))
     out = tmp_path / "new" / ("x.png" if command == "trace" else "out")
     scene = [] if command == "extremes" else [str(ball)]
     assert main([command, *scene, "--out", str(out)]) == 128 + number
     said = capsys.readouterr().err.strip().splitlines()[-1]
-    assert said == f"reftrace: {interrupts.SIGNALS[number]}"
+    assert said == f"reftrace: {running.SIGNALS[number]}"
     assert sorted(tmp_path.rglob("*")) == before
-    assert [signal.getsignal(n) for n in interrupts.SIGNALS] == handlers
+    assert [signal.getsignal(n) for n in running.SIGNALS] == handlers
 
 
 def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
@@ -79,21 +79,21 @@ def test_interrupted_while_writing(number, ball, tmp_path, monkeypatch):
 
 def test_what_is_held_comes_at_its_end():
     steps = []
-    with pytest.raises(KeyboardInterrupt), interrupts.heard():
-        with interrupts.held():
+    with pytest.raises(KeyboardInterrupt), running.heard():
+        with running.held():
             signal.raise_signal(signal.SIGINT)
             steps.append("inside")
         steps.append("after")
     assert steps == ["inside"]
-    with interrupts.heard():
-        interrupts.check()  # of an earlier one nothing is left
+    with running.heard():
+        running.check()  # of an earlier one nothing is left
 
 
 def test_what_is_held_within_what_is_held_comes_at_the_outer_end():
     steps = []
-    with pytest.raises(KeyboardInterrupt), interrupts.heard():
-        with interrupts.held():
-            with interrupts.held():
+    with pytest.raises(KeyboardInterrupt), running.heard():
+        with running.held():
+            with running.held():
                 signal.raise_signal(signal.SIGINT)
                 steps.append("inner")
             steps.append("between")
@@ -105,7 +105,7 @@ def test_what_is_held_within_what_is_held_comes_at_the_outer_end():
 
 def test_outside_the_main_thread_nothing_is_taken_over():
     def work():
-        with interrupts.heard():
+        with running.heard():
             return signal.getsignal(signal.SIGINT)
 
     with ThreadPoolExecutor() as pool:

@@ -5,13 +5,12 @@ from __future__ import annotations
 import pytest
 from reference_tracer import cli
 from reference_tracer.arguments import INPUT_ERROR
-from reference_tracer.commands import parser
 
 
 @pytest.fixture
 def alone(monkeypatch):
     """No package but the add-on is installed."""
-    monkeypatch.setattr(parser, "entry_points", lambda group: ())
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: ())
 
 
 @pytest.mark.parametrize("name", ["judge", "bench"])
