@@ -17,55 +17,6 @@ from ..projections import PROJECTIONS
 from ..scene import Camera, Region, SceneError, ViewWindow
 
 
-def view_window(
-    *,
-    width: int,
-    height: int,
-    sensor_fit: str = "AUTO",
-    lens: float | None = None,
-    sensor_width: float = 36.0,
-    sensor_height: float = 24.0,
-    ortho_scale: float | None = None,
-    shift_x: float = 0.0,
-    shift_y: float = 0.0,
-    aspect_x: float = 1.0,
-    aspect_y: float = 1.0,
-) -> ViewWindow:
-    """Return what a camera's picture shows, at depth 1 or, with `ortho_scale`, in metres.
-
-    Parameters
-    ----------
-    width, height : int
-        Pixels of the whole picture, resolution percentage included.
-    sensor_fit : {'AUTO', 'HORIZONTAL', 'VERTICAL'}
-    lens, sensor_width, sensor_height : float
-        Millimetres; `lens` is not used by an orthographic camera.
-    ortho_scale : float, optional
-        Metres across the fitted side; makes the camera orthographic.
-    shift_x, shift_y : float
-        In lengths of the fitted side.
-    aspect_x, aspect_y : float
-        Shape of a pixel.
-    """
-    if sensor_fit == "AUTO":
-        # The product is float32 in Blender: at nearly square pictures it decides the side.
-        wide = np.float32(aspect_x) * np.float32(width) >= np.float32(aspect_y) * np.float32(height)
-        fit, sensor = ("HORIZONTAL" if wide else "VERTICAL"), sensor_width
-    else:
-        fit, sensor = sensor_fit, sensor_height if sensor_fit == "VERTICAL" else sensor_width
-    tall = aspect_y / aspect_x  # height of a pixel, in widths
-    fitted = width if fit == "HORIZONTAL" else tall * height  # length of that side, in pixel widths
-    extent = ortho_scale if ortho_scale is not None else sensor / lens
-    size = extent / fitted  # width of a pixel
-    x, y = shift_x * fitted, shift_y * fitted
-    return ViewWindow(
-        left=(x - 0.5 * width) * size,
-        right=(x + 0.5 * width) * size,
-        bottom=(y - 0.5 * tall * height) * size,
-        top=(y + 0.5 * tall * height) * size,
-    )
-
-
 def border_region(
     width: int, height: int, min_x: float, max_x: float, min_y: float, max_y: float
 ) -> Region:
@@ -87,22 +38,30 @@ def resolution(render: Any) -> tuple[int, int]:
     return render.resolution_x * percent // 100, render.resolution_y * percent // 100
 
 
+def pixel_height(render: Any) -> float:
+    """Return the height of a pixel of `bpy.types.RenderSettings`, in widths."""
+    return render.pixel_aspect_y / render.pixel_aspect_x
+
+
 def window_of(scene: Any) -> ViewWindow:
-    """Return what the camera of a `bpy.types.Scene` shows."""
+    """Return what the camera of a `bpy.types.Scene` shows, at depth 1, or in metres."""
     data, render = scene.camera.data, scene.render
     width, height = resolution(render)
-    return view_window(
-        width=width,
-        height=height,
-        sensor_fit=data.sensor_fit,
-        lens=data.lens,
-        sensor_width=data.sensor_width,
-        sensor_height=data.sensor_height,
-        ortho_scale=data.ortho_scale if data.type == "ORTHO" else None,
-        shift_x=data.shift_x,
-        shift_y=data.shift_y,
-        aspect_x=render.pixel_aspect_x,
-        aspect_y=render.pixel_aspect_y,
+    tall, vertical = pixel_height(render), data.sensor_fit == "VERTICAL"
+    sensor = data.sensor_height if vertical else data.sensor_width
+    if data.sensor_fit == "AUTO":
+        # The products are float32 in Blender: at nearly square pictures they decide the side.
+        across = np.float32(render.pixel_aspect_x) * np.float32(width)
+        vertical = across < np.float32(render.pixel_aspect_y) * np.float32(height)
+    fitted = tall * height if vertical else width  # length of that side, in pixel widths
+    extent = data.ortho_scale if data.type == "ORTHO" else sensor / data.lens
+    size = extent / fitted  # width of a pixel
+    x, y = data.shift_x * fitted, data.shift_y * fitted  # which are in lengths of that side
+    return ViewWindow(
+        left=(x - 0.5 * width) * size,
+        right=(x + 0.5 * width) * size,
+        bottom=(y - 0.5 * tall * height) * size,
+        top=(y + 0.5 * tall * height) * size,
     )
 
 

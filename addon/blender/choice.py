@@ -16,7 +16,7 @@ import numpy as np
 from ..framing import ANGLE, BACKWARD, UP, Choice, framing, shown_points
 from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, SceneError, ViewWindow
-from .camera import resolution
+from .camera import pixel_height, resolution
 from .engine import export_for_render
 from .scenario_scene import place_camera
 from .stepping import visited
@@ -51,7 +51,7 @@ def chosen(choice: Choice) -> Iterator[None]:
             scene.camera = camera
         if choice.eye:
             size = resolution(scene.render)
-            place_camera(scene, choice.placed(*size, _tall(scene.render)))
+            place_camera(scene, choice.placed(*size, pixel_height(scene.render)))
         elif choice.frame_all:
             frame_all(scene, layer, choice.angle or ANGLE)
         yield
@@ -77,7 +77,7 @@ def frame_all(scene: Any, layer: Any, angle: float = ANGLE) -> Any:
             shown, _, _ = export_for_render(tmp)
         finally:
             bpy.data.cameras.remove(looking)  # and the object with it
-    size, tall = resolution(scene.render), _tall(scene.render)
+    size, tall = resolution(scene.render), pixel_height(scene.render)
     points = shown_points(shown.meshes, shown.instances)
     return place_camera(scene, framing(points, BACKWARD, UP, *size, angle, tall))
 
@@ -100,8 +100,3 @@ def _resize(render: Any, width: int | None, height: int | None) -> None:
     render.resolution_percentage = 100
     if resolution(render) != size:
         raise SceneError(f"a picture of {size[0]} x {size[1]} pixels: Blender has from 4 to 65536")
-
-
-def _tall(render: Any) -> float:
-    """Return the height of a pixel, in widths."""
-    return render.pixel_aspect_y / render.pixel_aspect_x

@@ -140,27 +140,19 @@ def compare_to_folder(
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
         work = compared(gather_case(context, **choices))
-    return _to_folder(folder, work, trade, extremes)
-
-
-def _to_folder(
-    folder: Path, work: Work[Comparison], trade: bool, extremes: bool
-) -> Work[Comparison]:
-    share = 0.2 if trade or extremes else 0.8
-    with comparison_report.failure_written(folder):
-        comparison = yield from _written(folder, work, share, trade, extremes)
-    yield 1.0
-    return comparison
+    return _written(folder, work, 0.2 if trade or extremes else 0.8, trade, extremes)
 
 
 def _written(
     folder: Path, work: Work[Comparison], share: float, *measured: bool
 ) -> Work[Comparison]:
     """Compare, which takes a share of the time, find what the page shows besides, and write."""
-    comparison = yield from scaled(work, 0.0, share)
-    finding = page.extras(comparison, *measured)
-    extras = yield from scaled(finding, share, 1 - share)
-    comparison_report.write(folder, comparison, extras)
+    with comparison_report.failure_written(folder):
+        comparison = yield from scaled(work, 0.0, share)
+        finding = page.extras(comparison, *measured)
+        extras = yield from scaled(finding, share, 1 - share)
+        comparison_report.write(folder, comparison, extras)
+    yield 1.0
     return comparison
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.camera import view_window
+from reference_tracer.blender.camera import window_of
 from reference_tracer.blender.compare import gather_case
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.picture import Picture
@@ -199,16 +199,11 @@ def test_every_fault_is_found_and_only_a_fault(name, mutations, opened):
 
 
 def test_the_sensor_fit_swaps_as_blender_would(opened):
-    """The mutation above is what `view_window` gives for the other fit."""
+    """The mutation above is what `window_of` gives for the other fit."""
     opened("suzanne", 120)
     original = Original(bpy.context)
-    data, camera = bpy.context.scene.camera.data, original.scene.camera
-    other = view_window(
-        width=camera.width,
-        height=camera.height,
-        sensor_fit="VERTICAL",
-        lens=data.lens,
-        sensor_height=data.sensor_width,
-    )
+    data = bpy.context.scene.camera.data
+    data.sensor_fit, data.sensor_height = "VERTICAL", data.sensor_width
+    other = window_of(bpy.context.scene)
     swapped = swapped_sensor_fit(original)[0].camera.window
     assert vars(swapped) == pytest.approx(vars(other))

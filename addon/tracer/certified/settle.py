@@ -147,16 +147,11 @@ class Decisions:
             firsts[ray] = None
             if seen >= 0:
                 name, firsts[ray] = of_ray[seen]
-                self._enter(ray, name, firsts[ray], batch.t(firsts[ray]))
+                self.hits.t[ray], self.hits.s[:, ray] = batch.t(firsts[ray]), firsts[ray].weights
+                self.hits.instance[ray], self.hits.triangle[ray] = name
         ray, *name = np.array(tied, np.int64).reshape(-1, 3).T
         self.ties.append(Ties.of(ray, *name))
         self.reasons.update(self._reasons(found, groups, firsts))
-
-    def _enter(self, ray: int, name: tuple[int, int], hit: exact.Hit, t: float) -> None:
-        """Enter an exact hit."""
-        self.hits.t[ray] = t
-        self.hits.instance[ray], self.hits.triangle[ray] = name
-        self.hits.s[:, ray] = hit.weights
 
     def _reasons(self, found: Candidates, groups, firsts) -> list[Reason]:
         """Return why candidates were not decided by the bounds, one each."""

@@ -30,17 +30,11 @@ def seen_and_ties(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int,
     inside = [m for _, m in hits if not m.on_edge]
     front = hits
     if inside:
-        least = inside[0]
-        for m in inside[1:]:
-            if gap(m, least) < 0:
-                least = m
+        least = min(inside, key=cmp_to_key(gap))
         front = [(name, m) for name, m in hits if gap(m, least) <= 0]
     if not front or (len(front) == 1 and not front[0][1].on_edge):
         return seen, frozenset()
-    first = front[0][1]
-    for _, m in front[1:]:
-        if gap(m, first) < 0:
-            first = m
+    first = min((m for _, m in front), key=cmp_to_key(gap))
     ties = {name for name, m in front if gap(m, first) == 0}
     ties.add(hits[seen][0] if seen >= 0 else nothing)
     found = (_first(front, (move,)) for move in _ways([m for _, m in front]))

@@ -54,7 +54,7 @@ def test_memory_is_bounded(make, orthographic):
 
 def test_pieces_are_the_whole(make, rng, monkeypatch):
     """Arrays, ties and statistics, however little is held at once; as the oracle has it."""
-    calls, in_one = [], sweep._swept
+    calls, in_one = [], sweep.sweep
     for orthographic in (False, True):
         scene = layers(make, rng, orthographic)
         whole = Statistics()
@@ -67,7 +67,7 @@ def test_pieces_are_the_whole(make, rng, monkeypatch):
         for room in (5, 100):
             with monkeypatch.context() as patch:
                 patch.setattr(sweep, "_FRAGMENTS", room)
-                patch.setattr(sweep, "_swept", lambda *a: calls.append(a[2]) or in_one(*a))
+                patch.setattr(sweep, "sweep", lambda *a, **k: calls.append(a[1]) or in_one(*a, **k))
                 own = Statistics()
                 found = result_of(sweep.sweep(scene, scene.camera.region, 1, statistics=own))
             for name in ("t", "instance", "triangle", "s", "certainty"):

@@ -46,28 +46,20 @@ def sweep(
     """Find the nearest hits of a region's rays, as `plain` does.
 
     `memory` is how many bytes a chunk of the scene may take, about, and as many its fragments.
+    Where more surfaces tie than it has room for, the region's halves are swept, one by one.
     """
-    film = Film(scene.camera, dx, dy)
-    return quiet(_swept(scene, film, region, memory, statistics or Statistics()))
-
-
-def _swept(
-    scene: Scene, film: Film, region: Region, memory: int, statistics: Statistics
-) -> Work[Hits]:
-    """Sweep a region; where more surfaces tie than memory has room for, its halves, one by one."""
-    pairs, culling, share = statistics.pairs_tested, statistics.culling.copy(), 0.0
-    work = Sweep(scene, film, region, statistics).steps(memory)
-    while True:
-        try:
-            yield (share := next(work))
-        except StopIteration as stop:
-            if stop.value is not None:
-                return stop.value
-            break
+    statistics = statistics or Statistics()
+    pairs, culling = statistics.pairs_tested, statistics.culling.copy()
+    with np.errstate(all="ignore"):
+        work = Sweep(scene, Film(scene.camera, dx, dy), region, statistics).steps(memory)
+    try:
+        return (yield from quiet(work))
+    except _FullError as full:
+        share = full.share
     statistics.pairs_tested, statistics.culling = pairs, culling  # each pair counts once
     size, halves = (1 - share) / 2, []
     for k, half in enumerate(region.halves):
-        part = _swept(scene, film, half, memory, statistics)
+        part = sweep(scene, half, memory, dx, dy, statistics)
         halves.append((yield from scaled(part, share + k * size, size)))
     return Hits.joined(halves)
 
@@ -75,6 +67,13 @@ def _swept(
 def triangles_in(memory: int) -> int:
     """Return how many triangles a part of the scene may have that takes this memory, in bytes."""
     return max(1, memory // _BYTES_PER_TRIANGLE)
+
+
+class _FullError(Exception):
+    """There is no room for so many fragments; `share` is that of the work that is done."""
+
+    def __init__(self, share: float) -> None:
+        self.share = share
 
 
 class Sweep:
@@ -88,16 +87,15 @@ class Sweep:
         self._held = 0  # of them
         self._numbers = Numbering()
 
-    def steps(self, memory: int) -> Work[Hits | None]:
-        """Sweep the scene in chunks, and decide every pixel; None if memory is too little."""
+    def steps(self, memory: int) -> Work[Hits]:
+        """Sweep the scene in chunks, and decide every pixel; a `_FullError` without the memory."""
         limit = triangles_in(memory)
         room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
         stages = self._statistics.stages
         yield 0.0  # to make room for the depth buffer of a large picture is a step of its own
         for _ in timed(self.enter_planes(), stages):
             yield 0.0
-            if not self._fits(room):
-                return None
+            self._make_room(room, 0.0)
         parts: list[Chunk] = []
         if self._scene.instances:
             around = InstanceBoxes.of(self._scene, self._film)
@@ -108,8 +106,7 @@ class Sweep:
                 chunk = self._not_behind(chunk, around)
             for _ in timed(self.enter(chunk), stages):
                 yield 0.6 * number / len(parts)
-                if not self._fits(room):
-                    return None
+                self._make_room(room, 0.6 * number / len(parts))
         verdict = Verdict(self._scene, self._film, self._depths, self._numbers, self._statistics)
         return (yield from timed(verdict.steps(self._fragments), stages, 0.6))
 
@@ -117,15 +114,16 @@ class Sweep:
         self._fragments.append(some)
         self._held += len(some)
 
-    def _fits(self, room: int) -> bool:
-        """Return whether there is room for more fragments, without those that are hidden by now."""
+    def _make_room(self, room: int, share: float) -> None:
+        """Drop what is hidden by now where there is little room for more fragments."""
         if self._held <= room:
-            return True
+            return
         for k, some in enumerate(self._fragments):
             self._fragments[k] = some.take(self._depths.not_hidden(some))
         self._held = sum(map(len, self._fragments))
         region = self._depths.region
-        return self._held <= 0.75 * room or region.width * region.height == 1
+        if self._held > 0.75 * room and region.width * region.height > 1:
+            raise _FullError(share)
 
     def _not_behind(self, chunk: Chunk, around: InstanceBoxes) -> Chunk:
         """Return a chunk without the instances that what is nearer hides."""
