@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import sys
-import traceback
 from collections.abc import Iterable
-from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -148,8 +145,11 @@ def check_options(options: argparse.Namespace) -> None:
         if path and path.suffix.lower() not in endings:
             raise SceneError(f"'{path}' must end in {' or '.join(endings)}")
     _refuse_unheard(options)
-    if hasattr(options, "pixel"):
-        _check_pixel(options)
+    if again := getattr(options, "reproducer", None):
+        if options.out and options.out.resolve() == again.resolve():
+            raise SceneError(f"--out and --reproducer are the same file, '{options.out}'")
+    if getattr(options, "pixel", ()) is None and _suffix(options) != ".json":
+        raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
     # A .blend stores a method, which may be plain; so may the file that is open in Blender.
     stores = _suffix(options) in (None, ".blend")
     settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
@@ -191,13 +191,6 @@ def _refuse_unheard(options: argparse.Namespace) -> None:
         refuse(options, ("pixel", "limit", *CAMERA_OPTIONS), why)
 
 
-def _check_pixel(options: argparse.Namespace) -> None:
-    if options.out and options.reproducer and options.out.resolve() == options.reproducer.resolve():
-        raise SceneError(f"--out and --reproducer are the same file, '{options.out}'")
-    if options.pixel is None and _suffix(options) != ".json":
-        raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
-
-
 def _suffix(options: argparse.Namespace) -> str | None:
     """Return the ending of the scene's file, None where no file is named."""
     scene = getattr(options, "scene", None)
@@ -232,17 +225,6 @@ def printable(text: str) -> str:
     return "".join(
         c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
     )
-
-
-def failed(error: Exception, program: str) -> int:
-    """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
-    said = words(error)
-    with suppress(OSError):  # of stderr itself: there is nowhere else to say it
-        if not isinstance(error, EXPECTED):
-            traceback.print_exception(error)
-            said = f"{type(error).__name__}: {error}"
-        print(f"{program}: {said}", file=sys.stderr)
-    return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 
 def words(error: BaseException) -> str:

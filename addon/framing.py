@@ -29,7 +29,7 @@ def framing(
     up: ArrayLike,
     width: int,
     height: int,
-    angle: float | None = ANGLE,
+    angle: float = ANGLE,
     tall: float = 1.0,
 ) -> Camera:
     """Return the camera that sees all points as large as nine tenths of the picture allow.
@@ -46,8 +46,8 @@ def framing(
         Towards the eye, and what is up in the picture, in world space; of any length.
     width, height : int
         Of the picture, in pixels.
-    angle : float or None
-        Vertical angle of view in degrees; None for an orthographic camera.
+    angle : float
+        Vertical angle of view in degrees.
     tall : float
         Height of a pixel, in widths.
 
@@ -57,7 +57,7 @@ def framing(
         If there is no point, the direction is zero, or the picture has no pixel.
     """
     check_size(width, height)
-    half = 1.0 if angle is None else np.tan(np.radians(angle) / 2)
+    half = np.tan(np.radians(angle) / 2)
     aspect = width / (tall * height)
     slope = FILLED * np.array((half * aspect, half))  # of the sides that are to be touched
     flat = np.concatenate((np.eye(2), -np.eye(2)))
@@ -73,19 +73,11 @@ def framing(
     if center is None:
         raise SceneError("There is nothing to frame: no triangle is shown.")
     (high, low, right, left), (near, far) = ends[:8].reshape(4, 2), ends[8:] * (-1, 1)
-    extent = high + low
-    size = max(*extent, far - near, 1e6 * np.spacing(np.abs(center).max()), 1e-30)
-    if angle is None:
-        middle, eye, half = (
-            (high - low) / 2,
-            near - size,
-            max(*(extent / slope), size * NEAREST) / 2,
-        )
-    else:
-        middle = (right - left) / 2
-        eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
+    size = max(*(high + low), far - near, 1e6 * np.spacing(np.abs(center).max()), 1e-30)
+    eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
+    middle = (right - left) / 2
     at, clip = center + axes @ (*middle, -eye), ((near - eye) / 2, (far - eye) * 2)
-    return _camera("framing", axes, at, width, height, half, aspect, angle is None, clip)
+    return _camera("framing", axes, at, width, height, half, aspect, False, clip)
 
 
 def shown_points(

@@ -12,6 +12,7 @@ import io
 import os
 import signal
 import sys
+import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
 
@@ -40,11 +41,22 @@ def run(work: Callable[[], int], program: str) -> int:
                 print(f"{program}: {word}", file=sys.stderr)
             return code
         except Exception as error:  # Python's own exit code for it, 1, means warnings here
-            from .arguments import failed
-
-            return failed(error, program)
+            return _failed(error, program)
         finally:
             _written(sys.stderr, "")
+
+
+def _failed(error: Exception, program: str) -> int:
+    """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
+    from .arguments import EXPECTED, INPUT_ERROR, SIZES_DIFFER, SizeError, words
+
+    said = words(error)
+    with suppress(OSError):  # of stderr itself: there is nowhere else to say it
+        if not isinstance(error, EXPECTED):
+            traceback.print_exception(error)
+            said = f"{type(error).__name__}: {error}"
+        print(f"{program}: {said}", file=sys.stderr)
+    return SIZES_DIFFER if isinstance(error, SizeError) else INPUT_ERROR
 
 
 def _open_streams() -> None:
