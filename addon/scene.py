@@ -214,17 +214,10 @@ class Mesh:
     @cached_property
     def bounds(self) -> NDArray[np.float64]:
         """Lowest and highest coordinates of the vertices, (2, 3); zero where there are none."""
-        v = self.vertices
-        if not len(v):
+        if not len(self.vertices):
             return np.zeros((2, 3))
-        # Rows of some hundred numbers are compared many times faster than rows of three.
-        long = v[: len(v) // 64 * 64].reshape(-1, 3 * 64)
-        rest = v[len(v) // 64 * 64 :]
-        ends = [
-            end(np.concatenate((end(long, axis=0, initial=none).reshape(-1, 3), rest)), axis=0)
-            for end, none in ((np.min, np.inf), (np.max, -np.inf))
-        ]
-        return np.array(ends, np.float64)
+        across = self.vertices.T.copy()  # one behind the other they are looked at much faster
+        return np.array((across.min(axis=1), across.max(axis=1)), np.float64)
 
 
 @dataclass(frozen=True, eq=False)
