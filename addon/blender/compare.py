@@ -33,13 +33,7 @@ from .planes import stand_ins
 from .rasteriser import snapping_of
 from .temporary import temporary_scene, values_kept
 from .unmodelled import by_handlers, of_shading
-from .viewport import (
-    anti_aliasing,
-    picture,
-    prepare_scene,
-    solid_shading,
-    use_view_shading,
-)
+from .viewport import anti_aliasing, picture, prepare_scene, solid_shading, use_view_shading
 
 
 def compared(case: Case) -> Work[Comparison]:

@@ -11,14 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import images
-from ..arguments import (
-    add_camera,
-    add_judge,
-    add_page,
-    add_settings,
-    choice_from,
-    settings_from,
-)
+from ..arguments import add_camera, add_judge, add_page, add_settings, choice_from, settings_from
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source

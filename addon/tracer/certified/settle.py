@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..hits import NOTHING, Hits, Ties
+from ..hits import Hits, Ties
 from ..vector import parts
 from . import exact, order
 from .certainty import Certainty
@@ -141,7 +141,7 @@ class Decisions:
         tied = []
         for ray, group in groups.items():
             of_ray = [(names[k], hit) for k, hit in group if hit]
-            seen, ties = seen_and_ties(of_ray, (NOTHING, NOTHING))
+            seen, ties = seen_and_ties(of_ray)
             self.hits.certainty[ray] = Certainty.AMBIGUOUS if ties else Certainty.EXACT
             tied += [(ray, *name) for name in sorted(ties)]
             firsts[ray] = None

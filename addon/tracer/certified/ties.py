@@ -9,14 +9,12 @@ from collections.abc import Sequence
 from functools import cmp_to_key
 from math import gcd
 
-from ..hits import Name
+from ..hits import NOWHERE, Name
 from .exact import PERTURBATION, Hit, Integers, Moves, crossing, gap, sign_of_difference, turning
 
 
-def seen_and_ties(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int, frozenset[Name]]:
+def seen_and_ties(hits: Sequence[tuple[Name, Hit]]) -> tuple[int, frozenset[Name]]:
     """Return which of these hits of one ray is seen, and whatever else may be.
-
-    `nothing` is the name of what is seen where nothing is.
 
     Returns
     -------
@@ -24,7 +22,8 @@ def seen_and_ties(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int,
         Index of the one that the rule sees; -1 for nothing.
     ties : frozenset of names
         Where the ray as it is meets an edge, a corner, or two surfaces at once before anything
-        else, all that one moved infinitesimally may see; empty where the answer is the only one.
+        else, all that one moved infinitesimally may see, NOWHERE for nothing; empty where the
+        answer is the only one.
     """
     seen = _first(hits, PERTURBATION)
     inside = [m for _, m in hits if not m.on_edge]
@@ -36,9 +35,9 @@ def seen_and_ties(hits: Sequence[tuple[Name, Hit]], nothing: Name) -> tuple[int,
         return seen, frozenset()
     first = min((m for _, m in front), key=cmp_to_key(gap))
     ties = {name for name, m in front if gap(m, first) == 0}
-    ties.add(hits[seen][0] if seen >= 0 else nothing)
+    ties.add(hits[seen][0] if seen >= 0 else NOWHERE)
     found = (_first(front, (move,)) for move in _ways([m for _, m in front]))
-    ties.update(front[k][0] if k >= 0 else nothing for k in found)
+    ties.update(front[k][0] if k >= 0 else NOWHERE for k in found)
     return seen, frozenset(ties)
 
 

@@ -129,7 +129,7 @@ def test_nearest_is_what_the_moved_ray_sees(rng):
     for _ in range(250):
         o, d, c, solids, found = one_ray(rng, 12, planes=2)
         rng.shuffle(found)
-        seen, ties = seen_and_ties(found, NOTHING)
+        seen, ties = seen_and_ties(found)
         hits = [(moved_t(o, d, c, solids, name), name) for name, _ in found]
         hits = sorted((t, name) for t, name in hits if t is not None)
         name = found[seen][0] if seen >= 0 else NOTHING
@@ -147,7 +147,7 @@ def sight(corners, direction=(0, 0, -1)):
     c = np.array(corners, float).transpose(1, 2, 0)
     batch = IntegerBatch(Rays(o, d), c)
     found = [((0, k), batch.hit(0, k)) for k in range(c.shape[2])]
-    seen, ties = seen_and_ties([(name, m) for name, m in found if m], NOTHING)
+    seen, ties = seen_and_ties([(name, m) for name, m in found if m])
     return seen, {k if i == 0 else None for i, k in ties}, sights(o, d, c)[0]
 
 
