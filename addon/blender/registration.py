@@ -20,9 +20,7 @@ from . import (
 )
 from .long_work import LongWork
 
-MODULES = (
-    *(properties, engine, operators, studies, explain, inspector, panels, study_panels, commands),
-)
+MODULES = properties, engine, operators, studies, explain, inspector, panels, study_panels, commands
 
 
 @bpy.app.handlers.persistent
