@@ -19,6 +19,8 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
+from ...moved import may, touched
+
 pytestmark = pytest.mark.filterwarnings("error")
 LEAST = 16 << 20  # the least memory that there is a setting for
 
@@ -63,7 +65,7 @@ def test_pieces_are_the_whole(make, rng, monkeypatch):
         names = list(zip(expected.instance.tolist(), expected.triangle.tolist(), strict=True))
         assert names == [s.seen for s in truth] and len(expected.ties) > 12
         for k, tied in expected.ties.items():
-            assert names[k] in tied and truth[k].may <= tied <= truth[k].touched
+            assert names[k] in tied and may(truth[k]) <= tied <= touched(truth[k])
         for room in (5, 100):
             with monkeypatch.context() as patch:
                 patch.setattr(sweep, "_FRAGMENTS", room)
