@@ -8,6 +8,7 @@ import io
 import json
 import re
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import jsonschema
@@ -132,7 +133,12 @@ def test_the_schemas_are_schemas():
 
 
 def test_content_is_as_the_schema_says(differing, compared, room):
-    for comparison in (differing, compared(room(orthographic=True, planes=False))):
+    only_a_plane = replace(room(), instances=(), meshes=())
+    for comparison in (
+        differing,
+        compared(room(orthographic=True, planes=False)),
+        compared(only_a_plane),
+    ):
         held = json.loads(page.json_text(whole(comparison)))
         validator().validate(held)
 
@@ -153,8 +159,6 @@ def test_comparison_json_is_as_the_schema_says(differing, tmp_path):
 
 
 def test_every_result_of_the_self_check_is_in_the_schema(differing):
-    from dataclasses import replace
-
     from reference_tracer.compare.self_check import FaultRow
 
     rows = [
@@ -261,8 +265,6 @@ def test_extras_are_the_literal_picture_and_derivations(differing):
 
 
 def test_a_slow_textbook_is_not_traced_again(differing):
-    from dataclasses import replace
-
     from reference_tracer.compare.methods import MethodRow
 
     slow = replace(differing, methods=(MethodRow("textbook", "float64", 1, 99.0, 0, 0),))

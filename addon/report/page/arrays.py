@@ -84,7 +84,7 @@ def surface_table(scene: Scene, surfaces: SeenSurfaces) -> dict[str, Any]:
     on_mesh = surfaces.instance < len(scene.instances)
     corners = np.zeros((len(instance), 3), np.uint32)
     vertices, count = [], 0
-    mesh_of = np.where(on_mesh, scene.instance_meshes.take(surfaces.instance, mode="clip"), -1)
+    mesh_of = np.append(scene.instance_meshes, -1).take(surfaces.instance, mode="clip")
     for index in np.unique(mesh_of[on_mesh]):
         rows = np.flatnonzero(mesh_of == index)
         mesh = scene.meshes[index]
