@@ -18,7 +18,7 @@ from ..report import animation as report
 from ..scene import SceneError
 from ..tracer.progress import Work, result_of, scaled
 from .compare import compare_to_folder, made_folder
-from .stepping import visited
+from .stepping import bake_bodies, visited
 from .temporary import values_kept
 
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
@@ -82,17 +82,11 @@ def frames_of(scene: Any) -> range:
 def compare_open_file(options: Any, progress: Any, **choices: Any) -> int:
     """Compare the frames that the options name, print the table, return the worst's exit code.
 
-    The process is this command's own: rigid bodies are baked in it, as no copy of a scene has them
-    otherwise. Raises what :func:`compare_frames` does.
+    Raises what :func:`compare_frames` does.
     """
     scene = bpy.context.scene
     frames = frames_named(options.frames) or frames_of(scene)
-    if (bodies := scene.rigidbody_world) and bodies.enabled:
-        cache = bodies.point_cache
-        if not (cache.is_baked or cache.use_disk_cache):  # that would write beside the file
-            cache.frame_end = min(cache.frame_end, max(frames[-1], cache.frame_start + 1))
-            with bpy.context.temp_override(scene=scene, point_cache=cache):
-                bpy.ops.ptcache.bake(bake=True)
+    bake_bodies(scene, frames[-1])
     begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
 
     def told(rows: list[FrameRow]) -> None:

@@ -19,7 +19,7 @@ from ..scene import Camera, SceneError, ViewWindow
 from .camera import pixel_height, resolution
 from .engine import export_for_render
 from .scenario_scene import place_camera
-from .stepping import visited
+from .stepping import bake_bodies, visited
 from .temporary import temporary_scene
 
 _FAR = 1e18  # metres: farther away than anything, and its square is within float32
@@ -42,6 +42,7 @@ def chosen(choice: Choice) -> Iterator[None]:
     camera = _named("camera", choice.camera, cameras) or scene.camera
     with context.temp_override(scene=scene, view_layer=layer):
         if choice.frame is not None:
+            bake_bodies(scene, choice.frame)
             for frame in visited(scene, [choice.frame]):
                 scene.frame_set(frame)
         _resize(scene.render, choice.width, choice.height)

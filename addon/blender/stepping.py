@@ -18,3 +18,16 @@ def visited(scene: Any, frames: list[int]) -> Iterable[int]:
     if frames and (any(modifiers) or any(nodes)):
         return range(min(scene.frame_start, frames[0]), frames[-1] + 1)
     return frames
+
+
+def bake_bodies(scene: Any, last: int) -> None:
+    """Bake rigid bodies up to a frame: no copy of a scene has them otherwise.
+
+    The process is a command's own, as its file is never saved.
+    """
+    if (bodies := scene.rigidbody_world) and bodies.enabled:
+        cache = bodies.point_cache
+        if not (cache.is_baked or cache.use_disk_cache):  # that would write beside the file
+            cache.frame_end = min(cache.frame_end, max(last, cache.frame_start + 1))
+            with bpy.context.temp_override(scene=scene, point_cache=cache):
+                bpy.ops.ptcache.bake(bake=True)

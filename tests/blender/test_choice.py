@@ -152,6 +152,18 @@ def test_a_simulation_is_stepped_through(make, of_window, build, monkeypatch):
     assert places(Choice("Scene", frame=frame, frame_all=True)) == expected
 
 
+def test_rigid_bodies_are_baked_up_to_the_frame(build):
+    hard.rigid_body(build)
+    layer = bpy.context.view_layer
+    fallen = layer.objects["Body 0"].matrix_world.copy()
+    bpy.context.scene.frame_set(1)
+    with chosen(Choice(frame=16)):
+        scene, manifest, _ = export_open_file(bpy.context)
+    own = scene.instances[manifest.owners.index("Body 0")].world_from_object
+    np.testing.assert_array_equal(own, fallen)
+    assert not manifest.unmodelled
+
+
 def places(choice):
     """All corners that are exported, and how the camera sees them."""
     with chosen(choice):
