@@ -23,6 +23,7 @@ from ..report import engines as engines_report
 from ..report import folders, page
 from ..scene import Scene, SceneError
 from ..scene_files import diagnosed
+from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
 from .camera import export_camera
@@ -72,7 +73,8 @@ def gather_case(
     view_shading = solid_shading(context) if of_view else None
     checked = stored.self_check if self_check is None else self_check
     later = None
-    export_camera(scene)  # first, as its errors name the user's scene and say what to do
+    r = export_camera(scene).region  # first, as its errors name the user's scene, say what to do
+    check_memory(r.width, r.height, COMPARED, 2 * ALWAYS)  # before Blender draws
     with temporary_scene(scene, layer, engine) as tmp:
         if view_shading:
             use_view_shading(tmp, view_shading)

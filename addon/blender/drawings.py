@@ -20,7 +20,7 @@ from ..compare.checks.unmodelled import covered
 from ..compare.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
 from ..compare.picture import Picture, numbered
 from ..manifest import Effect, Manifest, Unmodelled
-from ..scene import Scene
+from ..scene import Scene, SceneError
 from .judges import Judge
 from .planes import stand_ins
 from .temporary import (
@@ -133,7 +133,7 @@ def drawn_by_others(drawing: Drawing) -> NDArray[np.int32] | None:
     try:
         with drawing.begun() as tmp:
             shown = Picture(drawing.picture(tmp, True))
-    except RuntimeError:  # there is nothing to draw with: all that it may cover
+    except (SceneError, RuntimeError):  # there is nothing to draw with: all that it may cover
         return None
     return with_what_draws_itself(drawing, shown)[0].drawn
 

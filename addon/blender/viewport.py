@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import SizeError
-from ..scene import Camera
+from ..scene import Camera, SceneError
 from .judges import Judge
 from .temporary import values_kept
 
@@ -111,7 +111,7 @@ def picture(
 
     Raises
     ------
-    RuntimeError
+    SceneError, RuntimeError
         If Blender made no picture.
     SizeError
         If it made one of another size.
@@ -119,10 +119,13 @@ def picture(
     with tempfile.TemporaryDirectory() as folder:
         scene.render.filepath = str(Path(folder) / "picture")
         with judge.set_up(judge, scene, layer) if like_for_like else nullcontext():
-            if judge.needs_window:
-                _draw_viewport(scene, layer, like_for_like)
-            else:
-                _render(scene, judge.engine)
+            try:
+                if judge.needs_window:
+                    _draw_viewport(scene, layer, like_for_like)
+                else:
+                    _render(scene, judge.engine)
+            except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
+                raise SceneError(f"{judge.name} draws no picture of this size: {error}") from error
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")

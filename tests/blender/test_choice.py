@@ -206,6 +206,18 @@ def test_without_a_camera_the_command_says_how_to_get_one(solids, tmp_path, caps
         assert commands.run([*command, "--frame-all"]) == 0
 
 
+@pytest.mark.parametrize(
+    ("width", "height", "words"),
+    [(65536, 4, "workbench draws no picture"), (32767, 32767, "choose a smaller size")],
+)
+def test_a_picture_that_blender_cannot_draw(width, height, words, solids, tmp_path, capsys):
+    """One line says it; memory is asked for before Blender takes minutes to fail."""
+    size = ["--width", str(width), "--height", str(height), "--frame-all"]
+    assert commands.run(["compare", "--out", str(tmp_path / "out"), *size]) == 4
+    said = capsys.readouterr().err
+    assert words in said.splitlines()[-1] and "Traceback" not in said
+
+
 def test_the_button_frames_all_and_the_others_say_what_is_missing(solids):
     buttons = [getattr(bpy.ops.reference_tracer, n) for n in ("compare", "compare_all", "trade")]
     for button in buttons:
