@@ -39,6 +39,7 @@ def chosen(choice: Choice) -> Iterator[None]:
     own = context.view_layer if scene == context.scene else scene.view_layers[0]
     layer = _named("view layer", choice.view_layer, scene.view_layers) or own
     cameras = (o for o in bpy.data.objects if o.type == "CAMERA")
+    cameras = sorted(cameras, key=lambda o: o.library is None)  # the file's own is the last, stays
     camera = _named("camera", choice.camera, cameras) or scene.camera
     with context.temp_override(scene=scene, view_layer=layer):
         if choice.frame is not None:

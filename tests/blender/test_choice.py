@@ -187,6 +187,17 @@ def test_what_is_not_there_is_said_with_what_is(choice, words, two):
         pass
 
 
+def test_the_files_own_camera_comes_before_a_librarys(solids, tmp_path):
+    own = bpy.data.objects.new("Eye", bpy.data.cameras.new("Eye"))
+    bpy.context.scene.collection.objects.link(own)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "library.blend"), copy=True)
+    with bpy.data.libraries.load(str(tmp_path / "library.blend"), link=True) as (_, to):
+        to.objects = ["Eye"]
+    bpy.context.scene.collection.objects.link(to.objects[0])
+    with chosen(Choice(camera="Eye")):
+        assert bpy.context.scene.camera == own
+
+
 def test_nothing_to_frame(build):
     build.scene()
     build.cube().hide_render = True
