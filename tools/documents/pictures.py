@@ -9,8 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from reference_tracer.images import to_display
+from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.page import marked
 from reference_tracer_grading.picture import look
 from reference_tracer_grading.student import Student
@@ -44,6 +47,15 @@ def shown(name: str, method: str = "certified", precision: str = "float64") -> P
 
 def orthographic() -> Picture:
     return shown("orthographic")
+
+
+def shapes() -> Picture:
+    """The normals, how far each surface faces its ray, and the depth."""
+    pictures = (
+        to_display(render(scene("orthographic"), Settings(color=color)).color)
+        for color in (Color.NORMAL, Color.FACING, Color.DEPTH)
+    )
+    return beside(*map(small, pictures))
 
 
 def perspective() -> Picture:
@@ -91,7 +103,7 @@ def judged() -> Picture:
 
 
 PICTURES: Mapping[str, Callable[[], Picture]] = {
-    f.__name__: f for f in (orthographic, perspective, plane, triangle, weights, judged)
+    f.__name__: f for f in (orthographic, shapes, perspective, plane, triangle, weights, judged)
 }
 
 
