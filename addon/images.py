@@ -7,7 +7,9 @@ A PNG is written with zlib alone. The rest takes OpenImageIO, the extra `images`
 from __future__ import annotations
 
 import base64
+import errno
 import os
+import shutil
 import struct
 import zlib
 from collections.abc import Iterator
@@ -22,6 +24,7 @@ from numpy.typing import NDArray
 _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
 _UP = 2  # PNG's filter: the difference from the row above
 _RGBA, _PALETTE = 6, 3  # PNG's colour types
+_ROWS = 64  # of an EXR at a time: several of its blocks
 
 
 class MissingLibraryError(RuntimeError):
@@ -118,23 +121,28 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
     OSError
         If the file cannot be written.
     """
-    oiio = _library()
-    names, channels = [], []
-    for name, values in passes.items():
-        if np.ndim(values) < 2:
-            continue
-        values = np.atleast_3d(values)
+    oiio, path = _library(), Path(path)
+    pictures = {name: np.atleast_3d(v) for name, v in passes.items() if np.ndim(v) > 1}
+    names = []
+    for name, values in pictures.items():
         letters = "RGBA" if name == "color" else "XYZ" if values.shape[2] == 3 else "V"
         names += [letter if name == "color" else f"{name}.{letter}" for letter in letters]
-        channels.append(values[::-1].astype(np.float32))
-    pixels = np.concatenate(channels, axis=-1)
-    spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], len(names), "float")
+    height, width = next(iter(pictures.values())).shape[:2]
+    spec = oiio.ImageSpec(width, height, len(names), "float")
     spec.channelnames = names
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", "")  # the same frame makes the same file
     file = oiio.ImageOutput.create(str(path))
-    if not (file.open(str(path), spec) and file.write_image(pixels) and file.close()):
-        raise OSError(f"cannot write '{path}': {_error(file)}")
+    written = file and file.open(str(path), spec)
+    for first in range(0, height, _ROWS):
+        end = min(first + _ROWS, height)
+        rows = [v[height - end : height - first][::-1] for v in pictures.values()]
+        part = np.concatenate(rows, axis=-1, dtype=np.float32, casting="unsafe")
+        written = written and file.write_scanlines(first, end, 0, part)
+    if not (written and file.close()):
+        if shutil.disk_usage(path.parent).free < 1 << 20:  # the library does not say so
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        raise OSError(f"cannot write '{path.name}': {_error(file or oiio)}")
 
 
 @dataclass(frozen=True, eq=False)
