@@ -17,6 +17,7 @@ from ..compare.animation import CODES, FrameRow, frames_named
 from ..report import animation as report
 from ..scene import SceneError
 from ..tracer.progress import Work, result_of, scaled
+from .camera import export_camera
 from .compare import compare_to_folder, made_folder
 from .stepping import bake_bodies, visited
 from .temporary import values_kept
@@ -39,10 +40,12 @@ def compare_frames(
 
     Raises
     ------
-    OSError
-        If the folder cannot be written.
+    SceneError, OSError
+        If there is no camera, or the folder cannot be written.
     """
     scene, folder = bpy.context.scene, made_folder(directory)
+    if not (scene.camera or any(marker.camera for marker in scene.timeline_markers)):
+        export_camera(scene)  # says so once, not in each frame
     title = f"{bpy.path.basename(bpy.data.filepath)}, {scene.name}"
     rows = [r for f in frames if (r := report.row_of_whole(folder, f, made_by))]
     todo = sorted(set(frames) - {row.frame for row in rows})

@@ -87,7 +87,7 @@ def lines(frames: range, rows: Sequence[FrameRow]) -> list[str]:
     """Return the table of the worst frames, and the verdict of all."""
     table = columns([_HEAD, *map(_cells, worst_first(rows)[:_LISTED])], left=(4,))
     more = [f"and {len(rows) - _LISTED:,} more, in {PAGE}"] if len(rows) > _LISTED else []
-    done = f"{len(rows):,} of {len(frames):,} frames are compared"
+    done = f"{len(rows):,} of {len(frames):,} frames are done"
     return [*table, *more, done, f"verdict: {verdict(rows)}"]
 
 

@@ -142,6 +142,14 @@ def test_a_frame_is_done_again_if_a_file_that_it_uses_is_another(kind, moving, r
     assert done(out) != before
 
 
+def test_no_camera_is_said_once(moving, run, out, capsys):
+    moving.camera = None
+    assert run("1-4") == 4
+    said, told = capsys.readouterr()
+    assert told.count("has no camera") == 1 and "camera" not in said
+    assert not out.exists() or not list(out.iterdir())
+
+
 def test_an_interruption_keeps_what_is_done(moving, run, out, monkeypatch, capsys):
     def interrupted(frame: int) -> None:
         if frame == 3:

@@ -38,7 +38,7 @@ def test_escape_keeps_the_frames_of_an_animation_that_are_done(noted):
     frames = noted["frames"]
     assert 2 < len(frames) < 60 and sorted(frames) == list(range(1, len(frames) + 1))
     assert noted["on_disk"] == [f"frame_{frame:04d}" for frame in sorted(frames)]
-    assert f"{len(frames)} of 60 frames are compared" in noted["page"]
+    assert f"{len(frames)} of 60 frames are done" in noted["page"]
     assert noted["frame"] == 7
     assert noted["changed"] == noted["new"] == {}
     assert not noted["left"]

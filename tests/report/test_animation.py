@@ -33,7 +33,7 @@ def test_the_page_and_the_table_have_the_worst_first(tmp_path):
     assert lines[2].split() == ["9", "900", "60", "40", "differences"]
     assert lines[-3:] == [
         "and 20 more, in animation.html",
-        "30 of 30 frames are compared",
+        "30 of 30 frames are done",
         "verdict: failed",
     ]
 
@@ -42,5 +42,5 @@ def test_the_page_and_the_table_have_the_worst_first(tmp_path):
 def test_few_frames_make_a_page_too(rows, tmp_path):
     report.write(tmp_path, "shot.blend", FRAMES, rows)
     page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
-    assert f"{len(rows)} of 30 frames are compared" in page
+    assert f"{len(rows)} of 30 frames are done" in page
     assert "nan" not in page
