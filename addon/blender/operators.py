@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty
 
+from ..arguments import EXPECTED, words
 from ..compare import engines
 from ..compare.animation import FrameRow
 from ..compare.comparison import Comparison
@@ -172,8 +173,8 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
         """Add it."""
         try:
             camera = frame_all(context.scene, context.view_layer)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
+        except EXPECTED as error:
+            self.report({"ERROR"}, words(error))
             return {"CANCELLED"}
         camera.name = camera.data.name = "Camera"
         return {"FINISHED"}
