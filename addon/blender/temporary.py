@@ -75,8 +75,8 @@ def _isolate(scene: Any, layer: str) -> None:
     render.use_stamp = render.use_freestyle = render.use_motion_blur = False
     # With `use_sequencer` off, handlers that add or remove data crash Blender (5.2).
     scene.sequence_editor_clear()
-    # Bodies that are not baked, and baked ones in the second frame, which starts the cache anew, would
-    # be simulated in this scene: the user's own, freed when it goes.
+    # Bodies would be simulated in this scene, the user's own, and freed when it goes: Blender then
+    # crashes. So it is, measured, with baked ones in the second frame of their cache.
     if bodies := scene.rigidbody_world:
         cache = bodies.point_cache
         if not cache.is_baked or scene.frame_current == cache.frame_start + 1:
