@@ -17,6 +17,7 @@ from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import Hits
 from ..tracer.progress import Work
+from ..tracer.shading import by_mesh
 from ..tracer.vector import transform_points
 
 U32 = 2.0**-24
@@ -72,29 +73,18 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
     eye = scene.camera.origin
     far = np.abs(positions - eye).sum(axis=1)
     error = _MODEL * (np.abs(eye).sum() + far) + _VIEW * (2 * np.abs(eye).sum() + far)
-    on_mesh = np.flatnonzero(hits.instance < len(scene.instances))
-    keys = np.stack((hits.instance[on_mesh], hits.triangle[on_mesh]))
-    # Pixels outnumber triangles, mostly: each triangle's corners are looked at once.
-    (instance, triangle), which = np.unique(keys, axis=1, return_inverse=True)
-    matrices = scene.instance_matrices[..., instance]
-    for corner in range(3):
-        v = _corners(scene, instance, triangle, corner)
-        p = np.abs(transform_points(matrices, v)).sum(axis=0)
-        model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
-        own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
-        share = hits.s[corner, on_mesh] * own[which.reshape(-1)]
-        error[on_mesh] = share if corner == 0 else error[on_mesh] + share
+    for mesh, rows in by_mesh(scene, hits):
+        keys = np.stack((hits.instance[rows], hits.triangle[rows]))
+        # Pixels outnumber triangles, mostly: each triangle's corners are looked at once.
+        (instance, triangle), which = np.unique(keys, axis=1, return_inverse=True)
+        matrices, error[rows] = scene.instance_matrices[..., instance], 0.0
+        for s, corner in zip(hits.s[:, rows], mesh.triangles[triangle].T, strict=True):
+            v = mesh.vertices[corner].T
+            p = np.abs(transform_points(matrices, v)).sum(axis=0)
+            model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
+            own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
+            error[rows] += s * own[which.reshape(-1)]
     return U32 * error
-
-
-def _corners(scene: Scene, instance: NDArray, triangle: NDArray, corner: int) -> NDArray:
-    """Return one corner of each triangle in its object's space, (3, n)."""
-    out = np.empty((3, len(triangle)))
-    meshes = scene.instance_meshes[instance]
-    for index in np.unique(meshes):
-        mesh, own = scene.meshes[index], meshes == index
-        out[:, own] = mesh.vertices[mesh.triangles[triangle[own], corner]].T
-    return out
 
 
 def pixel_error(

@@ -27,7 +27,7 @@ LIMIT = 8  # candidates that one still reads
 
 _PLAIN = Settings(Method.TEXTBOOK)
 _FARTHEST = 1e300  # metres: no clip range
-_CUBE = np.array(  # a box's twelve triangles, by corners numbered x + 2 y + 4 z
+_CUBE = np.array(  # a box's twelve triangles, by corners numbered 4 x + 2 y + z
     [
         *((0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4)),
         *((2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)),
@@ -73,7 +73,9 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     )
     order = _order(pixel, triangles)
     count = _enough(pixel, triangles, order, limit)
-    kept = [*order[:count], *_seen_by_methods(pixel, triangles, order[count:])]
+    seen = {plain_answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
+    more = (k for k in order[count:] if (triangles.instance[k], triangles.triangle[k]) in seen)
+    kept = [*order[:count], *more]
     return replace(
         pixel,
         candidates=(*(_candidate(scene, triangles, k) for k in kept), *planes),
@@ -84,7 +86,8 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
 def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     """Return the triangles whose boxes on the film hold the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
-    cubes = [Mesh(_corners(mesh), _CUBE) for mesh in scene.meshes]
+    corners = (np.array(np.meshgrid(*mesh.bounds.T, indexing="ij")) for mesh in scene.meshes)
+    cubes = [Mesh(corner.reshape(3, 8).T, _CUBE) for corner in corners]
     blank = [Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances]
     boxes = replace(scene, meshes=cubes, instances=blank, planes=())
     for camera in _both_ways(replace(scene.camera, region=tile)):
@@ -119,11 +122,6 @@ def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
             yield pairs
 
 
-def _corners(mesh: Mesh) -> NDArray[np.float64]:
-    low, high = mesh.bounds
-    return np.array([[(low, high)[k >> a & 1][a] for a in range(3)] for k in range(8)])
-
-
 def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     """Return the triangles' order for a reader: hits by t, then near misses."""
     rays = pixel.rays()
@@ -151,14 +149,6 @@ def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], li
             break
         count *= 2
     return min(count, len(order))
-
-
-def _seen_by_methods(
-    pixel: Pixel, triangles: WorldTriangles, left: NDArray[np.intp]
-) -> list[np.intp]:
-    """Return which of those left out a plain method sees, in the order given."""
-    seen = {plain_answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
-    return [k for k in left if (int(triangles.instance[k]), int(triangles.triangle[k])) in seen]
 
 
 def _candidate(scene: Scene, triangles: WorldTriangles, k: int) -> Candidate:

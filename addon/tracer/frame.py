@@ -177,10 +177,6 @@ class Frame:
         wrong.flat[pixel[certified.ties.may_see(pixel, *name)]] = False
         return wrong
 
-    def arrays(self) -> dict[str, NDArray]:
-        """Return the stored arrays by name."""
-        return {name: value for name, value in vars(self).items() if isinstance(value, np.ndarray)}
-
     def passes(self) -> dict[str, NDArray]:
         """Return every output by name, also those that are computed."""
         return {p.name: getattr(self, p.name) for p in PASSES}

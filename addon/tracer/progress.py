@@ -28,11 +28,13 @@ def result_of(work: Work[T], progress: Callable[[float], None] | None = None) ->
             progress(share)
 
 
-def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:
-    """Run work whose steps yield what a function makes of what they are."""
+def mapped(
+    work: Generator[A, None, T], of: Callable[[A], B], step: Callable[[Generator], A] = next
+) -> Generator[B, None, T]:
+    """Run work whose steps, taken by `step`, yield what a function makes of what they are."""
     while True:
         try:
-            share = next(work)
+            share = step(work)
         except StopIteration as stop:
             return stop.value
         yield of(share)
@@ -45,22 +47,16 @@ def scaled(work: Work[T], start: float, size: float) -> Work[T]:
 
 def timed(steps: Steps[T], stages: Counter[str], share: float = 0.0) -> Work[T]:
     """Run steps as work of which this share is done, and count the seconds of their stages."""
-    while True:
+
+    def step(steps: Steps[T]) -> float:
         began = time.perf_counter()
-        try:
-            stage = next(steps)
-        except StopIteration as stop:
-            return stop.value
+        stage = next(steps)
         stages[stage] += time.perf_counter() - began
-        yield share
+        return share
+
+    return mapped(steps, float, step)
 
 
 def quiet(work: Work[T]) -> Work[T]:
     """Run work without numpy's warnings: what over- or underflows is not known, and found out."""
-    while True:
-        with np.errstate(all="ignore"):
-            try:
-                share = next(work)
-            except StopIteration as stop:
-                return stop.value
-        yield share
+    return mapped(work, float, np.errstate(all="ignore")(next))

@@ -26,12 +26,12 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     first, last = scene.color_rows
     row = first[hits.instance]
     if (first != last).any():
-        for mesh, pixels in _by_mesh(scene, hits):
+        for mesh, pixels in by_mesh(scene, hits):
             slots = mesh.slots.take(hits.triangle[pixels])
             row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
     out = scene.color_table.take(row, axis=0)
     if any(mesh.corner_colors is not None for mesh in scene.meshes):
-        for mesh, pixels in _by_mesh(scene, hits):
+        for mesh, pixels in by_mesh(scene, hits):
             if mesh.corner_colors is not None:
                 corners = mesh.corner_colors[hits.triangle[pixels]]
                 out[pixels] = (corners * hits.s[:, pixels].T[..., None]).sum(axis=1)
@@ -56,7 +56,7 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     n = np.zeros((3, len(first)))
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         n[:, hits.instance == index] = infinite.normal[:, None]
-    for mesh, rows in _by_mesh(scene, hits):
+    for mesh, rows in by_mesh(scene, hits):
         which = hits.instance[rows]
         if (which == which[0]).all():
             which = which[:1]
@@ -98,7 +98,7 @@ def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
     return points.T
 
 
-def _by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
+def by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
     """Yield each mesh that is seen, with the rows of its hits."""
     on_mesh = np.flatnonzero((hits.instance != NOTHING) & (hits.instance < len(scene.instances)))
     meshes = scene.instance_meshes[hits.instance[on_mesh]]
