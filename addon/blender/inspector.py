@@ -70,7 +70,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             found = pick(context, event.mouse_x, event.mouse_y)
             if found is None:
                 return {"PASS_THROUGH"}
-            draw_ray = context.window_manager.reference_tracer_inspector.draw_ray
+            draw_ray = context.window_manager.reference_tracer.draw_ray
             # As a button does it: with a step of undo of its own.
             bpy.ops.reference_tracer.explain(
                 "EXEC_DEFAULT", True, **found._asdict(), draw_ray=draw_ray

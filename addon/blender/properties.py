@@ -102,15 +102,10 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
 
 
 class ReferenceTracerWindow(bpy.types.PropertyGroup):
-    """What the panels show at the moment; not stored."""
+    """What the panels show at the moment, and what a click of the inspector does; not stored."""
 
     precision: EnumProperty(name="Precision", items=PRECISIONS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
     scenario: EnumProperty(name="Scenario", items=SWEEPS, options={"SKIP_SAVE"})  # type: ignore[valid-type]
-
-
-class ReferenceTracerInspector(bpy.types.PropertyGroup):
-    """What a click of the inspector does; not stored."""
-
     draw_ray: BoolProperty(  # type: ignore[valid-type]
         name="Draw the Ray",
         options={"SKIP_SAVE"},
@@ -123,7 +118,6 @@ POINTERS = (
     (bpy.types.Scene, "reference_tracer", ReferenceTracerScene),
     (bpy.types.Object, "reference_tracer", ReferenceTracerObject),
     (bpy.types.WindowManager, "reference_tracer", ReferenceTracerWindow),
-    (bpy.types.WindowManager, "reference_tracer_inspector", ReferenceTracerInspector),
 )
 
 

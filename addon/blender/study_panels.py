@@ -40,7 +40,7 @@ class _Inspector:
             text="Click a Pixel (Esc: End)" if on else None,
             depress=on,
         )
-        layout.prop(context.window_manager.reference_tracer_inspector, "draw_ray")
+        layout.prop(context.window_manager.reference_tracer, "draw_ray")
         row = layout.row(align=True)
         row.operator(explain.REFERENCE_TRACER_OT_draw_ray.bl_idname, text="Draw", icon="LIGHT_SPOT")
         row.operator(explain.REFERENCE_TRACER_OT_remove_ray.bl_idname, text="Remove", icon="TRASH")

@@ -26,10 +26,14 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Sentences; `tone` is "", "answer" (the result), "note" or "warning"."""
+    """Sentences; `tone` is "", "answer" (the result), "note" or "warning".
+
+    `srgb` is a colour to look at beside them, #rrggbb, if there is one.
+    """
 
     text: str
     tone: str = ""
+    srgb: str = ""
 
 
 @dataclass(frozen=True)
@@ -60,15 +64,7 @@ class Numbers:
     rows: tuple[BlockRow, ...]
 
 
-@dataclass(frozen=True)
-class Swatch:
-    """A colour to look at: sRGB as #rrggbb, and the text beside it."""
-
-    srgb: str
-    text: str
-
-
-Block = Heading | Paragraph | Table | Numbers | Swatch
+Block = Heading | Paragraph | Table | Numbers
 
 
 def numbers(quantities: tuple[Quantity, ...]) -> Numbers:
@@ -105,8 +101,6 @@ def markdown(block: Block) -> str:
             return f"{'#' * block.level} {escaped(block.text)}"
         case Paragraph():
             return _TONES.get(block.tone, "{}").format(escaped(block.text))
-        case Swatch():
-            return escaped(block.text)
         case Table():
             rows = [map(escaped, row) for row in (block.head, *block.rows)]
             lines = [f"| {' | '.join(row)} |" for row in rows]

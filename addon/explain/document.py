@@ -8,7 +8,7 @@ from __future__ import annotations
 from ..images import to_display
 from ..tracer.certified.certainty import Certainty
 from . import blocks
-from .blocks import Block, Heading, Paragraph, Swatch, Table, numbers
+from .blocks import Block, Heading, Paragraph, Table, numbers
 from .derivation import Derivation, Test
 from .digits import digits_text
 from .formulas import ERRATA
@@ -213,7 +213,7 @@ def _color(derivation: Derivation) -> list[Block]:
     shown = to_display([[derivation.color]])[0, 0, :3]
     srgb = "#" + "".join(f"{v:02x}" for v in shown)
     text_ = f"linear RGBA ({rgba}); on a screen (sRGB) {srgb}"
-    return [Heading(2, "4. Its colour", "4"), Paragraph(said), *steps, Swatch(srgb, text_)]
+    return [Heading(2, "4. Its colour", "4"), Paragraph(said), *steps, Paragraph(text_, "", srgb)]
 
 
 def _certain(derivation: Derivation) -> list[Block]:

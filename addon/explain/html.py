@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 
-from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Swatch, Table
+from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Table
 from .derivation import Derivation
 from .document import lecture
 from .formulas import VECTORS, Formula
@@ -76,10 +76,8 @@ def _block(block: Block) -> str:
             return f"<h{block.level}{name}>{escape(block.text)}</h{block.level}>"
         case Paragraph():
             kind = f' class="derivation-{block.tone}"' if block.tone else ""
-            return f"<p{kind}>{escape(block.text)}</p>"
-        case Swatch():
             color = f'<span class="derivation-swatch" style="background:{block.srgb}"></span>'
-            return f"<p>{color}{escape(block.text)}</p>"
+            return f"<p{kind}>{block.srgb and color}{escape(block.text)}</p>"
         case Table():
             return _table(block.head, map(_cells, block.rows), "derivation-text")
         case Numbers():

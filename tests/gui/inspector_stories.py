@@ -164,7 +164,7 @@ def in_view():
     look_through_camera(area)
     yield 1
     yield from show_tab(area)
-    bpy.context.window_manager.reference_tracer_inspector.draw_ray = True
+    bpy.context.window_manager.reference_tracer.draw_ray = True
     clean = data_blocks()
     selected = [o.name for o in window().view_layer.objects if o.select_get()]
     noted["started"] = list(invoke("inspect"))

@@ -54,9 +54,7 @@ def played(names):
 
 def opened(scene):
     """Open a sample scene with the window that it was saved with, and nothing of the last story."""
-    manager = bpy.context.window_manager
-    for kept in ("reference_tracer", "reference_tracer_inspector"):
-        manager.property_unset(kept)
+    bpy.context.window_manager.property_unset("reference_tracer")
     bpy.ops.wm.open_mainfile(filepath=f"/project/sample_scenes/{scene}.blend")
     yield 1
     assert len(bpy.context.window_manager.windows) == 1

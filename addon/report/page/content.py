@@ -7,7 +7,6 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import astuple
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,6 @@ from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import MissingLibraryError, data_uri, to_display
-from ...scene import Camera
 from ...tracer.certified.certainty import Certainty
 from ...tracer.frame import Frame
 from ...tracer.triangle import SUM_TOLERANCE
@@ -52,7 +50,7 @@ def content(
         "schema": SCHEMA,
         "comparison": comparison.to_dict(),
         "size": [frame.t.shape[1], frame.t.shape[0]],
-        "camera": _camera(scene.camera),
+        "camera": scene.camera.to_dict(),
         "objects": list(scene.objects),
         "object_of": scene.instance_objects[:-1].tolist(),
         "planes": [
@@ -75,19 +73,6 @@ def content(
         # Without its thousands of rows, which the plots show.
         "extremes": _study(extremes_report, extras.extremes, missing, without="rows"),
         "left_out": missing,
-    }
-
-
-def _camera(camera: Camera) -> dict[str, Any]:
-    return {
-        "name": camera.name,
-        "world_from_camera": camera.world_from_camera.tolist(),
-        "window": list(astuple(camera.window)),
-        "width": camera.width,
-        "height": camera.height,
-        "region": list(astuple(camera.region)),
-        "orthographic": camera.projection.in_files,
-        "clip": [camera.clip_start, camera.clip_end],
     }
 
 

@@ -31,8 +31,8 @@ const projection = CAMERAS.get(camera.orthographic);
 /** The ray x = o + t d through the centre of a pixel; t is the depth along the view axis. */
 function cameraRay(x, y, precision) {
   const { round, add, mul, plus, times } = arithmetic(precision);
-  const [left, right, bottom, top] = camera.window;
-  const film = [x + camera.region[0] + 0.5, y + camera.region[1] + 0.5];
+  const { left, right, bottom, top } = camera.window;
+  const film = [x + camera.region.x0 + 0.5, y + camera.region.y0 + 0.5];
   const size = [(right - left) / camera.width, (top - bottom) / camera.height].map(round);
   const u = add(round(left), mul(round(film[0]), size[0]));
   const v = add(round(bottom), mul(round(film[1]), size[1]));
@@ -118,7 +118,7 @@ function meetTriangle(ray, corners, precision) {
 }
 
 /** Whether t lies in the camera's clip range. */
-const inClip = (t) => t >= camera.clip[0] && t <= camera.clip[1];
+const inClip = (t) => t >= camera.clip_start && t <= camera.clip_end;
 
 /** The whole derivation of a pixel's ray with one surface. */
 function derive(x, y, surface, precision) {

@@ -80,7 +80,7 @@ function stepsTable(surface, results) {
   if (surface)
     rows.push([
       "In the clip range",
-      `${general(camera.clip[0])} m ≤ t ≤ ${general(camera.clip[1])} m`,
+      `${general(camera.clip_start)} m ≤ t ≤ ${general(camera.clip_end)} m`,
       ...results.map((r) => yesNo(!r.clipped)),
     ]);
   const title = surface
