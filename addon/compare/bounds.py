@@ -117,23 +117,14 @@ def depth_resolution(
 
 
 def differing(
-    first: NDArray,
-    second: NDArray,
-    interpolated: NDArray[np.bool_] | bool = False,
-    levels: int = 0,
-    sums: int = 0,
-    dither: float = 0.0,
+    first: NDArray, second: NDArray, interpolated: NDArray[np.bool_] | bool = False, *stored: float
 ) -> NDArray[np.bool_]:
-    """Return which pixels of two (..., c) pictures differ by more than rounding.
+    """Return which pixels of two (..., c) pictures differ by more than :func:`difference` allows.
 
-    HALF_UNITS of a half float's last place are allowed, but at least LEAST_STEP; where a colour is
-    `interpolated` (...), INTERPOLATED more. What is not finite differs from everything. Where the
-    second picture was stored in so many `levels` above 0 of sRGB's curve, as a PNG is, half a level
-    and `dither` levels of noise are allowed in place of that; of 16 bits, HALF_UNITS as well.
-    A mean of `sums` samples, added up in half floats, loses half a unit with each.
+    `stored` is as there. What is not finite differs from everything.
     """
     size = np.maximum(np.abs(first), np.abs(second))
-    apart, allowed = difference(first, second, interpolated, levels, sums, dither)
+    apart, allowed = difference(first, second, interpolated, *stored)
     with np.errstate(invalid="ignore"):
         return ~((apart <= allowed) & np.isfinite(size)).all(axis=-1)
 
@@ -146,7 +137,14 @@ def difference(
     sums: int = 0,
     dither: float = 0.0,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return how far two pictures are apart, (..., c), and how far :func:`differing` allows."""
+    """Return how far two pictures are apart, and how far rounding may have put them, (..., c).
+
+    HALF_UNITS of a half float's last place are allowed, but at least LEAST_STEP; where a colour is
+    `interpolated` (...), INTERPOLATED more. Where the second picture was stored in so many `levels`
+    above 0 of sRGB's curve, as a PNG is, half a level and `dither` levels of noise are allowed in
+    place of that; of 16 bits, HALF_UNITS is more. A mean of `sums` samples, added up in half
+    floats, loses half a unit with each.
+    """
     first, second = first.astype(np.float64), second.astype(np.float64)
     more = INTERPOLATED * np.asarray(interpolated, dtype=np.float64)[..., None]
     if levels:

@@ -106,12 +106,15 @@ def clip_start(case: Case, frame: Frame) -> Case | None:
 
 def flipped_winding(case: Case, _: Frame) -> Case:
     """Turn the normals of all triangles over."""
-    return case.with_scenes(lambda s: replace(s, meshes=tuple(_flipped(m) for m in s.meshes)))
+    every = slice(None), slice(None, None, -1)
+    return case.with_scenes(lambda s: replace(s, meshes=tuple(_of(m, *every) for m in s.meshes)))
 
 
-def _flipped(mesh: Mesh) -> Mesh:
-    colors = None if mesh.corner_colors is None else mesh.corner_colors[:, ::-1]
-    return replace(mesh, triangles=mesh.triangles[:, ::-1], corner_colors=colors)
+def _of(mesh: Mesh, kept: NDArray[np.bool_] | slice, corners: slice = slice(None)) -> Mesh:
+    """Return a mesh of some of the triangles, their corners in some order."""
+    colors = None if mesh.corner_colors is None else mesh.corner_colors[kept][:, corners]
+    triangles, slots = mesh.triangles[kept][:, corners], mesh.slots[kept]
+    return replace(mesh, triangles=triangles, slots=slots, corner_colors=colors)
 
 
 def dropped_instance(case: Case, frame: Frame) -> Case | None:
@@ -136,17 +139,11 @@ def dropped_triangle(case: Case, frame: Frame) -> Case | None:
         own, meshes = _in(scene, case.scene, instance), list(scene.meshes)
         if own is not None:
             number = scene.instances[own].mesh
-            meshes[number] = _less(meshes[number], triangle)
+            kept = np.arange(len(meshes[number].triangles)) != triangle
+            meshes[number] = _of(meshes[number], kept)
         return replace(scene, meshes=tuple(meshes))
 
     return case.with_scenes(less)
-
-
-def _less(mesh: Mesh, triangle: int) -> Mesh:
-    kept = np.arange(len(mesh.triangles)) != triangle
-    colors = None if mesh.corner_colors is None else mesh.corner_colors[kept]
-    triangles, slots = mesh.triangles[kept], mesh.slots[kept]
-    return replace(mesh, triangles=triangles, slots=slots, corner_colors=colors)
 
 
 def moved_object(case: Case, frame: Frame) -> Case | None:
