@@ -18,45 +18,24 @@ AUTO = "AUTO"  # the viewport in a window, Workbench in background
 
 @dataclass(frozen=True)
 class Judge:
-    """One of Blender's engines.
+    """One of Blender's engines."""
 
-    Parameters
-    ----------
-    name : str
-        In options, folders and JSON; in capitals, in a script.
-    label, description : str
-        In the interface.
-    number : int, optional
-        Which a .blend stores: one that was given away is never given to another. None where only
-        AUTO chooses it.
-    engine : str, optional
-        Blender's identifier of the render engine; None for the drawing of the viewport.
-    ignores : frozenset of str
-        Features that it does not draw like for like: they explain none of its pixels.
-    set_up : callable
-        Sets a temporary scene and a view layer up to be drawn in constant colours, for a while.
-    sample_radius : float
-        It samples a pixel at most this far from its centre, in pixels, like for like.
-    filter_radius : float
-        Its anti-aliasing mixes what is seen so far from a pixel's centre, in pixels. Workbench's
-        samples lie within a pixel and a half; what smooths their edges takes in the pixel beside.
-    solid : bool
-        It draws by the scene's solid shading; another has materials and light of its own.
-    random_instances : bool
-        It gives each instance a random colour of its own, where colours are random.
-    """
-
-    name: str
-    label: str
+    name: str  # in options, folders and JSON; in capitals, in a script
+    label: str  # in the interface, as the description
     description: str
+    # Which a .blend stores: one that was given away is never given to another. None where only AUTO
+    # chooses it.
     number: int | None
-    engine: str | None
-    ignores: frozenset[str]
+    engine: str | None  # Blender's name of it; None for the drawing of the viewport
+    ignores: frozenset[str]  # features not drawn like for like: they explain none of its pixels
+    # Sets a temporary scene and a view layer up to be drawn in constant colours, for a while.
     set_up: Callable[[Judge, Any, str], AbstractContextManager[None]] = lambda *_: nullcontext()
-    sample_radius: float = 0.0
+    sample_radius: float = 0.0  # pixels: like for like, samples are no farther from a centre
+    # Pixels from its centre that its anti-aliasing mixes. Workbench's samples lie within a pixel
+    # and a half; what smooths their edges takes in the pixel beside.
     filter_radius: float = 2.0
-    solid: bool = True
-    random_instances: bool = True
+    solid: bool = True  # drawn by the scene's solid shading; others have materials and light
+    random_instances: bool = True  # where colours are random, each instance has one of its own
 
     @property
     def needs_window(self) -> bool:

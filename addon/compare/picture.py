@@ -46,68 +46,31 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """The pixels of the other side's picture, or some of them.
+    """The pixels (...) of the other side's picture, or some of them."""
 
-    Parameters
-    ----------
-    color : (..., 4) float32
-        Linear RGBA, alpha premultiplied.
-    owner : (...,) int32, optional
-        Whose surface it is: an index of `names`, NOTHING or UNKNOWN.
-    owners : (k + 1,) int32, optional
-        Whose each instance of the traced scene is, then each plane; NOTHING at the end.
-    names : tuple of str
-        The objects that may be shown.
-    sample_radius : float
-        How far from a pixel's centre it is sampled on purpose, in pixels.
-    filter_radius : float
-        How far the filter reaches that mixes several samples of a pixel; 0 for one sample.
-    levels : int
-        Above 0 where the picture was stored in so many levels of sRGB's curve: 255 for a PNG.
-    dither : float
-        So many levels of noise were added.
-    sums : int
-        How many samples were added up in half floats; 0 for one.
-    opaque : bool
-        The picture has no alpha: it is not compared.
-    lit : bool
-        Its colours are of a light that the tracer does not have: they prove nothing.
-    transform : callable, optional
-        What turns traced colours into its own.
-    background : (4,) float32, optional
-        Its own background, linear RGBA: as it is shown, whatever the transform.
-    snapping : float
-        To what its rasteriser rounds the corners of triangles, in pixels.
-    colorless : (k + 1,) bool, optional
-        Which instances' colours, then planes', the tracer does not know; False at the end.
-    holes : (k + 1,) bool, optional
-        Which of them are shown as if nothing were there.
-    drawn : (...,) int32, optional
-        The number of the unmodelled feature that draws itself there, over what is traced; NOTHING
-        elsewhere.
-    beneath : (..., 4) float32, optional
-        The same picture without these features; NaN where that is not known.
-    """
-
-    color: NDArray[np.float32]
+    color: NDArray[np.float32]  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
-    owner: NDArray[np.int32] | None = None
+    owner: NDArray[np.int32] | None = None  # (...) whose surface: of `names`, NOTHING or UNKNOWN
+    # (k + 1,) whose each instance of the traced scene is, then each plane; NOTHING at the end.
     owners: NDArray[np.int32] | None = None
-    names: tuple[str, ...] = ()
-    sample_radius: float = 0.0
+    names: tuple[str, ...] = ()  # of the objects that may be shown
+    sample_radius: float = 0.0  # pixels: how far from a pixel's centre it is sampled on purpose
+    # Pixels: how far the filter reaches that mixes several samples of a pixel; 0 for one sample.
     filter_radius: float = 0.0
-    levels: int = 0
-    dither: float = 0.0
-    sums: int = 0
-    opaque: bool = False
-    lit: bool = False
-    transform: Transform | None = None
-    background: NDArray[np.float32] | None = None
-    snapping: float = SNAPPING
+    levels: int = 0  # above 0 of sRGB's curve, in so many of which it was stored: 255 for a PNG
+    dither: float = 0.0  # so many levels of noise were added
+    sums: int = 0  # how many samples were added up in half floats; 0 for one
+    opaque: bool = False  # the picture has no alpha: it is not compared
+    lit: bool = False  # by a light that the tracer does not have: colours prove nothing
+    transform: Transform | None = None  # what turns traced colours into its own
+    background: NDArray[np.float32] | None = None  # (4,) its own, linear RGBA, not transformed
+    snapping: float = SNAPPING  # pixels: to what its rasteriser rounds the corners of triangles
+    # (k + 1,) as `owners`, False at the end: whose colours the tracer does not know,
     colorless: NDArray[np.bool_] | None = None
-    holes: NDArray[np.bool_] | None = None
+    holes: NDArray[np.bool_] | None = None  # and what is shown as if nothing were there.
+    # (...) the number of the unmodelled feature that draws itself over what is traced, or NOTHING;
     drawn: NDArray[np.int32] | None = None
-    beneath: NDArray[np.float32] | None = None
+    beneath: NDArray[np.float32] | None = None  # (..., 4) its colour without these; NaN: not known
 
     def to_dict(self) -> dict[str, Any]:
         """Return who made it and how, as JSON can hold it."""

@@ -47,27 +47,14 @@ def blocks(shape: tuple[int, ...]) -> list[slice]:
 
 @dataclass(eq=False)
 class OpenPixels:
-    """What a check takes: it gives some of the open pixels their cause.
-
-    Parameters
-    ----------
-    frame : Frame
-        What was traced.
-    picture : Picture
-        (h, w): the case's, as it is seen once a transform of its colours is found.
-    out : Causes
-        What has been found.
-    open : (h, w) bool
-    band : (h, w) float64
-        How far from its pixel's centre Blender's sample may lie, in pixels.
-    """
+    """What a check takes: it gives some of the open pixels their cause."""
 
     case: Case
-    frame: Frame
-    picture: Picture
-    out: Causes
-    open: NDArray[np.bool_]
-    band: NDArray[np.float64]
+    frame: Frame  # what was traced
+    picture: Picture  # (h, w): the case's, as it is seen once a transform of its colours is found
+    out: Causes  # what has been found
+    open: NDArray[np.bool_]  # (h, w)
+    band: NDArray[np.float64]  # (h, w) pixels: how far from its centre Blender's sample may lie
 
     def settle(
         self,
