@@ -210,8 +210,7 @@ def _cells(layout: Any, texts: list[str]) -> None:
 def _point(point: BreakingPoint) -> str:
     if point.never:
         return "never"
-    lost = "." if point.lost is None else written(point.lost)
-    return lost if point.doubled is None else f"{lost} +"
+    return written(point.lost) + " +" * (point.doubled is not None)
 
 
 CLASSES = (

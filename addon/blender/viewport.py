@@ -123,7 +123,9 @@ def picture(
                 if judge.needs_window:
                     _draw_viewport(scene, layer, like_for_like)
                 else:
-                    _render(scene, judge.engine)
+                    scene.render.engine = judge.engine
+                    with values_kept():
+                        bpy.ops.render.render(scene=scene.name, write_still=True)
             except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
                 raise SceneError(f"{judge.name} draws no picture of this size: {error}") from error
         found = list(Path(folder).glob("picture*.exr"))
@@ -139,12 +141,6 @@ def picture(
             f"region {r.width} x {r.height}."
         )
     return np.ascontiguousarray(pixels)
-
-
-def _render(scene: Any, engine: str) -> None:
-    scene.render.engine = engine
-    with values_kept():
-        bpy.ops.render.render(scene=scene.name, write_still=True)
 
 
 def _draw_viewport(scene: Any, layer: str, like_for_like: bool) -> None:

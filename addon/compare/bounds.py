@@ -73,7 +73,7 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
     eye = scene.camera.origin
     far = np.abs(positions - eye).sum(axis=1)
     error = _MODEL * (np.abs(eye).sum() + far) + _VIEW * (2 * np.abs(eye).sum() + far)
-    for mesh, rows in by_mesh(scene, hits):
+    for mesh, rows in by_mesh(scene, hits.instance):
         keys = np.stack((hits.instance[rows], hits.triangle[rows]))
         # Pixels outnumber triangles, mostly: each triangle's corners are looked at once.
         (instance, triangle), which = np.unique(keys, axis=1, return_inverse=True)
@@ -142,7 +142,7 @@ def difference(
     HALF_UNITS of a half float's last place are allowed, but at least LEAST_STEP; where a colour is
     `interpolated` (...), INTERPOLATED more. Where the second picture was stored in so many `levels`
     above 0 of sRGB's curve, as a PNG is, half a level and `dither` levels of noise are allowed in
-    place of that; of 16 bits, HALF_UNITS is more. A mean of `sums` samples, added up in half
+    place of that; of 16 bits, HALF_UNITS, too. A mean of `sums` samples, added up in half
     floats, loses half a unit with each.
     """
     first, second = first.astype(np.float64), second.astype(np.float64)

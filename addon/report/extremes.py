@@ -111,10 +111,9 @@ def breaking_table(rows: Sequence[ExtremesRow]) -> str:
 
 
 def _first_scale(point: BreakingPoint | None) -> str:
-    if point is None or point.never:
-        return "."
-    lost = "." if point.lost is None else written(point.lost)
-    return lost if point.doubled is None else f"{lost} +{written(point.doubled)}"
+    if point is None or point.doubled is None:
+        return written(point and point.lost)
+    return f"{written(point.lost)} +{written(point.doubled)}"
 
 
 def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:

@@ -101,9 +101,9 @@ def breaking_points(rows: Sequence[ExtremesRow]) -> list[BreakingPoint]:
 
 
 def written(scale: float | None) -> str:
-    """Return a scale in few letters: 1e+08 as 1e8, 179.999 as it is."""
+    """Return a scale in few letters: 1e+08 as 1e8, 179.999 as it is, none as a dot."""
     if scale is None:
-        return "-"
+        return "."
     if scale == 0 or 1e-2 <= abs(scale) < 1e4:
         return f"{scale:.10g}"
     mantissa, exponent = f"{scale:.1e}".split("e")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
-from .vector import Vectors, cross, dot, largest, transform_points
+from .vector import Index, Vectors, cross, dot, largest, transform_points
 
 
 def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
@@ -26,12 +26,12 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     first, last = scene.color_rows
     row = first[hits.instance]
     if (first != last).any():
-        for mesh, pixels in by_mesh(scene, hits):
+        for mesh, pixels in by_mesh(scene, hits.instance):
             slots = mesh.slots.take(hits.triangle[pixels])
             row[pixels] = np.minimum(row[pixels] + slots, last[hits.instance[pixels]])
     out = scene.color_table.take(row, axis=0)
     if any(mesh.corner_colors is not None for mesh in scene.meshes):
-        for mesh, pixels in by_mesh(scene, hits):
+        for mesh, pixels in by_mesh(scene, hits.instance):
             if mesh.corner_colors is not None:
                 corners = mesh.corner_colors[hits.triangle[pixels]]
                 out[pixels] = (corners * hits.s[:, pixels].T[..., None]).sum(axis=1)
@@ -56,7 +56,7 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     n = np.zeros((3, len(first)))
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         n[:, hits.instance == index] = infinite.normal[:, None]
-    for mesh, rows in by_mesh(scene, hits):
+    for mesh, rows in by_mesh(scene, hits.instance):
         which = hits.instance[rows]
         if (which == which[0]).all():
             which = which[:1]
@@ -98,10 +98,10 @@ def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
     return points.T
 
 
-def by_mesh(scene: Scene, hits: Hits) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
-    """Yield each mesh that is seen, with the rows of its hits."""
-    on_mesh = np.flatnonzero((hits.instance != NOTHING) & (hits.instance < len(scene.instances)))
-    meshes = scene.instance_meshes[hits.instance[on_mesh]]
+def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
+    """Yield each mesh that instances, planes and NOTHING (n,) show, with its rows of them."""
+    on_mesh = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
+    meshes = scene.instance_meshes[instance[on_mesh]]
     if len(meshes) and (meshes == meshes[0]).all():
         yield scene.meshes[meshes[0]], on_mesh
         return

@@ -239,7 +239,7 @@ def test_breaking_points():
 
 @pytest.mark.parametrize(
     ("scale", "words"),
-    [(None, "-"), (0.0, "0"), (1e8, "1e8"), (148376.0, "1.5e5"), (1e-12, "1e-12"), (128, "128")],
+    [(None, "."), (0.0, "0"), (1e8, "1e8"), (148376.0, "1.5e5"), (1e-12, "1e-12"), (128, "128")],
 )
 def test_scales_in_few_letters(scale, words):
     assert written(scale) == words

@@ -21,6 +21,7 @@ from ...tracer import plane
 from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
+from ...tracer.shading import by_mesh
 from ...tracer.world import world_corners
 
 _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
@@ -81,13 +82,9 @@ def surface_table(scene: Scene, surfaces: SeenSurfaces) -> dict[str, Any]:
     `world_from_object` of the instances that `instance` numbers, which come in this order.
     """
     instances, instance = np.unique(surfaces.instance, return_inverse=True)
-    on_mesh = surfaces.instance < len(scene.instances)
     corners = np.zeros((len(instance), 3), np.uint32)
     vertices, count = [], 0
-    mesh_of = np.append(scene.instance_meshes, -1).take(surfaces.instance, mode="clip")
-    for index in np.unique(mesh_of[on_mesh]):
-        rows = np.flatnonzero(mesh_of == index)
-        mesh = scene.meshes[index]
+    for mesh, rows in by_mesh(scene, surfaces.instance):
         used, corner = np.unique(mesh.triangles[surfaces.triangle[rows]], return_inverse=True)
         corners[rows] = corner.reshape(-1, 3) + count
         vertices.append(mesh.vertices[used])
