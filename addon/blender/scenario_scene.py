@@ -156,16 +156,15 @@ def _camera_changes(camera: Camera, scene: Any) -> list[str]:
     data, lines = scene.camera.data, []
     if moved := np.abs(np.array(scene.camera.location, np.float64) - camera.origin).max():
         lines.append(f"camera moved by up to {moved:.1e} m, at {np.abs(camera.origin).max():.1e} m")
-    window = window_of(scene)
-    for what, low, high in (("width", "left", "right"), ("height", "bottom", "top")):
-        should = getattr(camera.window, high) - getattr(camera.window, low)
-        is_now = getattr(window, high) - getattr(window, low)
+    w, now = camera.window, window_of(scene)
+    for what, should, is_now, unit in (
+        ("view window's width", w.right - w.left, now.right - now.left, ""),
+        ("view window's height", w.top - w.bottom, now.top - now.bottom, ""),
+        ("clip start", camera.clip_start, data.clip_start, " m"),
+        ("clip end", camera.clip_end, data.clip_end, " m"),
+    ):
         if abs(is_now - should) > _ROUNDING * should:
-            lines.append(f"view window's {what} {is_now:.2g} in place of {should:.2g}")
-    for name in ("clip_start", "clip_end"):
-        should, is_now = getattr(camera, name), getattr(data, name)
-        if abs(is_now - should) > _ROUNDING * should:
-            lines.append(f"{name.replace('_', ' ')} {is_now:.2g} m in place of {should:.2g} m")
+            lines.append(f"{what} {is_now:.2g}{unit} in place of {should:.2g}{unit}")
     return lines
 
 

@@ -166,14 +166,11 @@ def _verdict(kind: Arithmetic, verdict: Judgement) -> tuple[str, ...]:
 
 
 def _nearest(derivation: Derivation) -> list[Block]:
-    rows = []
-    for kind in Arithmetic:
-        k = derivation.nearest[kind]
-        if k is None:
-            rows.append((kind.value, "nothing", "–"))
-            continue
-        test = derivation.tests[k]
-        rows.append((kind.value, test.candidate.title, digits_text(test.number("t", kind))))
+    rows = [(kind.value, "nothing", "–") for kind in Arithmetic]
+    for at, (kind, k) in enumerate(derivation.nearest.items()):
+        if k is not None:
+            test = derivation.tests[k]
+            rows[at] = kind.value, test.candidate.title, digits_text(test.number("t", kind))
     methods = tuple(
         (
             a.method.value,

@@ -134,10 +134,8 @@ def _closed(scene: Scene, beside: list[Hits], asks: NDArray[np.bool_]) -> NDArra
     leave no gap between them, as a rasteriser rounds what they share alike; but where one is
     clipped, it gets corners of its own. Only some pixels are looked at, those that ask.
     """
-    instance, triangle = (
-        np.stack([h.instance for h in beside]),
-        np.stack([h.triangle for h in beside]),
-    )
+    instance = np.stack([h.instance for h in beside])
+    triangle = np.stack([h.triangle for h in beside])
     out, camera = np.full(len(asks), np.inf), scene.camera
     on_one = (instance == instance[0]).all(axis=0) & (instance[0] < len(scene.instances))
     asked = np.flatnonzero(asks & on_one & (instance[0] != NOTHING))

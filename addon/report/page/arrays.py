@@ -37,13 +37,8 @@ def packed(values: NDArray) -> dict[str, Any]:
     values = np.ascontiguousarray(values)
     values = values.astype(values.dtype.newbyteorder("<"), copy=False)
     planes = values.reshape(-1).view(np.uint8).reshape(-1, values.dtype.itemsize).T
-    return {
-        "type": values.dtype.name,
-        "shape": list(values.shape),
-        "data": base64.b64encode(zlib.compress(np.ascontiguousarray(planes), _LEVEL)).decode(
-            "ascii"
-        ),
-    }
+    data = base64.b64encode(zlib.compress(np.ascontiguousarray(planes), _LEVEL)).decode("ascii")
+    return {"type": values.dtype.name, "shape": list(values.shape), "data": data}
 
 
 def size(value: Any) -> int:
