@@ -14,31 +14,19 @@ from .tracer import triangle
 class Method(StrEnum):
     """How a ray meets a triangle, in the order of how far the answer can be trusted.
 
-    A member is its name in options and files, with the attributes below. `certified` proves every
+    A member is its name in options and files, with these attributes. `certified` proves every
     pixel (`tracer/certified`); `auto` does, too, where the machine's arithmetic allows a proof, and
     is `watertight` in float64 where it does not.
-
-    Attributes
-    ----------
-    label, description : str
-        In Blender's panel.
-    words, short, head : str
-        Its name in plots and sentences; in a table; over a column of a narrow panel.
-    number : int
-        What a .blend stores. One that was given away is never given to another.
-    color : str
-        In plots; told apart without telling red from green (after Okabe and Ito).
-    function : callable or None
-        One of `tracer/triangle.py`; None where pixels are proven.
     """
 
-    label: str
-    words: str
-    short: str
-    head: str
-    number: int
-    color: str
+    label: str  # this and the description: in Blender's panel
+    words: str  # its name in plots and sentences
+    short: str  # in a table
+    head: str  # over a column of a narrow panel
+    number: int  # what a .blend stores; one that was given away is never given to another
+    color: str  # in plots; told apart without telling red from green (after Okabe and Ito)
     description: str
+    # One of `tracer/triangle.py`; None where pixels are proven.
     function: Callable[..., triangle.Intersection] | None
 
     TEXTBOOK_LITERAL = (

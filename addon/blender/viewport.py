@@ -127,7 +127,7 @@ def picture(
                     with values_kept():
                         bpy.ops.render.render(scene=scene.name, write_still=True)
             except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
-                raise SceneError(f"{judge.name} draws no picture of this size: {error}") from error
+                raise SceneError(f"{judge.name} draws no picture: {error}") from error
         found = list(Path(folder).glob("picture*.exr"))
         if len(found) != 1:
             raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")

@@ -29,34 +29,18 @@ class Alternative:
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """All that a comparison is made of; the checks, the self-check and the faults take it whole.
-
-    Parameters
-    ----------
-    settings : Settings
-        How the scene is traced: in the objects' own colours, whatever they say.
-    picture : Picture
-        What it is compared with.
-    alternatives : tuple of Alternative
-        The scene as the other side may have it.
-    curves : tuple of Curve, optional
-        What may have been done to the colours, besides what is always tried; None where nothing
-        may have been.
-    self_check : bool
-        Whether known faults are to be made, and found.
-    next_frame : Scene, optional
-        The scene a frame later, for the self-check.
-    """
+    """All that a comparison is made of; the checks, the self-check and the faults take it whole."""
 
     scene: Scene
     manifest: Manifest
-    settings: Settings
-    picture: Picture
+    settings: Settings  # how the scene is traced: in the objects' own colours, whatever they say
+    picture: Picture  # what it is compared with
     certificate: CameraCertificate | None = None
-    alternatives: tuple[Alternative, ...] = ()
+    alternatives: tuple[Alternative, ...] = ()  # the scene as the other side may have it
+    # What may have been done to the colours besides what is always tried; None: nothing may have.
     curves: tuple[Curve, ...] | None = None
-    self_check: bool = False
-    next_frame: Scene | None = None
+    self_check: bool = False  # known faults are to be made, and found
+    next_frame: Scene | None = None  # the scene a frame later, for the self-check
 
     def __post_init__(self) -> None:
         if self.settings.color != Color.OBJECT:

@@ -18,40 +18,21 @@ Color = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Record:
-    """What there is to say of a cause.
+    """What there is to say of a cause."""
 
-    Parameters
-    ----------
-    number : int
-        Stored in `frame.npz`: it stays.
-    label : str
-    sentence : str
-        With the fields {figure} and {allowed}, as `str.format` has them; {name} is what a figure
-        that is an index counts.
-    unit : str
-        Of the figure.
-    color : tuple of float, optional
-        Linear RGB in the difference picture; colour-blind readers tell them apart, too. None: the
-        pixel agrees.
-    explains : bool
-        The pixel differs, and this is why.
-    warns : bool
-        The verdict is no better than 'warnings' where a pixel has it.
-    rounding : bool
-        Blender's own float32 arithmetic accounts for the pixel.
-    see_through : bool
-        Whole surfaces have it: they stay visible in the difference picture.
-    """
-
-    number: int
+    number: int  # stored in `frame.npz`: it stays
     label: str
+    # With the fields {figure} and {allowed}, as `str.format` has them; {name} is what a figure that
+    # is an index counts.
     sentence: str
-    unit: str = ""
+    unit: str = ""  # of the figure
+    # Linear RGB in the difference picture; colour-blind readers tell them apart, too. None: the
+    # pixel agrees.
     color: Color | None = None
-    explains: bool = False
-    warns: bool = False
-    rounding: bool = False
-    see_through: bool = False
+    explains: bool = False  # the pixel differs, and this is why
+    warns: bool = False  # the verdict is no better than 'warnings' where a pixel has it
+    rounding: bool = False  # Blender's own float32 arithmetic accounts for the pixel
+    see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
 
 
 class Cause(IntEnum):

@@ -27,18 +27,6 @@ class Precision(StrEnum):
 class Settings:
     """One choice of how to trace.
 
-    Parameters
-    ----------
-    method : Method or str
-    precision : Precision or str
-    samples : int
-        Colour is the mean of `samples` x `samples` rays spread evenly over the pixel; every
-        other output is that of the ray through the pixel's centre.
-    memory : int
-        Bytes that the working arrays may take, beside the scene and the picture.
-    color : Color or str
-        What a pixel shows of the surface that is seen. A comparison is about the object's own.
-
     Raises
     ------
     ValueError
@@ -48,8 +36,11 @@ class Settings:
 
     method: Method | str = Method.AUTO
     precision: Precision | str = Precision.FLOAT64
+    # The colour is the mean of `samples` x `samples` rays spread evenly over the pixel; every other
+    # output is that of the ray through the pixel's centre.
     samples: int = 1
-    memory: int = 512 << 20
+    memory: int = 512 << 20  # bytes that working arrays may take, beside the scene and the picture
+    # What a pixel shows of the surface that is seen. A comparison is about the object's own.
     color: Color | str = Color.OBJECT
 
     def __post_init__(self) -> None:

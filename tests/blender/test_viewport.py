@@ -13,6 +13,7 @@ from reference_tracer.blender.camera import export_camera
 from reference_tracer.blender.judges import JUDGES, judge_named
 from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.compare.comparison import SizeError
+from reference_tracer.scene import SceneError
 
 from .scenes import HALF_FLOAT
 
@@ -146,7 +147,7 @@ def test_the_viewport_needs_a_window_and_says_so(scene):
     """And leaves the preference as it was, which it sets for the drawing."""
     preferences = bpy.context.preferences
     preferences.system.viewport_aa, preferences.is_dirty = "16", False
-    with pytest.raises(RuntimeError):
+    with pytest.raises(SceneError, match=r"viewport draws no picture: .*background"):
         pictured(scene, "viewport")
     assert (preferences.system.viewport_aa, preferences.is_dirty) == ("16", False)
     assert len(bpy.data.scenes) == 1
