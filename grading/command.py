@@ -11,15 +11,12 @@ from pathlib import Path
 
 from reference_tracer.arguments import (
     AGREE,
-    CAMERA_OPTIONS,
     DIFFERENCES,
     INPUT_ERROR,
     WARNINGS,
-    add_camera,
-    choice_from,
     printable,
-    typed,
 )
+from reference_tracer.camera_options import CAMERA_OPTIONS, add_camera, choice_from, typed
 from reference_tracer.commands.parts import Commands, command, write_study
 from reference_tracer.opening import SOURCES, load
 from reference_tracer.report import folders

@@ -27,6 +27,7 @@ FLOORS = {
     "study": 2,
     "explain": 2,
     "report": 3,
+    "camera_options": 2,
     "arguments": 3,
     "running": 3,
     "blender": 4,

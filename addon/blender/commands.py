@@ -10,7 +10,8 @@ from typing import Any
 import bpy
 
 from .. import arguments, running
-from ..arguments import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser, choice_from, settings_from
+from ..arguments import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser, settings_from
+from ..camera_options import add_camera, choice_from
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES
 from ..explain.candidates import LIMIT, gather_pixel
@@ -65,18 +66,18 @@ def _parser() -> Parser:
     arguments.add_settings(sub)
     arguments.add_judge(sub, choices())
     arguments.add_page(sub)
-    arguments.add_camera(sub)
+    add_camera(sub)
     text = "show the maths of one pixel's ray: every step, in float32, float64 and exactly"
     sub = commands.add_parser("explain", help=text, epilog=DONE_HELP)
     sub.set_defaults(run=_explain)
     arguments.add_pixel(sub)
-    arguments.add_camera(sub)
+    add_camera(sub)
     sub = command(
         "trade",
         _trade,
         "measure what every method, precision, number of samples and size costs on the open scene",
     )
-    arguments.add_camera(sub, tradeoff.WIDTH, of_scenes=True)
+    add_camera(sub, tradeoff.WIDTH, of_scenes=True)
     sub.add_argument("--samples", type=int, metavar="N", help="up to N x N rays a pixel")
     sub = command("extremes", _extremes, "find where every method breaks; needs no file")
     sub.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from .. import images
-from ..arguments import add_camera, add_judge, add_page, add_settings, choice_from, settings_from
+from ..arguments import add_judge, add_page, add_settings, settings_from
+from ..camera_options import add_camera, choice_from
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
@@ -45,25 +46,15 @@ def add(commands: Commands) -> None:
     add_judge(parser, choices())
     add_page(parser)
     group = parser.add_argument_group("another picture, in place of Blender's")
-    group.add_argument(
-        "--against",
-        type=Path,
-        metavar="PICTURE",
-        help="a .png (sRGB) or .exr (linear) of the same camera and size; a background of "
-        "its own, of one colour or transparent, is named and not held against it",
+    against = (
+        "a .png (sRGB) or .exr (linear) of the same camera and size; a background of its own, of "
+        "one colour or transparent, is named and not held against it"
     )
-    group.add_argument(
-        "--filter",
-        type=float,
-        metavar="PIXELS",
-        help="how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)",
-    )
-    group.add_argument(
-        "--dither",
-        type=float,
-        metavar="LEVELS",
-        help="noise in a .png, in levels of 255 (default what the .blend says, else 0)",
-    )
+    reach = "how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)"
+    noise = "noise in a .png, in levels of 255 (default what the .blend says, else 0)"
+    group.add_argument("--against", type=Path, metavar="PICTURE", help=against)
+    group.add_argument("--filter", type=float, metavar="PIXELS", help=reach)
+    group.add_argument("--dither", type=float, metavar="LEVELS", help=noise)
     add_camera(parser)
 
 

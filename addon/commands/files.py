@@ -10,7 +10,8 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
 from .. import images
-from ..arguments import add_camera, add_pixel, add_settings, choice_from, printable, settings_from
+from ..arguments import add_pixel, add_settings, printable, settings_from
+from ..camera_options import add_camera, choice_from
 from ..explain import reproducer
 from ..explain.candidates import LIMIT, gather_pixel
 from ..opening import SOURCES, load

@@ -6,7 +6,8 @@ import argparse
 from contextlib import nullcontext
 from pathlib import Path
 
-from ..arguments import add_camera, choice_from, settings_from
+from ..arguments import settings_from
+from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
 from ..report import folders
 from ..running import progress_bar
