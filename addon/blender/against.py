@@ -30,7 +30,7 @@ from .drawings import Drawing, drawn_by_others
 from .engine import export_for_render
 from .export import export
 from .judges import JUDGES
-from .temporary import temporary_scene, values_kept
+from .temporary import go_to, temporary_scene, values_kept
 from .viewport import read, set_format
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
@@ -85,11 +85,11 @@ def _frames(context: Any) -> list[Alternative]:
     now = context.scene.frame_current
     with values_kept(), temporary_scene(context.scene, context.view_layer.name) as tmp:
         for frame in (now - 1, now + 1):
-            tmp.frame_set(frame)
+            go_to(tmp, frame)
             scene, _, _ = export_for_render(tmp)
             reason = f"the picture is of frame {frame}, the scene is at {now}"
             out.append(Alternative("what is animated", reason, scene))
-        tmp.frame_set(now)
+        go_to(tmp, now)
     return out
 
 

@@ -32,7 +32,7 @@ from .engine import export_for_judge, export_for_render
 from .judges import JUDGES, Judge, judge_named
 from .planes import stand_ins
 from .rasteriser import snapping_of
-from .temporary import temporary_scene, values_kept
+from .temporary import go_to, temporary_scene, values_kept
 from .unmodelled import by_handlers, of_shading
 from .viewport import anti_aliasing, picture, prepare_scene, solid_shading, use_view_shading
 
@@ -119,9 +119,9 @@ def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     """Return the scene of the next frame, and go back to this one."""
     now = tmp.frame_current
     with values_kept():
-        tmp.frame_set(now + 1)
+        go_to(tmp, now + 1)
         later, _, _ = export_for_judge(tmp, layer, judge)
-        tmp.frame_set(now)
+        go_to(tmp, now)
     return later
 
 

@@ -75,17 +75,26 @@ def _isolate(scene: Any, layer: str) -> None:
     render.use_stamp = render.use_freestyle = render.use_motion_blur = False
     # With `use_sequencer` off, handlers that add or remove data crash Blender (5.2).
     scene.sequence_editor_clear()
-    # Bodies would be simulated in this scene, the user's own, and freed when it goes: Blender then
-    # crashes. So it is, measured, with baked ones in the second frame of their cache.
-    if bodies := scene.rigidbody_world:
-        cache = bodies.point_cache
-        if not cache.is_baked or scene.frame_current == cache.frame_start + 1:
-            bodies.enabled = False
+    _spare_bodies(scene, scene.frame_current)
     # Rendering another layer than the first by its name crashes Blender (5.2).
     for other in [v for v in scene.view_layers if v.name != layer]:
         scene.view_layers.remove(other)
     scene.view_layers[layer].use = True
     _leave_out_drawings(scene.view_layers[layer].layer_collection)
+
+
+def go_to(scene: Any, frame: int) -> None:
+    """Step a temporary scene to a frame."""
+    _spare_bodies(scene, frame)
+    scene.frame_set(frame)
+
+
+def _spare_bodies(scene: Any, frame: int) -> None:
+    # Bodies would be simulated in this scene, the user's own, and freed when it goes: Blender then
+    # crashes. So it is, measured, with baked ones in the second frame of their cache.
+    if bodies := scene.rigidbody_world:
+        cache = bodies.point_cache
+        bodies.enabled &= cache.is_baked and frame != cache.frame_start + 1
 
 
 def _leave_out_drawings(parent: Any) -> None:
