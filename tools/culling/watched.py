@@ -111,7 +111,7 @@ def watch(scene: Scene) -> Watched:
     """Sweep a small scene, which is one chunk, closely."""
     region = scene.camera.region
     swept = Watched(scene, Film(scene.camera), region, Statistics(), closely=True)
-    for _ in quiet(swept.steps(sweep._TRIANGLES)):
+    for _ in quiet(swept.steps(Settings().memory)):
         pass
     return swept
 
@@ -122,7 +122,7 @@ def count(scene: Scene) -> tuple[Statistics, NDArray[np.float64]]:
     statistics.triangles = scene.triangle_count
     for band in render.bands(scene.camera, settings):
         swept = Watched(scene, Film(scene.camera), band, statistics)
-        hits = result_of(quiet(swept.steps(sweep.triangles_in(settings.memory // 2))))
+        hits = result_of(quiet(swept.steps(settings.memory // 2)))
         statistics.culling["by_integers"] += int((hits.certainty != Certainty.BOUND).sum())
         bounds += swept.bounds
     return statistics, np.concatenate(bounds)
