@@ -21,16 +21,7 @@ import numpy as np
 from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, UP, framing, shown_points
 from .manifest import Manifest
-from .scene import (
-    Camera,
-    Instance,
-    Mesh,
-    Plane,
-    Scene,
-    SceneError,
-    check_size,
-    drop_non_finite,
-)
+from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
 from .tracer.memory import free_memory
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")

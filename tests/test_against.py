@@ -40,7 +40,8 @@ def against(scene, tmp_path, capsys):
         out = tmp_path / "out"
         arguments = ["compare", tmp_path / source, "--against", path, "--out", out, *options]
         code = cli.main([str(a) for a in arguments])
-        found = json.loads((out / "comparison.json").read_text(encoding="utf-8"))
+        held = out / "comparison.json"
+        found = json.loads(held.read_text(encoding="utf-8")) if held.exists() else None
         printed = capsys.readouterr()
         return code, found, printed.out + printed.err
 
@@ -194,8 +195,9 @@ def test_what_is_no_picture_is_said(against, tmp_path, name, content, message):
     ],
 )
 def test_options_that_do_not_fit(scene, against, options, message):
-    code, _, text = against(render(scene).color, options=options)
+    code, found, text = against(render(scene).color, options=options)
     assert code == 4 and message in text
+    assert found is None or options[0] == "--eye"  # which only the file tells
 
 
 def test_a_filter_needs_a_picture(tmp_path, capsys):

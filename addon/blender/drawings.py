@@ -23,15 +23,7 @@ from ..manifest import Effect, Manifest, Unmodelled
 from ..scene import Scene, SceneError
 from .judges import Judge
 from .planes import stand_ins
-from .temporary import (
-    STANDS_FOR,
-    drawn,
-    in_colors,
-    is_animated,
-    leave_out,
-    temporary_scene,
-    untold,
-)
+from .temporary import STANDS_FOR, drawn, in_colors, is_animated, leave_out, temporary_scene, untold
 from .unmodelled import HAIR, is_hair
 from .viewport import picture, prepare_scene, use_view_shading
 

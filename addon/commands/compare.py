@@ -68,6 +68,10 @@ def _failure_written(options: argparse.Namespace) -> Iterator[None]:
     """Make the folder, and say there why there is no comparison: but for an animation's."""
     if options.out.startswith("//"):  # here it is the shell's: Blender's is beside the file
         options.out = os.path.realpath(options.out)
+    out = Path(options.out).resolve()
+    for file in (options.scene, options.against):
+        if file and file.resolve() in [out / name for name in comparison_report.NAMES]:
+            raise SceneError(f"'{file}' is called as a result: choose another --out, or rename it")
     written = comparison_report.failure_written(options.out)
     with folders.made(Path(options.out)), written if options.frames is None else nullcontext():
         yield

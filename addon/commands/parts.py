@@ -26,14 +26,14 @@ def command(
 ) -> Parser:
     """Add a command, which checks its options first, and return its parser.
 
-    `run` does the work, and returns the exit code; `around` gives what lasts as long as the
-    command, its check included. The text and the example are for its help. `source` says what its
-    SCENE may be; without it, the command takes none.
+    `run` does the work, and returns the exit code; `around` gives what lasts as long as that does.
+    The text and the example are for its help. `source` says what its SCENE may be; without it, the
+    command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
+        check_options(options)
         with around(options):
-            check_options(options)
             return run(options)
 
     codes = EXIT_CODES_HELP if name == "compare" else DONE_HELP

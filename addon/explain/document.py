@@ -119,10 +119,7 @@ def _candidates(derivation: Derivation) -> list[Block]:
         lines.append(f"Infinite planes may be met by any ray: {planes:,}, all below.")
     if pixel.refused:
         lines.append(f"{pixel.refused:,} triangles have a corner that is not finite: left out.")
-    out: list[Block] = [
-        Heading(2, "2. What the ray may meet", "2"),
-        Paragraph(" ".join(lines)),
-    ]
+    out: list[Block] = [Heading(2, "2. What the ray may meet", "2"), Paragraph(" ".join(lines))]
     if not tests:
         return out
     rows = tuple(_summary(k, test) for k, test in enumerate(tests, 1))

@@ -70,7 +70,8 @@ def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
 def failure_written(directory: str | Path) -> Iterator[None]:
     """Write a `comparison.json` that says why there is no comparison, if what is done here fails.
 
-    The results of an earlier run are removed: they would pass for this run's.
+    The results of an earlier run are removed: they would pass for this run's. What has no
+    `comparison.json` beside it is none, and stays.
     """
     try:
         yield
@@ -78,6 +79,7 @@ def failure_written(directory: str | Path) -> Iterator[None]:
         said = {"type": type(error).__name__, "message": str(error)}
         content = {"schema": SCHEMA, "verdict": "failed", "error": said}
         # Where the folder cannot be written, that may be what the error is.
-        with suppress(OSError), replacing(Path(directory), NAMES) as new:
+        names = NAMES if Path(directory, JSON).exists() else (JSON,)
+        with suppress(OSError), replacing(Path(directory), names) as new:
             write_json(new / JSON, content)
         raise

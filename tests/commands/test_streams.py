@@ -55,6 +55,19 @@ def verdict(out: Path) -> str:
 
 
 @posix
+def test_wrong_options_change_nothing(compared, tmp_path):
+    """Results of an earlier run stay, and what is compared is not replaced by its result."""
+    out = tmp_path / "out"
+    assert main([*map(str, compared), "--out", str(out)]) == AGREE
+    before = {p.name: p.read_bytes() for p in out.iterdir()}
+    shown, scene = out / "traced.png", str(compared[1])
+    for options in (["--judge", "cycles"], ["--frame-all", "--eye", "1", "2", "3"]):
+        assert main([*map(str, compared), *options, "--out", str(out)]) == INPUT_ERROR
+    own = ["compare", scene, "--against", str(shown), "--out", str(out)]
+    assert main(own) == INPUT_ERROR
+    assert {p.name: p.read_bytes() for p in out.iterdir()} == before
+
+
 def test_what_nobody_reads_is_no_error(compared, tmp_path):
     pipe = closed_pipe()
     command = [*COMMAND, *compared, "--out", tmp_path / "out"]

@@ -148,6 +148,16 @@ def test_a_failure_leaves_no_older_pictures(folder):
     assert sorted(p.name for p in folder.iterdir()) == ["comparison.json"]
 
 
+def test_a_failure_leaves_what_is_no_result(tmp_path):
+    for name in NAMES[:-1]:
+        (tmp_path / name).write_text("the user's own")
+    (tmp_path / "comparison.json").unlink(missing_ok=True)
+    before = {p.name for p in tmp_path.iterdir()}
+    with pytest.raises(SceneError), failure_written(tmp_path):
+        raise SceneError("no camera")
+    assert {p.name for p in tmp_path.iterdir()} == before | {"comparison.json"}
+
+
 def test_a_folder_that_cannot_be_written(comparison, tmp_path):
     (tmp_path / "file").touch()
     with pytest.raises(OSError, match="file"):
