@@ -94,7 +94,8 @@ def _spare_bodies(scene: Any, frame: int) -> None:
     # crashes. So it is, measured, with baked ones in the second frame of their cache.
     if bodies := scene.rigidbody_world:
         cache = bodies.point_cache
-        bodies.enabled &= cache.is_baked and frame != cache.frame_start + 1
+        if not cache.is_baked or frame == cache.frame_start + 1:
+            bodies.enabled = False  # set only then: Blender takes any setting for a change
 
 
 def _leave_out_drawings(parent: Any) -> None:
