@@ -70,7 +70,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
             print(f"Reference Tracer: {line}")
         settings = depsgraph.scene.reference_tracer.settings()
         frame = Frame.empty(scene)
-        layer, rows, shown = depsgraph.view_layer.name, len(frame.t), 0
+        layer, rows, shown = depsgraph.view_layer.name, frame.shape[0], 0
         for share in steps(scene, settings, frame):
             if share < 1 and self.test_break():
                 frame.cancelled = True
@@ -99,7 +99,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def _show(self, frame: Frame, layer: str, passes: Sequence[Pass], rows: slice) -> None:
         """Give Blender some rows of some passes; it puts them where they belong."""
-        width, height = frame.t.shape[1], rows.stop - rows.start
+        width, height = frame.shape[1], rows.stop - rows.start
         result = self.begin_result(0, rows.start, width, height, layer=layer)
         have = result.layers[0].passes
         for p in passes:

@@ -58,7 +58,7 @@ def trace(options: argparse.Namespace) -> int:
                 images.save_exr(new, frame.passes())
     s = frame.statistics
     print(
-        f"{frame.t.shape[1]} x {frame.t.shape[0]} pixels, {s.triangles:,} triangles, "
+        f"{frame.shape[1]} x {frame.shape[0]} pixels, {s.triangles:,} triangles, "
         f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision.value}): {options.out}"
     )

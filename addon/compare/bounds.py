@@ -167,7 +167,7 @@ def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDArr
     It is the largest of the surfaces seen in the 3 x 3 pixels around, and of those farther off that
     float32 may move as far as this. Some rows are looked at together.
     """
-    own = np.zeros(frame.t.shape)  # of the surface that the pixel itself shows
+    own = np.zeros(frame.shape)  # of the surface that the pixel itself shows
     for number, rows in enumerate(all_rows):
         hits = frame.hits(rows)
         seen = np.flatnonzero(hits.instance != NOTHING)

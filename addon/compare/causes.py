@@ -85,7 +85,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     No more than `at_most` differing pixels are looked at, if given, spread over the picture; the
     others keep AGREE, and are counted in `Causes.passed_over`.
     """
-    out, shape = Causes.none(frame.t.shape), frame.t.shape
+    out, shape = Causes.none(frame.shape), frame.shape
     out.blind = unmodelled.blind(case, frame)
     picture = unmodelled.as_known(case)
     pixels = OpenPixels(case, frame, picture, out, np.zeros(shape, bool), np.zeros(shape))

@@ -1,6 +1,7 @@
 """What the tracer gives back: one array for each output, row 0 at the bottom.
 
-Stored is what tracing finds. What follows from it is computed when it is asked for.
+Stored is what tracing finds. What follows from it is computed when it is asked for; of a certified
+picture, t and the barycentrics are, too.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
 from .certified.certainty import Certainty
-from .hits import NOTHING, Hits, Statistics, Ties
+from .hits import NOTHING, Hits, LazyHits, Statistics, Ties
+from .measures import Measures
 from .memory import TRACED, check_memory
 
 _PIXELS = 1 << 15  # of which something is computed together
@@ -70,12 +72,11 @@ class Frame:
 
     scene: Scene  # that is traced
     color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
-    t: NDArray[np.float64]  # (h, w) ray parameter = depth along the view axis, metres; inf: no hit
-    barycentrics: NDArray[np.float64]  # (h, w, 3) weights of the triangle's corners
     instance_index: NDArray[np.int32]  # (h, w) instances, then planes; NOTHING: no hit
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
     certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
     rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
+    measures: Measures  # t and the barycentrics
     ties: Ties = field(default_factory=Ties.none)  # by the pixel's index, row by row
     cancelled: bool = False
     statistics: Statistics = field(default_factory=Statistics)
@@ -91,15 +92,30 @@ class Frame:
         """
         h, w = scene.camera.region.height, scene.camera.region.width
         check_memory(w, h, TRACED)
+        names = [np.full((h, w), NOTHING, np.int32) for _ in range(2)]
         return cls(
             scene,
             np.zeros((h, w, 4), np.float32),
-            np.full((h, w), np.inf),
-            _vectors(h, w),
-            *(np.full((h, w), NOTHING, np.int32) for _ in range(2)),
+            *names,
             np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
             np.zeros(h, bool),
+            Measures(scene, *names),
         )
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Height and width in pixels."""
+        return self.certainty.shape
+
+    @property
+    def t(self) -> NDArray[np.float64]:
+        """Ray parameter = depth along the view axis, (h, w) metres; inf: no hit."""
+        return self.measures.of(slice(None))[0]
+
+    @property
+    def barycentrics(self) -> NDArray[np.float64]:
+        """Weights of the triangle's corners, (h, w, 3)."""
+        return np.moveaxis(self.measures.of(slice(None))[1], 0, -1)
 
     @property
     def position(self) -> NDArray[np.float64]:
@@ -116,23 +132,31 @@ class Frame:
         """Index into `Scene.objects`, (h, w); NOTHING: no hit."""
         return self.scene.instance_objects[self.instance_index]
 
-    def hits(self, rows: slice = slice(None)) -> Hits:
-        """Return what the centre rays of some rows met, row by row; its arrays are views."""
-        t, instance, triangle, certainty = (
-            v[rows].reshape(-1)
-            for v in (self.t, self.instance_index, self.triangle_index, self.certainty)
-        )
-        return Hits(t, instance, triangle, self.barycentrics[rows].reshape(-1, 3).T, certainty)
+    def hits(self, rows: slice = slice(None)) -> LazyHits:
+        """Return what the centre rays of some rows met, row by row."""
+        names = self.instance_index, self.triangle_index, self.certainty
+
+        def measure(ray: NDArray) -> tuple[NDArray, NDArray]:
+            t, s = self.measures.of(rows)
+            return t.reshape(-1)[ray], s.reshape(3, -1)[:, ray]
+
+        return LazyHits(*(v[rows].reshape(-1) for v in names), measure)
+
+    def enter(self, rows: slice, hits: Hits) -> None:
+        """Enter what the centre rays of some rows met, row by row."""
+        self.hits(rows).enter(slice(None), hits)
+        self.measures.enter(rows, hits)
+        self.ties = Ties.joined((self.ties, hits.ties.numbered(rows.start * self.shape[1])))
 
     def positions(self, rows: slice) -> NDArray[np.float64]:
         """Return where the rays of some rows end, (n, 3), as `position` has it."""
-        r, (y0, y1, _) = self.scene.camera.region, rows.indices(len(self.t))
+        r, (y0, y1, _) = self.scene.camera.region, rows.indices(self.shape[0])
         film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
         return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
 
     def _by_rows(self, of: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
         """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
-        height, width = self.t.shape
+        height, width = self.shape
         out = _vectors(height, width)
         together = max(1, _PIXELS // width)
         for y in range(0, height, together):

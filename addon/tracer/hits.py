@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .certified.certainty import Certainty
 from .certified.reasons import Reason, sentences
-from .vector import groups, spread
+from .vector import Arrays, Index, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
+Measure = tuple[NDArray[np.float64], NDArray[np.float64]]  # t (n,) and barycentrics (3, n)
 Name = tuple[int, int]  # instance and triangle
 NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 _TOGETHER = 1 << 17  # rows of ties looked at together
 _ARRAYS = ("t", "instance", "triangle", "s", "certainty")  # of `Hits`
+_NAMES = ("instance", "triangle", "certainty")  # what of them is not asked for later
 
 
 @dataclass
@@ -160,23 +163,15 @@ class Hits:
         if self.certainty is None:
             self.certainty = np.full(len(self.t), Certainty.NOT_CERTIFIED, np.uint8)
 
+    def __len__(self) -> int:
+        return len(self.instance)
+
     @classmethod
     def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:
         """Return hits of `count` rays that have met nothing yet."""
-        hits = cls.room(count)
-        hits.clear(slice(None), certainty)
-        return hits
-
-    @classmethod
-    def room(cls, count: int) -> Hits:
-        """Return room for the hits of so many rays."""
-        names = np.empty((2, count), np.int32)
-        return cls(np.empty(count), *names, np.empty((3, count)), np.empty(count, np.uint8))
-
-    def clear(self, part: slice, certainty: Certainty) -> None:
-        """Say of a part of the rays that they have met nothing yet."""
-        for name, value in zip(_ARRAYS, (np.inf, NOTHING, NOTHING, 0.0, certainty), strict=True):
-            getattr(self, name)[..., part] = value
+        names = np.full((2, count), NOTHING, np.int32)
+        known = np.full(count, certainty, np.uint8)
+        return cls(np.full(count, np.inf), *names, np.zeros((3, count)), known)
 
     @classmethod
     def joined(cls, parts: Sequence[Hits]) -> Hits:
@@ -184,7 +179,7 @@ class Hits:
         if len(parts) == 1:
             return parts[0]
         out = cls(*(np.concatenate([getattr(p, n) for p in parts], axis=-1) for n in _ARRAYS))
-        starts = np.cumsum([0, *(len(part.t) for part in parts)]).tolist()
+        starts = np.cumsum([0, *map(len, parts)]).tolist()
         out.ties = Ties.joined([p.ties.numbered(s) for p, s in zip(parts, starts, strict=False)])
         return out
 
@@ -196,3 +191,60 @@ class Hits:
     def take(self, index: NDArray | slice) -> Hits:
         """Return the hits of the rays at `index`, without their ties."""
         return Hits(*(getattr(self, name)[..., index] for name in _ARRAYS))
+
+
+@dataclass(frozen=True, eq=False)
+class Measured(Arrays):
+    """t (k,) and barycentrics (3, k) of k rays that were found with the names; `ray` ascends."""
+
+    ray: NDArray[np.int64]
+    t: NDArray[np.float64]
+    s: NDArray[np.float64]
+
+    @classmethod
+    def none(cls) -> Measured:
+        """Return those of no rays."""
+        return cls(np.zeros(0, np.int64), np.zeros(0), np.zeros((3, 0)))
+
+    def numbered(self, first: int) -> Measured:
+        """Return them with ray i called i + first."""
+        return replace(self, ray=self.ray + first)
+
+
+class LazyHits(Hits):
+    """What n rays meet, of which t and the barycentrics are found when they are asked for.
+
+    `measure` gives both of the rays with these numbers (k,), which are called `ray` (n,) here: by
+    default 0 to n - 1. `known` is what `measure` knows already.
+    """
+
+    def __init__(
+        self,
+        instance: NDArray[np.int32],
+        triangle: NDArray[np.int32],
+        certainty: NDArray[np.uint8],
+        measure: Callable[[Index], Measure] | None = None,
+        ray: Index | None = None,
+    ) -> None:
+        self.instance, self.triangle, self.certainty = instance, triangle, certainty
+        self.ties, self.known = Ties.none(), Measured.none()
+        self.measure, self._ray = measure, ray
+
+    @cached_property
+    def _measured(self) -> Measure:
+        return self.measure(np.arange(len(self)) if self._ray is None else self._ray)
+
+    t = property(lambda self: self._measured[0])
+    s = property(lambda self: self._measured[1])
+
+    def enter(self, index: NDArray | slice, other: Hits) -> None:
+        """Write the names of others in their place, and how they were decided."""
+        for name in _NAMES:
+            getattr(self, name)[index] = getattr(other, name)
+
+    def take(self, index: NDArray | slice) -> LazyHits:
+        """Return the hits of the rays at `index`, as lazy, without their ties."""
+        if isinstance(index, slice):
+            index = np.arange(*index.indices(len(self)))
+        ray = index if self._ray is None else self._ray[index]
+        return LazyHits(*(getattr(self, name)[index] for name in _NAMES), self.measure, ray)

@@ -46,7 +46,7 @@ def trace_tile(
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
-    statistics.pairs_tested += len(scene.planes) * len(hits.t)
+    statistics.pairs_tested += len(scene.planes) * len(hits)
     test_planes(scene, rays, hits)
     for share, some in candidates(plan, tile):
         if some is not None:

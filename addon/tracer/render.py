@@ -21,7 +21,7 @@ from .camera import Rays, camera_rays, film_positions
 from .certified.certainty import AssumptionError, check_assumptions
 from .coloring import Color
 from .frame import Frame
-from .hits import Hits, Statistics, Ties
+from .hits import Hits, Statistics
 from .nearest import plan, trace_tile
 from .progress import Steps, Work, result_of, scaled, timed
 from .settings import Precision, Settings
@@ -177,18 +177,18 @@ def _band(
         hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
 
     def shaded(hits: Hits, part: slice, dx: float = 0.0, dy: float = 0.0) -> NDArray[np.float32]:
-        pixel = np.arange(part.start, part.start + len(hits.t))
+        pixel = np.arange(part.start, part.start + len(hits))
         return shade(lambda: camera_rays(camera, *film_positions(band, dx, dy, pixel)), hits)
 
     color = None
     for number, (dx, dy) in enumerate(offsets, start=1):
         other = yield from scaled(tracer(band, dx, dy), number * share, share)
         if color is None:
-            color = np.zeros((len(hits.t), 4))
-        for part in parts(len(hits.t), PIXELS // 8):
+            color = np.zeros((len(hits), 4))
+        for part in parts(len(hits), PIXELS // 8):
             color[part] += shaded(other.take(part), part, dx, dy) / len(offsets)
             yield (number + 1) * share
-    written = _write(frame, rows, hits, color, shade and shaded)
+    written = _write(frame, rows, hits, color, shade and shaded, is_traced)
     yield from timed(written, frame.statistics.stages, 1.0)
 
 
@@ -220,16 +220,23 @@ def _rows(r: Region, rows: int) -> list[Region]:
 
 
 def _write(
-    frame: Frame, rows: slice, hits: Hits, color: NDArray | None, shaded: Callable | None
+    frame: Frame,
+    rows: slice,
+    hits: Hits,
+    color: NDArray | None,
+    shaded: Callable | None,
+    is_entered: bool,
 ) -> Steps[None]:
-    """Enter a band's colour, and what the rays through its pixels' centres met, in small steps."""
-    flat = frame.hits(rows)
+    """Enter a band's colour, and what the rays through its pixels' centres met, in small steps.
+
+    Without a colour, their t is found already: the colours of the whole picture are by it.
+    """
     colors = frame.color[rows].reshape(-1, 4)
-    for part in parts(len(hits.t), PIXELS // 8):
-        some = hits.take(part)
-        if shaded:
-            colors[part] = shaded(some, part) if color is None else color[part]
-        flat.enter(part, some)
+    for part in parts(len(hits), PIXELS // 8) if shaded else ():
+        colors[part] = shaded(hits.take(part), part) if color is None else color[part]
         yield "shade"
-    frame.ties = Ties.joined((frame.ties, hits.ties.numbered(rows.start * frame.t.shape[1])))
+    if not is_entered:
+        frame.enter(rows, hits)
     frame.rows_done[rows] = shaded is not None
+    for _ in () if shaded else frame.measures.steps(rows):
+        yield "rounding"

@@ -76,7 +76,7 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
 
 def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the first of each run of rays that see the same triangle, and each ray's run."""
-    changes = np.ones(len(hits.t), bool)
+    changes = np.ones(len(hits), bool)
     changes[1:] = hits.triangle[1:] != hits.triangle[:-1]
     changes[1:] |= hits.instance[1:] != hits.instance[:-1]
     return np.flatnonzero(changes), np.cumsum(changes) - 1

@@ -117,7 +117,7 @@ def _judged(pixels: OpenPixels) -> NDArray[np.bool_]:
 
 def _differing(frame: Frame, picture: Picture) -> Work[NDArray[np.bool_]]:
     """Return where the colours differ, (h, w)."""
-    out = np.zeros(frame.t.shape, bool)
+    out = np.zeros(frame.shape, bool)
     for rows in blocks(out.shape):
         out[rows] = picture.at(rows).other_color(frame.color[rows])
         yield 0.0

@@ -72,7 +72,7 @@ def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, NDArray[np.bool_]]]:
     scene, picture = pixels.case.scene, pixels.picture
     traced = Frame.empty(scene)
     yield from steps(scene, Settings(), traced)
-    same = np.zeros(traced.t.shape, bool)
+    same = np.zeros(traced.shape, bool)
     for rows in blocks(same.shape):
         part, seen = picture.at(rows), traced.instance_index[rows]
         same[rows] = part.alike(scene, seen, traced.color[rows]) & ~part.other_object(seen)

@@ -166,7 +166,7 @@ class Part:
 
     def resolution(self, hits: Hits) -> NDArray[np.float64]:
         """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
-        seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits.t))
+        seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
         found = hits.take(seen)
         view = view_error(self.scene, found, self.probe.points(hits)[seen])
         out[seen] = depth_resolution(self.scene.camera, found.t, view)

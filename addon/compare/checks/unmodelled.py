@@ -50,7 +50,7 @@ def known_beneath(picture: Picture) -> NDArray[np.bool_]:
 def blind(case: Case, frame: Frame) -> NDArray[np.int32]:
     """Return which feature keeps each pixel from being judged, (h, w): its index, else NOTHING."""
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
-    out = np.full(frame.t.shape, NOTHING, np.int32)
+    out = np.full(frame.shape, NOTHING, np.int32)
     filtered = int(np.ceil(picture.filter_radius))
     if picture.beneath is not None:
         out[:] = picture.drawn

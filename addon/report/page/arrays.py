@@ -117,7 +117,7 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.
     formula[~np.isfinite(formula)] = 0.0
     with np.errstate(over="ignore"):
         offsets = t.view(np.int64) - formula.view(np.int64)
-    offsets = np.where(np.isfinite(t), offsets, 0).reshape(frame.t.shape)
+    offsets = np.where(np.isfinite(t), offsets, 0).reshape(frame.shape)
     return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
 
 

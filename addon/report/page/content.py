@@ -49,7 +49,7 @@ def content(
     return {
         "schema": SCHEMA,
         "comparison": comparison.to_dict(),
-        "size": [frame.t.shape[1], frame.t.shape[0]],
+        "size": [frame.shape[1], frame.shape[0]],
         "camera": scene.camera.to_dict(),
         "objects": list(scene.objects),
         "object_of": scene.instance_objects[:-1].tolist(),

@@ -69,7 +69,7 @@ class Decisions:
 
         All candidates of a ray come together. Returns those of the other rays.
         """
-        doubtful = np.zeros(len(self.hits.t), bool)
+        doubtful = np.zeros(len(self.hits), bool)
         doubtful[found.ray[found.doubt != SURE]] = True
         doubtful = doubtful[found.ray]
         if not order.applies(self.around, self.clip[0]) or doubtful.all():

@@ -47,7 +47,9 @@ class Names:
 
     def of(self, triangle: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return instance and triangle, as the scene counts them, of triangles of the chunk."""
-        which = np.searchsorted(self.starts, triangle, side="right") - 1
+        which = np.zeros(len(triangle), np.intp)
+        if len(self.instances) > 1:
+            which = np.searchsorted(self.starts, triangle, side="right") - 1
         own = triangle - self.starts[which] + self.first
         return self.instances[which], own.astype(np.int32)
 

@@ -1,11 +1,12 @@
 """What every pixel of a region sees, of all its fragments.
 
 In come the fragments that a sweep has found; out go `Hits`. A pixel with one fragment, which surely
-is hit, is decided: t and the barycentrics are all that is open. The rays of all others, and
-all that they may see, go to a `Contest`.
+is hit, is decided. The rays of all others, and all that they may see, go to a `Contest`.
 """
 
 from __future__ import annotations
+
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,21 +14,20 @@ from numpy.typing import NDArray
 from ....scene import Scene
 from ...camera import Rays, camera_rays, corner_rays, film_positions
 from ...candidates import Pairs
-from ...hits import NOTHING, Hits, Statistics, Ties
+from ...hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
 from ...progress import Steps, mapped
 from ...vector import Index, gather, grouped, groups, parts
 from ...world import WorldTriangles, world_corners
 from ..certainty import Certainty
 from ..contest import Contest
-from ..surfaces import TOGETHER, Prepared, Surfaces
-from .chunks import Names, Numbering
+from ..rounding import PIXELS, rounded
+from .chunks import Numbering
 from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
 
 _PAIRS = 1 << 15  # that a contest tests at a time
 _FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
 _RAYS, _CANDIDATES = 1 << 14, 1 << 15  # of a contest, at most
-_PIXELS = 1 << 17  # whose surfaces are prepared together: what that takes is some MiB
 
 
 class Verdict:
@@ -50,10 +50,9 @@ class Verdict:
         """Decide every pixel by its fragments, which it empties, in small steps with names."""
         region = self._depths.region
         count = region.width * region.height
-        hits = Hits.room(count)
-        for part in parts(count, _PAIRS):
-            hits.clear(part, Certainty.BOUND)
-            yield "verdict"
+        instance, triangle = np.full((2, count), NOTHING, np.int32)
+        certainty = np.full(count, Certainty.BOUND, np.uint8)
+        yield "verdict"
         # Of several fragments of a pixel, one is the last: the others see that they are not alone.
         near, total = [], 0
         last, surface = np.full(count, NOTHING, np.int32), np.empty(count, np.int64)
@@ -73,18 +72,22 @@ class Verdict:
             alone = gather(last, pixel) == number
             open_[gather(pixel, np.flatnonzero(~(alone & sure)))] = True
             yield "verdict"
-        for part in parts(count, _PIXELS):
+        for part in parts(count, PIXELS):
             decided = part.start + np.flatnonzero((last[part] >= 0) & ~open_[part])
-            for chunk, own, first in self._numbers.by_chunk(gather(surface, decided)):
-                at = decided[own]
-                if len(at):
-                    yield from self._enter_sure(hits, at, gather(surface, at) - first, chunk)
+            names = self._numbers.names_of(gather(surface, decided))
+            instance[decided], triangle[decided] = names
+            yield "verdict"
         del last, surface
-        yield from self._enter_open(hits, open_, [near.pop(0)[:2] for _ in range(len(near))])
-        return hits
+        out = LazyHits(instance, triangle, certainty)
+        yield from self._enter_open(out, open_, [near.pop(0)[:2] for _ in range(len(near))])
+        film, names = self._film, (instance, triangle)
+        out.measure = partial(
+            rounded, self._scene, region, names, out.known, dx=film.dx, dy=film.dy
+        )
+        return out
 
     def _enter_open(
-        self, hits: Hits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
+        self, hits: LazyHits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
     ) -> Steps[None]:
         """Enter the pixels that may see several surfaces, or none for sure: some at a time.
 
@@ -108,28 +111,17 @@ class Verdict:
                 if len(own):
                     members.append((pixel[own], surface[own]))
             yield "contest"
-        ties = []
+        ties, known = [], [Measured.none()]
         for (first, last), members in zip(ends, contests, strict=True):
             which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             members.clear()
             ray = np.searchsorted(which, pixel)
-            ties.append((yield from self._contest(hits, which, ray, surface)))
-        hits.ties = Ties.joined(ties)
-
-    def _enter_sure(self, hits: Hits, at: Index, row: Index, chunk: Names) -> Steps[None]:
-        """Enter pixels that surely see these surfaces of a chunk, which are all that they have."""
-        surfaces = Surfaces(self._planes, len(self._scene.instances), WorldTriangles.none())
-        if chunk.first != NOTHING:
-            used, row = _used(row, chunk.count)
-            names = chunk.of(used)
-            surfaces = Surfaces((), 0, WorldTriangles(world_corners(self._scene, *names), *names))
-        prepared = Prepared(self._around, surfaces)
-        yield "rounding"
-        for part in parts(len(at), TOGETHER):
-            prepared.enter(hits, at[part], self._rays(at[part]), row[part])
-            yield "rounding"
-        prepared.finish(hits, self._rays)
+            found = yield from self._contest(self._rays(which), ray, surface)
+            hits.enter(which, found)
+            ties.append(found.ties.numbered(which))
+            known.append(Measured(which, found.t, found.s))
+        hits.ties, hits.known = Ties.joined(ties), Measured.joined(known)
 
     def _rays(self, pixel: Index) -> Rays:
         """Return the rays of pixels of the region, numbered row by row."""
@@ -138,14 +130,13 @@ class Verdict:
             film.camera, *film_positions(self._depths.region, film.dx, film.dy, pixel)
         )
 
-    def _contest(self, hits: Hits, which: Index, ray: Index, surface: Index) -> Steps[Ties]:
-        """Decide pixels `which`, the rays of pairs with a surface each; returns their ties."""
+    def _contest(self, rays: Rays, ray: Index, surface: Index) -> Steps[Hits]:
+        """Decide rays, each with all surfaces that it may see: pairs of the two."""
         scene, camera = self._scene, self._film.camera
         on_mesh = np.flatnonzero(surface >= len(scene.planes))  # it has the planes already
         ray, surface = ray[on_mesh], surface[on_mesh]
         surface, row = np.unique(surface, return_inverse=True)
         clip = camera.clip_start, camera.clip_end
-        rays = self._rays(which)
         contest = Contest(rays, self._planes, len(scene.instances), *clip, self._around)
         names = self._numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
@@ -156,20 +147,4 @@ class Verdict:
         for part in parts(len(ray), _PAIRS):
             contest.enter(Pairs(ray[part], row[part], triangles))
             yield "contest"
-        found = yield from mapped(contest.hits(self._statistics), lambda _: "contest")
-        hits.enter(which, found)
-        return found.ties.numbered(which)
-
-
-def _used(number: Index, count: int) -> tuple[Index, Index]:
-    """Return which numbers occur, and where each of `number` is among them.
-
-    In the order in which they occur first: neighbours in the picture are neighbours in memory.
-    All are less than `count`.
-    """
-    room = np.empty(count, np.int32)
-    every = np.arange(len(number), dtype=np.int32)
-    room[number[::-1]] = every[::-1]
-    used = number.take(np.flatnonzero(gather(room, number) == every))
-    room[used] = every[: len(used)]
-    return used, gather(room, number)
+        return (yield from mapped(contest.hits(self._statistics), lambda _: "contest"))
