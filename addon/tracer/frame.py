@@ -99,7 +99,7 @@ class Frame:
             *names,
             np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
             np.zeros(h, bool),
-            Measures(scene, *names),
+            Measures(scene, tuple(names)),
         )
 
     @property

@@ -201,6 +201,11 @@ class Measured(Arrays):
     t: NDArray[np.float64]
     s: NDArray[np.float64]
 
+    @property
+    def measure(self) -> Measure:
+        """Both."""
+        return self.t, self.s
+
     @classmethod
     def none(cls) -> Measured:
         """Return those of no rays."""

@@ -1,4 +1,8 @@
-"""t and the barycentrics of a picture: kept where they are known, else found when asked for."""
+"""t and the barycentrics of what a picture's rays see, found when they are asked for.
+
+Which surface a ray sees takes no more than intervals that are apart. What is found here is a
+function of the ray and its surface alone: it does not matter when, or of which others together.
+"""
 
 from __future__ import annotations
 
@@ -7,65 +11,139 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Scene
-from .certified.rounding import PIXELS, rounded
-from .hits import Hits, LazyHits, Measure, Measured
+from ..scene import Region, Scene
+from .camera import Rays, camera_rays, corner_rays, film_positions
+from .certified.certainty import check_assumptions
+from .certified.surfaces import TOGETHER, Prepared, Surfaces
+from .hits import NOTHING, Hits, LazyHits, Measure, Measured
+from .vector import Index, gather, parts
+from .world import WorldTriangles, world_corners
+
+PIXELS = 1 << 17  # whose surfaces are prepared together: what that takes is some MiB
 
 
 class Measures:
-    """t and the barycentrics of the h x w pixels of the camera's region, whose names are given.
+    """t and the barycentrics of a scene's frame, whose instances and triangles are `names` (h, w).
 
-    Parameters
-    ----------
-    scene : Scene
-        That is traced.
-    instance, triangle : (h, w) int32
-        What the pixels see: a picture's own arrays, which may still be filled.
+    These are the frame's own arrays, and may still be filled.
     """
 
-    def __init__(self, scene: Scene, instance: NDArray, triangle: NDArray) -> None:
-        self._scene, self._names = scene, (instance, triangle)
-        self._open = np.zeros(len(instance), bool)  # rows that nobody has asked for yet
+    def __init__(self, scene: Scene, names: tuple[NDArray[np.int32], NDArray[np.int32]]) -> None:
+        self._scene, self._names = scene, names
+        self._height, self._width = names[0].shape
+        self._open = np.zeros(self._height, bool)  # rows that nobody has asked for yet
         self._known = Measured.none()
         self._t: NDArray | None = None
         self._s: NDArray | None = None
 
     def enter(self, rows: slice, hits: Hits) -> None:
-        """Enter what is known of rows whose names are entered; the rest is found when asked for."""
-        width = self._names[0].shape[1]
+        """Enter what is known of rows; what `LazyHits` do not know is found when asked for."""
         if isinstance(hits, LazyHits):
-            self._open[rows] = True
-            self._known = Measured.joined((self._known, hits.known.numbered(rows.start * width)))
+            known = hits.known.numbered(rows.start * self._width)
+            self._known, self._open[rows] = Measured.joined((self._known, known)), True
         else:
             self._keep(rows, hits.t, hits.s)
 
     def of(self, rows: slice) -> Measure:
         """Return t (k, w), inf where nothing is hit, and barycentrics (3, k, w) of k rows."""
+        self._keep(slice(0, 0), *Measured.none().measure)
         for _ in self.steps(rows):
             pass
         return self._t[rows], self._s[:, rows]
 
     def steps(self, rows: slice) -> Iterator[None]:
         """Find those of some rows that are not known yet, in small steps."""
-        height, width = self._names[0].shape
-        first, last, _ = rows.indices(height)
-        together = max(1, PIXELS // width)
-        self._make_room()
+        first, last, _ = rows.indices(self._height)
+        together, names = max(1, PIXELS // self._width), [v.reshape(-1) for v in self._names]
         for y in range(first, last, together):
             some = slice(y, min(y + together, last))
             if self._open[some].any():
-                region, names = self._scene.camera.region, [v.reshape(-1) for v in self._names]
-                ray = np.arange(some.start * width, some.stop * width)
-                self._keep(some, *rounded(self._scene, region, names, self._known, ray))
+                ray = np.arange(some.start * self._width, some.stop * self._width)
+                region = self._scene.camera.region
+                self._keep(some, *measured(self._scene, region, names, self._known, ray))
             yield
 
     def _keep(self, rows: slice, t: NDArray, s: NDArray) -> None:
-        self._make_room()
-        width = self._t.shape[1]
-        self._t[rows], self._s[:, rows] = t.reshape(-1, width), s.reshape(3, -1, width)
+        if self._t is None:
+            self._t = np.full((self._height, self._width), np.inf)
+            self._s = np.zeros((3, *self._t.shape))
+        self._t[rows], self._s[:, rows] = t.reshape(-1, self._width), s.reshape(3, -1, self._width)
         self._open[rows] = False
 
-    def _make_room(self) -> None:
-        if self._t is None:
-            shape = self._names[0].shape
-            self._t, self._s = np.full(shape, np.inf), np.zeros((3, *shape))
+
+def measured(
+    scene: Scene,
+    region: Region,
+    names: tuple[Index, Index],
+    known: Measured,
+    ray: Index,
+    dx: float = 0.0,
+    dy: float = 0.0,
+) -> Measure:
+    """Return t, the nearest float64, and the barycentrics of some certified rays of a region.
+
+    Parameters
+    ----------
+    names : (NDArray, NDArray)
+        Instance and triangle that each of the region's rays surely sees, (n,), row by row.
+    known : Measured
+        Of rays that integers decided.
+    ray : (k,) int
+        The numbers of the rays that are asked about.
+    dx, dy : float
+        Where each passes its pixel's centre.
+
+    Raises
+    ------
+    AssumptionError
+        If this process's arithmetic no longer is as the proof needs it.
+    """
+    check_assumptions()
+    hits = Hits.none(len(ray))
+    names = [gather(v, ray) for v in names]
+    place = np.searchsorted(known.ray, ray)
+    given = np.append(known.ray, NOTHING)[place] == ray
+    hits.t[given], hits.s[:, given] = known.take(place[given]).measure
+    around = corner_rays(scene.camera, dx, dy)
+
+    def rays_at(index: Index) -> Rays:
+        return camera_rays(scene.camera, *film_positions(region, dx, dy, gather(ray, index)))
+
+    rest = np.flatnonzero((names[0] != NOTHING) & ~given)
+    for part in parts(len(rest), PIXELS):
+        at = rest[part]
+        surfaces, surface = _surfaces(scene, *(gather(v, at) for v in names))
+        prepared = Prepared(around, surfaces)
+        for some in parts(len(at), TOGETHER):
+            prepared.enter(hits, at[some], rays_at(at[some]), surface[some])
+        prepared.finish(hits, rays_at)
+    return hits.t, hits.s
+
+
+def _surfaces(scene: Scene, instance: Index, triangle: Index) -> tuple[Surfaces, Index]:
+    """Return the surfaces of these names, (n,) each, and which of them each is."""
+    first, planes = len(scene.instances), [(p.point, p.normal) for p in scene.planes]
+    which, row = _different(instance, triangle)
+    of_mesh = gather(instance, which) < first
+    names = [gather(v, which[of_mesh]) for v in (instance, triangle)]
+    number = np.where(of_mesh, len(planes) - 1 + np.cumsum(of_mesh), instance[which] - first)
+    surfaces = Surfaces(planes, first, WorldTriangles(world_corners(scene, *names), *names))
+    return surfaces, gather(number, row)
+
+
+def _different(instance: Index, triangle: Index) -> tuple[Index, Index]:
+    """Return where different names occur first, and which of these each is.
+
+    In their order: neighbours in the picture are neighbours in memory. Of names that share a place
+    in the table, some may come more than once.
+    """
+    every = np.arange(len(instance), dtype=np.int32)
+    table = np.empty(1 << (2 * len(every)).bit_length(), np.int32)
+    place = (triangle + instance * np.int32(40503)) & (len(table) - 1)
+    table[place[::-1]] = every[::-1]
+    first = gather(table, place)
+    same = (gather(instance, first) == instance) & (gather(triangle, first) == triangle)
+    first = np.where(same, first, every)
+    which = np.flatnonzero(first == every)
+    table[which] = every[: len(which)]
+    return which, gather(table, first)

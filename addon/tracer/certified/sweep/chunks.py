@@ -70,21 +70,15 @@ class Numbering:
 
     def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return instance and triangle of surfaces."""
-        out = np.empty((2, len(surface)), np.int32)
-        for names, own, first in self.by_chunk(surface):
-            out[:, own] = names.of(surface[own] - first)
-        return out[0], out[1]
-
-    def by_chunk(self, surface: Index) -> Iterator[tuple[Names, Index | slice, int]]:
-        """Yield each chunk's names, which of the surfaces are its own, and the first's number."""
         if len(self._names) == 1:
-            yield self._names[0], slice(None), 0
-            return
+            return self._names[0].of(surface)
+        out = np.empty((2, len(surface)), np.int32)
         chunk = np.searchsorted(self._starts, surface, side="right") - 1
         chunk = grouped(chunk.astype(np.uint16), len(self._names))
         for names, own, start in zip(self._names, chunk, self._starts.tolist(), strict=False):
             if len(own):
-                yield names, own, start
+                out[:, own] = names.of(surface[own] - start)
+        return out[0], out[1]
 
 
 @dataclass(frozen=True, eq=False)

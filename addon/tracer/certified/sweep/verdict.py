@@ -15,12 +15,12 @@ from ....scene import Scene
 from ...camera import Rays, camera_rays, corner_rays, film_positions
 from ...candidates import Pairs
 from ...hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
+from ...measures import PIXELS, measured
 from ...progress import Steps, mapped
 from ...vector import Index, gather, grouped, groups, parts
 from ...world import WorldTriangles, world_corners
 from ..certainty import Certainty
 from ..contest import Contest
-from ..rounding import PIXELS, rounded
 from .chunks import Numbering
 from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
@@ -80,10 +80,8 @@ class Verdict:
         del last, surface
         out = LazyHits(instance, triangle, certainty)
         yield from self._enter_open(out, open_, [near.pop(0)[:2] for _ in range(len(near))])
-        film, names = self._film, (instance, triangle)
-        out.measure = partial(
-            rounded, self._scene, region, names, out.known, dx=film.dx, dy=film.dy
-        )
+        given = self._scene, region, (instance, triangle), out.known
+        out.measure = partial(measured, *given, dx=self._film.dx, dy=self._film.dy)
         return out
 
     def _enter_open(

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Mesh, Region, Scene
 from reference_tracer.study.oracle import scene_sights
-from reference_tracer.tracer import render
+from reference_tracer.tracer import measures, render
 from reference_tracer.tracer.certified import contest, settle, surfaces
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.sweep import (
@@ -120,10 +120,10 @@ DIVISIONS = {
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
     "vertices by twos": [(chunks, "_CHUNK", 2)],
-    "hits by ones": [(m, "TOGETHER", 1) for m in (surfaces, settle, verdict)],
+    "hits by ones": [(m, "TOGETHER", 1) for m in (surfaces, settle, measures)],
     "integers by ones": [(contest, "BY_INTEGERS", 1)],
     "orders by ones": [(contest, "BY_ORDER", 1)],
-    "pixels by ones": [(verdict, "_PIXELS", 1)],
+    "pixels by ones": [(m, "PIXELS", 1) for m in (verdict, measures)],
     "rays by ones": [(verdict, "_RAYS", 1)],
     "fragments by threes": [(verdict, "_FRAGMENTS", 3), (sweep, "_PAIRS", 3)],
     "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
