@@ -88,6 +88,19 @@ def soup(count: int, size: float) -> Triangles:
     return _loose(middles + rng.normal(0, size, (count, 3, 3)))
 
 
+def foliage(count: int, size: float) -> Triangles:
+    """Return square leaves of this side, of 2 triangles each: anywhere in the unit ball."""
+    rng = np.random.default_rng(SEED)
+    middle, across, other = rng.normal(size=(3, count, 3))
+    middle = _unit(middle) * rng.uniform(0, 1, (count, 1)) ** (1 / 3)
+    across = _unit(across) * (size / 2)
+    along = _unit(np.cross(across, other)) * (size / 2)
+    corners = [middle + i * across + j * along for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    a, b, c, d = 4 * np.arange(count) + np.arange(4)[:, None]
+    triangles = np.stack(((a, b, c), (a, c, d))).transpose(2, 0, 1).reshape(-1, 3)
+    return np.stack(corners, axis=1).reshape(-1, 3).astype(np.float32), _int32(triangles)
+
+
 def large_triangles(count: int) -> Triangles:
     """Return triangles between any three points of the cube from -1 to 1."""
     return _loose(np.random.default_rng(SEED).uniform(-1, 1, (count, 3, 3)))

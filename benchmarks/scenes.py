@@ -49,6 +49,7 @@ _AROUND = View((2.7, -2.5, 1.7), (0, 0, 0), 0.28, 1.12, (0.5, 10.0))  # frames t
 _CUBE = View((3.9, -3.6, 2.5), (0, 0, 0), 0.32, 1.85, (0.5, 15.0))  # frames the cube's corners
 _GRAZING = View((0.1, -1.35, 0.19), (0, 0, 0.02), 0.4, 0.24, (0.01, 10.0))
 _INSIDE = View((0.01, 0.02, 0.03), (1, 0.4, 0.2), 0.5, 0.5, (0.001, 10.0))
+_ALONG = View((0.95, 0.02, 0.03), (0.6, 0.7, 0.2), 0.5, 0.5, (0.001, 10.0))  # the sphere's wall
 
 SUBJECTS = {
     s.name: s
@@ -70,6 +71,11 @@ SUBJECTS = {
             "nested_spheres", 1_310_720, partial(meshes.nested_spheres, 64, 5), _AROUND, ADVERSARIAL
         ),
         Subject("inside_soup", 10_000, partial(meshes.soup, 10_000, 0.1), _INSIDE, ADVERSARIAL),
+        Subject("inside_sphere", 1_310_720, partial(meshes.icosphere, 8), _ALONG, ADVERSARIAL),
+        Subject("foliage", 600_000, partial(meshes.foliage, 300_000, 0.015), _AROUND, ADVERSARIAL),
+        Subject(
+            "subpixel_1m", 1_000_000, partial(meshes.soup, 1_000_000, 0.0006), _CUBE, ADVERSARIAL
+        ),
         Subject("icosphere_5m", 5_242_880, partial(meshes.icosphere, 9), _AROUND, SCALING),
     )
 }
