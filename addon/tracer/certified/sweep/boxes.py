@@ -23,6 +23,8 @@ from .depth_buffer import DepthBuffer
 from .film import Film, Vertices
 
 BINS = 256  # of nearness, into which triangles are sorted
+_GROWTH = 1.3  # of depth bins
+_FIRST = 0.7  # of the first bin, of the surface that is in front: a box is more than its triangle
 _MARGIN = 1.0  # pixels around the region that count as in view, and around a box as its own
 _TOGETHER = 1 << 15  # triangles at a time
 
@@ -153,21 +155,24 @@ def by_depth(
 ) -> tuple[list[Index], int, int]:
     """Split the triangles that are seen into depth bins, from the front to the back.
 
-    Each holds about as many pixels of boxes as the union of all boxes has: so there are as many
-    bins as surfaces lie behind one another, and what a refreshed depth buffer may save is worth
-    its price. Returns the rows y0 <= y < y1 of that union, too.
+    The first holds somewhat fewer pixels of boxes than the union of all boxes has: about what one
+    surface would have that covers it all. Every other is larger than the one before, as the more
+    there is in front, the less is left to be hidden. So there are as many bins as the logarithm of
+    the surfaces behind one another, and what a refreshed depth buffer may save is worth its price.
+    Returns the rows y0 <= y < y1 of that union, too.
     """
     (x0, y0), (x1, y1) = low.take(seen, axis=1), high.take(seen, axis=1)
     nearest = nearest.take(seen)
     bottom, top = int(y0.min()), int(y1.max()) + 1
     area = np.multiply(x1 - x0 + 1, y1 - y0 + 1, dtype=np.float32)
     union = (int(x1.max()) + 1 - int(x0.min())) * (top - bottom)
-    count = min(int(area.sum(dtype=np.float64) / union), BINS - 1)
-    if count < 1:
+    union *= _FIRST
+    if area.sum(dtype=np.float64) < 2 * union or BINS < 3:
         return [seen], bottom, top
     first, last = nearest.min(), nearest.max()
     scale = (BINS - 1) / (last - first) if last > first else 0.0
     depth = ((last - nearest) * scale).astype(np.uint8)
-    area = np.cumsum(np.bincount(depth, area, BINS))
-    own = (area * (count / area[-1])).astype(np.uint8)[depth]
-    return [seen.take(part) for part in grouped(own, count + 1) if len(part)], bottom, top
+    before = np.cumsum(np.bincount(depth, area, BINS)) / union
+    own = (np.log1p(before * (_GROWTH - 1)) / np.log(_GROWTH)).astype(np.uint8)
+    bins = grouped(own[depth], int(own[-1]) + 1)
+    return [seen.take(part) for part in bins if len(part)], bottom, top
