@@ -61,7 +61,9 @@ def film_positions(
     """
     if pixel is None:
         pixel = np.arange(tile.width * tile.height)
-    y, x = np.divmod(pixel.astype(np.int32), np.int32(tile.width))
+    pixel = pixel.astype(np.int32)
+    y = pixel // np.int32(tile.width)  # faster than `divmod`
+    x = pixel - y * np.int32(tile.width)
     return (x + tile.x0) + 0.5 + dx, (y + tile.y0) + 0.5 + dy
 
 

@@ -112,11 +112,13 @@ def dot(a: Vectors, b: Vectors) -> NDArray[np.floating]:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def cross(a: Vectors, b: Vectors) -> Vectors:
-    """Return a x b, (3, n)."""
-    return np.stack(
-        (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-    )
+def cross(a: Vectors, b: Vectors, out: Vectors | None = None) -> Vectors:
+    """Return a x b, (3, n), in `out` where that is given."""
+    if out is None:
+        out = np.empty((3, *np.broadcast(a[0], b[0]).shape), np.result_type(a, b))
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        np.subtract(a[i] * b[j], a[j] * b[i], out=out[k, ...])
+    return out
 
 
 def transform_points(target_from_source: NDArray[np.float64], points: Vectors) -> Vectors:
@@ -129,4 +131,10 @@ def transform_points(target_from_source: NDArray[np.float64], points: Vectors) -
     """
     m = target_from_source
     x, y, z = np.asarray(points, dtype=np.float64)
-    return np.stack([m[i, 0] * x + m[i, 1] * y + m[i, 2] * z + m[i, 3] for i in range(3)])
+    out = np.empty((3, *np.broadcast(m[0, 0], x).shape))
+    for i, to in enumerate((out[0, ...], out[1, ...], out[2, ...])):
+        np.multiply(m[i, 0], x, out=to)
+        to += m[i, 1] * y
+        to += m[i, 2] * z
+        to += m[i, 3]
+    return out

@@ -42,7 +42,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..camera import Rays
-from ..vector import Floats, Vectors, gather, largest, parts
+from ..vector import Floats, Vectors, cross, gather, largest, parts
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
 _DOT = 2.0**-72
@@ -99,15 +99,16 @@ class Quotients:
     ) -> None:
         """Fill the columns of k planes: a point (3, k) each, the normals, and M."""
         unit = power_above(normal[0])
-        table[:3], rest = halves(normal[0], unit)
-        np.add(rest, normal[1], out=table[3:6])
-        size = unit + 3 * error
+        both = np.empty((6, len(unit)))
+        both[:3], both[3:] = halves(normal[0], unit)
+        both[3:] += normal[1]
+        table[:6], size = both, unit + 3 * error
         if not (self._one_origin or self._one_direction):
             table[6], table[7:] = size, point
             return
         arm, rest = two_sum(point, -self._origin)
         reach = power_above(arm)
-        table[6], table[7] = two_sum(*_dot(arm, rest, reach, table[:6].copy()))
+        table[6], table[7] = two_sum(*_dot(arm, rest, reach, both))
         table[8] = _error(reach, size)
         if self._one_origin:
             table[9] = _error(self._unit, size)
@@ -162,13 +163,11 @@ def _cross(u: Pair, v: Pair) -> tuple[Pair, Floats]:
     """Return u x v as high + low, and M, the product of the powers of two above u and v."""
     units = power_above(u[0]), power_above(v[0])
     (uh, ul), (vh, vl) = (halves(w[0], unit) for w, unit in zip((u, v), units, strict=True))
-    ul, vl = ul + u[1], vl + v[1]
-    high, low = np.empty_like(uh), np.empty_like(uh)
-    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
-        exact = uh[i] * vh[j] - uh[j] * vh[i]
-        small = (uh[i] * vl[j] + ul[i] * v[0][j]) - (uh[j] * vl[i] + ul[j] * v[0][i])
-        high[k], low[k] = two_sum(exact, small)
-    return (high, low), units[0] * units[1]
+    ul += u[1]
+    vl += v[1]
+    small = cross(uh, vl)
+    small += cross(ul, v[0])
+    return two_sum(cross(uh, vh), small), units[0] * units[1]
 
 
 def _quotient(
@@ -205,7 +204,11 @@ def two_sum(a: Floats, b: Floats) -> Pair:
     """Return a + b without error, as a float and the rest that it leaves."""
     total = a + b
     part = total - a
-    return total, (a - (total - part)) + (b - part)
+    rest = total - part
+    np.subtract(a, rest, out=rest)
+    np.subtract(b, part, out=part)
+    rest += part
+    return total, rest
 
 
 def power_above(v: Floats) -> Floats:
@@ -220,7 +223,8 @@ def halves(v: Floats, unit: Floats) -> Pair:
     Three products of two such multiples, and sums of them, are exact: they have at most 52 digits.
     """
     shift = unit * (1.5 * 2.0 ** (52 - BITS))
-    high = (v + shift) - shift
+    high = v + shift
+    high -= shift
     return high, v - high
 
 

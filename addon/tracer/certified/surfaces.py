@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import NOTHING, Hits
-from ..vector import Arrays, Index, Vectors, cross, dot, gather, largest, parts
+from ..vector import Arrays, Floats, Index, Vectors, cross, gather, largest, parts
 from ..world import WorldTriangles
 from . import exact
 from .quotient import Quotients
@@ -94,8 +94,7 @@ class Prepared:
         self._planes = len(surfaces.planes)
         with np.errstate(all="ignore"):  # what overflows is not sure
             self._quotients = Quotients.of(rays, corners, surfaces.planes)
-            some = [corners[..., part] for part in parts(max(1, corners.shape[2]), TOGETHER)]
-            self._edges = np.concatenate([_edges(rays, part) for part in some], axis=1)
+            self._edges, self._least = _edges(rays, corners)
 
     def enter(self, hits: Hits, at: Index, rays: Rays, surface: Index) -> None:
         """Enter what rays (p,) surely hit first into the hits with these numbers."""
@@ -136,32 +135,49 @@ class Prepared:
     def _weights(self, rays: Rays, row: Index) -> Vectors:
         """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum; NaN if that is lost."""
         edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
-        by = [rays.directions]  # what is multiplied last: as often underflow may count
-        if len(edges[0]) == 1:
-            of_each = [dot(normal, rays.directions) for (normal,) in edges]
+        products, least = edges[:, 0], self._least
+        if edges.shape[1] == 1:
+            products *= rays.directions
         elif rays.directions.shape[1] == 1:
-            by = [corner - rays.origins for corner, _ in edges]
-            of_each = [dot(arm, normal) for arm, (_, normal) in zip(by, edges, strict=True)]
+            products -= rays.origins
+            products *= edges[:, 1]
+            least = gather(least, row)
         else:
-            of_each = [
-                dot(rays.directions, cross(corner - rays.origins, side)) for corner, side in edges
-            ]
-        s = np.stack(of_each)
-        total = s[0] + s[1] + s[2]
+            sides = [cross(corner - rays.origins, side) for corner, side in edges]
+            products = np.stack(sides) * rays.directions
+            least = _LEAST * (1 + largest(*np.abs(rays.directions)))
+        s = products[:, 0] + products[:, 1]
+        s += products[:, 2]
+        total = s[0] + s[1]
+        total += s[2]
         size = np.abs(total)
-        least = _LEAST * (1 + largest(*np.abs(by).reshape(-1, by[0].shape[1])))
-        s /= np.where((size > least) & (size < np.inf), total, np.nan)
+        known = (size > least) & (size < np.inf)
+        s /= total if known.all() else np.where(known, total, np.nan)
         return s
 
 
-def _edges(rays: Rays, corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what the edges bc, ca, ab of triangles (3, 3, m) are to all rays: (9 or 18, m)."""
-    out = []
-    for k in (1, 2, 0):
-        corner, side = corners[k], corners[(k + 1) % 3] - corners[k]
-        if rays.origins.shape[1] == 1:
-            out.append(cross(corner - rays.origins, side))
-        else:
-            shared = rays.directions.shape[1] == 1
-            out += [corner, cross(side, rays.directions) if shared else side]
-    return np.concatenate(out)
+def _edges(rays: Rays, corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], Floats]:
+    """Return what the edges bc, ca, ab of triangles (3, 3, m) are to all rays: (9 or 18, m).
+
+    And what a sum of edge functions must be above: as often as its last factor, which rays bound,
+    may underflow count.
+    """
+    count = corners.shape[2]
+    one_origin, shared = rays.origins.shape[1] == 1, rays.directions.shape[1] == 1
+    out = np.empty((3, 1 if one_origin else 2, 3, count))
+    for part in parts(count, TOGETHER):
+        for k in range(3):
+            first = corners[(k + 1) % 3, :, part]
+            side = corners[(k + 2) % 3, :, part] - first
+            if one_origin:
+                cross(first - rays.origins, side, out=out[k, 0, :, part])
+                continue
+            out[k, 0, :, part] = first
+            if shared:
+                cross(side, rays.directions, out=out[k, 1, :, part])
+            else:
+                out[k, 1, :, part] = side
+    last = np.abs(rays.directions if one_origin else rays.origins).max()
+    if not one_origin:
+        last = last + largest(*np.abs(corners).reshape(9, count))
+    return out.reshape(9 if one_origin else 18, count), _LEAST * (1 + last)
