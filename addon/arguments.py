@@ -5,15 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NoReturn
 
 import numpy as np
 
 from .camera_options import CAMERA_OPTIONS, refuse, refuse_camera, typed
-from .compare.animation import frames_named
-from .compare.comparison import SizeError
-from .explain.candidates import LIMIT
-from .explain.writers import WRITERS
+from .compare.picture import SizeError
 from .images import MissingLibraryError
 from .methods import PLAIN, Method
 from .scene import SceneError
@@ -21,18 +17,6 @@ from .tracer.certified.certainty import AssumptionError
 from .tracer.memory import PictureTooLargeError
 from .tracer.settings import Precision, Settings
 
-AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
-INTERRUPTED = 130  # by Ctrl-C, as shells have it: see `running.py`
-
-_CODES = """
-  4  the input is wrong, or cannot be read; or standard output cannot be written: files stay
-  130  interrupted by Ctrl-C (129, 143: by SIGHUP, SIGTERM)"""
-DONE_HELP = f"exit codes:\n  0  done{_CODES}"
-EXIT_CODES_HELP = f"""exit codes:
-  0  the pictures agree
-  1  warnings: something is not modelled, or not decidable; or so much that it is not comparable
-  2  differences that no cause explains
-  3  the sizes of the pictures do not match{_CODES}"""
 # What a user can do something about; all else is a fault of ours, and its traceback is wanted.
 EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
 _PLAIN = ", ".join(PLAIN)
@@ -47,19 +31,6 @@ _RANGES = {
     "frame": (lambda v: abs(v) <= 1048574, "from -1048574 to 1048574, as Blender's frames are"),
     "ortho_scale": (lambda v: v > 0, "above 0, as an orthographic scale is"),
 }
-
-
-class Parser(argparse.ArgumentParser):
-    """An argument parser that ends with INPUT_ERROR, as 2 means differences here."""
-
-    def __init__(self, *args: object, **options: object) -> None:
-        """Name the exit codes below the help, and keep their lines."""
-        options.setdefault("formatter_class", argparse.RawDescriptionHelpFormatter)
-        super().__init__(*args, **options)
-
-    def error(self, message: str) -> NoReturn:
-        """Print the message and how to go on, and exit."""
-        self.exit(INPUT_ERROR, f"{self.prog}: {message}\n{self.prog} --help lists the options.\n")
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
@@ -108,6 +79,9 @@ def add_page(parser: argparse.ArgumentParser) -> None:
 
 def add_pixel(parser: argparse.ArgumentParser) -> None:
     """Add which pixel is explained, and where that is written."""
+    from .explain.candidates import LIMIT
+    from .explain.writers import WRITERS
+
     pixel = "0 0 is the picture's lower left"
     out = f"{', '.join(WRITERS)}; without it, Markdown is printed"
     reproducer = (
@@ -154,6 +128,8 @@ def check_options(options: argparse.Namespace) -> None:
 def _refuse_unheard(options: argparse.Namespace) -> None:
     """Refuse options that the others leave without a meaning."""
     if (frames := getattr(options, "frames", None)) is not None:
+        from .compare.animation import frames_named
+
         refuse(
             options, ("frame", "against", "trade", "extremes"), "is for one frame, not for --frames"
         )

@@ -1,35 +1,65 @@
 """The command `reftrace`: the tracer, the comparison and the studies outside Blender's window.
 
-What a command needs is imported in functions: an import that is interrupted leaves half a module.
+What a command needs is imported once it is asked for, and in functions: an import that is
+interrupted leaves half a module.
 """
 
 from __future__ import annotations
 
 import sys
-from typing import Any
+from collections.abc import Sequence
 
 from . import running
+from .parser import EXIT_CODES_HELP, Parser
+
+# In the order of the help: where a command's options are, and what it does. Those without a place
+# are packages of their own.
+COMMANDS = {
+    "compare": (
+        ".compare:add",
+        "trace a scene and compare it with Blender's own picture, or with any other",
+    ),
+    "trace": (".files:add_trace", "trace a scene or a mesh into a picture"),
+    "explain": (
+        ".files:add_explain",
+        "show the maths of one pixel's ray: every step, in float32, float64 and exactly",
+    ),
+    "judge": (None, "judge students' own ray/triangle tests (this runs their code)"),
+    "trade": (
+        ".studies:add_trade",
+        "measure what every method, precision, number of samples and size costs on a scene",
+    ),
+    "extremes": (
+        ".studies:add_extremes",
+        "find where every method breaks: far away, tiny, edge-on, and so on",
+    ),
+    "bench": (None, "measure the speed of the tracer beside embreex, Cycles and others"),
+    "export": (".files:add_export", "export a .blend to a scene that needs no Blender"),
+}
 
 
-def main(argv: list[str] | None = None) -> int:
+def main(argv: Sequence[str] | None = None) -> int:
     """Run `reftrace`; returns the exit code."""
+    argv = sys.argv[1:] if argv is None else argv
     return running.run(lambda: _run(argv), "reftrace")
 
 
-def _run(argv: list[str] | None) -> int:
+def _run(argv: Sequence[str]) -> int:
     with running.held():
-        known = parser()
+        known = parser(argv)
     options = known.parse_args(argv)
     return options.run(options)
 
 
-def parser() -> Any:
-    """Return the parser of all commands; what it parses has a `run`."""
+def parser(argv: Sequence[str]) -> Parser:
+    """Return the parser of these words: of all commands it knows the options of theirs alone.
+
+    What it parses has a `run`.
+    """
+    from importlib import import_module
     from importlib.metadata import entry_points
 
     from . import __version__
-    from .arguments import EXIT_CODES_HELP, Parser
-    from .commands import compare, files, studies
 
     out = Parser(
         "reftrace",
@@ -41,42 +71,34 @@ def parser() -> Any:
     )
     out.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = out.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
+    asked = next((word for word in argv if not word.startswith("-")), None)
     installed = {found.name: found for found in entry_points(group="reference_tracer.commands")}
-    # In the order of the help: what adds each. Those that are None are packages of their own.
-    for name, add in {
-        "compare": compare.add,
-        "trace": files.add_trace,
-        "explain": files.add_explain,
-        "judge": None,
-        "trade": studies.add_trade,
-        "extremes": studies.add_extremes,
-        "bench": None,
-        "export": files.add_export,
-    }.items():
-        if not add and name in installed:
-            add = installed[name].load().add
-        if add:
-            add(commands)
-        else:
-            _add_missing(commands, name)
+    for name, (place, text) in COMMANDS.items():
+        if not place and name not in installed:
+            # Without a prefix of options, all that follows is positional, --help too.
+            missing = commands.add_parser(
+                name, help="(not installed here)", add_help=False, prefix_chars="\0"
+            )
+            missing.add_argument("rest", nargs="*")
+            missing.set_defaults(run=_missing, name=name)
+            continue
+        own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+        if name == asked and place:
+            module, add = place.split(":")
+            getattr(import_module(f"{__package__}.commands{module}"), add)(own)
+        elif name == asked:
+            installed[name].load().add(own)
     return out
 
 
-def _add_missing(commands: Any, name: str) -> None:
-    """Add a command that says how to get it."""
+def _missing(options: object) -> int:
+    """Say how to get a command."""
+    from .scene import SceneError
 
-    def run(_: object) -> int:
-        from .scene import SceneError
-
-        raise SceneError(
-            f"the command {name} is not part of the add-on: pip install --editable . in a clone of "
-            "the project installs it"
-        )
-
-    # Without a prefix of options, all that follows is positional, --help too.
-    own = commands.add_parser(name, help="(not installed here)", add_help=False, prefix_chars="\0")
-    own.add_argument("rest", nargs="*")
-    own.set_defaults(run=run)
+    raise SceneError(
+        f"the command {options.name} is not part of the add-on: pip install --editable . in a "
+        "clone of the project installs it"
+    )
 
 
 if __name__ == "__main__":

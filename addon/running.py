@@ -48,7 +48,8 @@ def run(work: Callable[[], int], program: str) -> int:
 
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
-    from .arguments import EXPECTED, INPUT_ERROR, SIZES_DIFFER, SizeError, words
+    from .arguments import EXPECTED, SizeError, words
+    from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)
     with suppress(OSError):  # of stderr itself: there is nowhere else to say it

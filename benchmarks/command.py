@@ -5,18 +5,17 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from reference_tracer.commands.parts import Commands, command, write_study
+from reference_tracer.commands.parts import command, write_study
+from reference_tracer.parser import Parser
 from reference_tracer.report import folders
 from reference_tracer.running import progress_bar
 
 
-def add(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "bench",
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         run,
-        "measure the speed of the tracer beside embreex, Cycles and others",
         "reftrace bench --quick --out out/bench",
     )
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help="by default all")

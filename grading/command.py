@@ -9,16 +9,11 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
 
-from reference_tracer.arguments import (
-    AGREE,
-    DIFFERENCES,
-    INPUT_ERROR,
-    WARNINGS,
-    printable,
-)
+from reference_tracer.arguments import printable
 from reference_tracer.camera_options import CAMERA_OPTIONS, add_camera, choice_from, typed
-from reference_tracer.commands.parts import Commands, command, write_study
+from reference_tracer.commands.parts import command, write_study
 from reference_tracer.opening import SOURCES, load
+from reference_tracer.parser import AGREE, DIFFERENCES, INPUT_ERROR, WARNINGS, Parser
 from reference_tracer.report import folders
 from reference_tracer.running import progress_bar
 from reference_tracer.scene import Scene, SceneError
@@ -42,13 +37,11 @@ _CODES = f"""exit codes:
   130  interrupted by Ctrl-C"""
 
 
-def add(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "judge",
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         run,
-        "judge students' own ray/triangle tests (this runs their code)",
         "reftrace judge --template my_test.py\n  reftrace judge my_test.py --out out/judged",
     )
     parser.description = _DESCRIPTION

@@ -48,15 +48,15 @@ def commands() -> list[str]:
 def test_every_command_line_is_understood(command):
     words = shlex.split(command, comments=True)[1:]
     if len(words) > 1:  # otherwise it only names one
-        parser().parse_args(words)
+        parser(words).parse_args(words)
     else:
         with pytest.raises(SystemExit) as end:
-            parser().parse_args([*words, "--help"])
+            parser(words).parse_args([*words, "--help"])
         assert end.value.code == 0
 
 
 def test_there_are_commands_of_every_kind():
-    commands = next(a.choices for a in parser()._actions if a.choices)
+    commands = next(a.choices for a in parser([])._actions if a.choices)
     assert {c.split()[1] for c in shown(TEXT)} == set(commands)
     targets = re.findall(r"^([a-z-]+):.*##", (PROJECT / "Makefile").read_text("utf-8"), re.M)
     for target in re.findall(r"(?:`|^)make ([a-z-]+)", "\n".join((TEXT, *SHELL)), re.M):

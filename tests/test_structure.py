@@ -22,6 +22,7 @@ FLOORS = {
     "tracer": 1,
     "framing": 1,
     "scene_files": 1,
+    "parser": 0,
     "methods": 1,
     "compare": 2,
     "study": 2,

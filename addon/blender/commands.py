@@ -10,11 +10,12 @@ from typing import Any
 import bpy
 
 from .. import arguments, running
-from ..arguments import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser, settings_from
+from ..arguments import settings_from
 from ..camera_options import add_camera, choice_from
 from ..compare import engines
 from ..compare.comparison import EXIT_CODES
 from ..explain.candidates import LIMIT, gather_pixel
+from ..parser import AGREE, DONE_HELP, EXIT_CODES_HELP, Parser
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
 from ..report import extremes as extremes_report

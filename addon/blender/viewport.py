@@ -17,7 +17,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare.comparison import SizeError
+from ..compare.picture import SizeError
 from ..scene import Camera, SceneError
 from .judges import Judge
 from .temporary import values_kept

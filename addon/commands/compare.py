@@ -18,28 +18,28 @@ from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
+from ..parser import EXIT_CODES_HELP, Parser
 from ..report import comparison as comparison_report
 from ..report import folders, page
 from ..running import progress_bar
 from ..scene import Camera, Scene, SceneError
 from ..scene_files import diagnosed
 from ..tracer.progress import Work, result_of
-from .parts import Commands, command
+from .parts import command
 
 
-def add(commands: Commands) -> None:
-    """Add the command."""
+def add(parser: Parser) -> None:
+    """Add the command's options."""
     from ..blender.judges import choices
 
-    parser = command(
-        commands,
-        "compare",
+    command(
+        parser,
         run,
-        "trace a scene and compare it with Blender's own picture, or with any other",
         "reftrace compare scene.blend --out out/\n"
         "  reftrace compare scene.npz --against student.png --out out/",
         "scene.blend; with --against also scene.npz or a mesh",
         _failure_written,
+        EXIT_CODES_HELP,
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)

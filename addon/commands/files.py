@@ -12,27 +12,24 @@ from pathlib import Path
 from .. import images
 from ..arguments import add_pixel, add_settings, printable, settings_from
 from ..camera_options import add_camera, choice_from
-from ..explain import reproducer
-from ..explain.candidates import LIMIT, gather_pixel
 from ..opening import SOURCES, load
-from ..report import folders, pixel
+from ..parser import Parser
+from ..report import folders
 from ..running import progress_bar
 from ..scene import SceneError
 from ..scene_files import MESH_SUFFIXES, save_scene
 from ..tracer.coloring import Color
 from ..tracer.render import render
-from .parts import Commands, command
+from .parts import command
 
 _PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
 
 
-def add_trace(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "trace",
+def add_trace(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         trace,
-        "trace a scene or a mesh into a picture",
         "reftrace trace mesh.ply --out mesh.png --width 800",
         SOURCES,
     )
@@ -70,13 +67,11 @@ def trace(options: argparse.Namespace) -> int:
     return 0
 
 
-def add_export(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "export",
+def add_export(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         export,
-        "export a .blend to a scene that needs no Blender",
         "reftrace export scene.blend --out scene.npz",
         "scene.blend",
     )
@@ -97,13 +92,11 @@ def export(options: argparse.Namespace) -> int:
     return 0
 
 
-def add_explain(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "explain",
+def add_explain(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         explain,
-        "show the maths of one pixel's ray: every step, in float32, float64 and exactly",
         "reftrace explain scene.blend --pixel 480 270 --out pixel.html",
         f"{SOURCES}, or a pixel.json that --reproducer wrote",
     )
@@ -113,6 +106,10 @@ def add_explain(commands: Commands) -> None:
 
 def explain(options: argparse.Namespace) -> int:
     """Derive, and print or write it."""
+    from ..explain import reproducer
+    from ..explain.candidates import LIMIT, gather_pixel
+    from ..report import pixel
+
     path = options.scene
     if path.suffix.lower() == ".json":
         found = reproducer.read(path)

@@ -9,26 +9,24 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from ..arguments import DONE_HELP, EXIT_CODES_HELP, Parser, check_options
+from ..arguments import check_options
 from ..images import MissingLibraryError
-
-Commands = Any  # what argparse's add_subparsers returns, which has no public name
+from ..parser import DONE_HELP, Parser
 
 
 def command(
-    commands: Commands,
-    name: str,
+    parser: Parser,
     run: Callable[[argparse.Namespace], int],
-    text: str,
     example: str,
     source: str | None = None,
     around: Callable[[argparse.Namespace], AbstractContextManager[Any]] = nullcontext,
-) -> Parser:
-    """Add a command, which checks its options first, and return its parser.
+    codes: str = DONE_HELP,
+) -> None:
+    """Let a command's parser run it, which checks its options first.
 
     `run` does the work, and returns the exit code; `around` gives what lasts as long as that does.
-    The text and the example are for its help. `source` says what its SCENE may be; without it, the
-    command takes none.
+    The example and the exit codes are for its help. `source` says what its SCENE may be; without
+    it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
@@ -36,17 +34,10 @@ def command(
         with around(options):
             return run(options)
 
-    codes = EXIT_CODES_HELP if name == "compare" else DONE_HELP
-    parser = commands.add_parser(
-        name,
-        help=text,
-        description=text[0].upper() + text[1:] + ".",
-        epilog=f"example:\n  {example}\n\n{codes}",
-    )
+    parser.epilog = f"example:\n  {example}\n\n{codes}"
     parser.set_defaults(run=checked)
     if source:
         parser.add_argument("scene", type=Path, metavar="SCENE", help=source)
-    return parser
 
 
 def write_study(directory: str, write: Callable[[], None]) -> None:

@@ -9,20 +9,19 @@ from pathlib import Path
 from ..arguments import settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
+from ..parser import Parser
 from ..report import folders
 from ..running import progress_bar
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
-from .parts import Commands, command, write_study
+from .parts import command, write_study
 
 
-def add_trade(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "trade",
+def add_trade(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         trade,
-        "measure what every method, precision, number of samples and size costs on a scene",
         "reftrace trade sample_scenes/suzanne.blend --out out/",
         SOURCES,
     )
@@ -50,13 +49,11 @@ def trade(options: argparse.Namespace) -> int:
     return 0
 
 
-def add_extremes(commands: Commands) -> None:
-    """Add the command."""
-    parser = command(
-        commands,
-        "extremes",
+def add_extremes(parser: Parser) -> None:
+    """Add the command's options."""
+    command(
+        parser,
         extremes,
-        "find where every method breaks: far away, tiny, edge-on, and so on",
         "reftrace extremes --out out/",
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")

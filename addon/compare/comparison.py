@@ -24,6 +24,7 @@ from .checks.background import Background
 from .identity import Identity
 from .methods import MethodRow, list_methods
 from .metrics import boundary, count_pixels, image_metrics
+from .picture import SizeError
 from .self_check import FaultRow, self_check, table
 
 SCHEMA = "reference_tracer.comparison/1"
@@ -38,10 +39,6 @@ _CAUSES = 0.8  # of what is left
 EXIT_CODES = {"agree": 0, "warnings": 1, "not comparable": 1, "cancelled": 1, "differences": 2}
 
 COMPARABLE = 0.5  # so much of a picture may be such that no fault would be found in it
-
-
-class SizeError(ValueError):
-    """The pictures differ in size."""
 
 
 @dataclass(eq=False)

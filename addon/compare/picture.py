@@ -23,6 +23,10 @@ Transform = Callable[[NDArray[np.float64]], NDArray[np.float64]]  # of straight 
 MAJORITY = 0.5  # the share of what a known curve changes that it must make agree
 
 
+class SizeError(ValueError):
+    """The pictures differ in size."""
+
+
 class Curve(NamedTuple):
     """A transform of colours with a name, and the share of pixels that it must account for."""
 

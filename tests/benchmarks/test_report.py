@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer import images
-from reference_tracer.arguments import AGREE, INPUT_ERROR, INTERRUPTED
 from reference_tracer.cli import main
+from reference_tracer.parser import AGREE, INPUT_ERROR, INTERRUPTED
 from reference_tracer.scene import SceneError
 from reference_tracer_benchmarks import report
 from reference_tracer_benchmarks import run as bench_run

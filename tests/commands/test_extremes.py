@@ -6,8 +6,8 @@ import json
 import sys
 
 import pytest
-from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
+from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.study import extremes
 
 pytestmark = pytest.mark.slow

@@ -8,9 +8,9 @@ from contextlib import suppress
 
 import pytest
 from reference_tracer import images, running
-from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.commands import files
+from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.tracer.progress import result_of
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from reference_tracer import cli
-from reference_tracer.arguments import INPUT_ERROR
+from reference_tracer.parser import INPUT_ERROR
 
 
 @pytest.fixture

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import argparse
 import json
+import subprocess
+import sys
 
 import pytest
 from reference_tracer import __version__
-from reference_tracer.arguments import INPUT_ERROR, settings_from
+from reference_tracer.arguments import settings_from
 from reference_tracer.cli import main
+from reference_tracer.parser import INPUT_ERROR
 from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.settings import Settings
@@ -140,3 +143,18 @@ def test_a_proven_method_takes_float64_whatever_is_stored():
         assert (found.method, found.precision) == (method, "float64")
         with pytest.raises(SceneError, match="float32"):
             settings_from(argparse.Namespace(method=method, precision="float32"), Settings())
+
+
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_what_is_short_imports_no_numpy(option):
+    """It is what one types first: 0.5 s, were all commands imported for it."""
+    code = f"""if True:
+        import sys
+        from reference_tracer import cli
+        try:
+            cli.main(['{option}'])
+        except SystemExit:
+            print(sorted({{'numpy', 'reference_tracer.arguments'}} & sys.modules.keys()))
+    """
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

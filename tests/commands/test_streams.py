@@ -14,8 +14,8 @@ from pathlib import Path
 
 import pytest
 from reference_tracer import images, running
-from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
+from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.render import render
 

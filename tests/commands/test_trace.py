@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
+from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.certified import certainty
 

@@ -7,8 +7,8 @@ import subprocess
 import sys
 
 import pytest
-from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
+from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.scene_files import save_scene
 
 pytestmark = pytest.mark.slow

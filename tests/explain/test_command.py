@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import pytest
 import trimesh
-from reference_tracer.arguments import AGREE, INPUT_ERROR
 from reference_tracer.cli import main
 from reference_tracer.explain import reproducer, writers
+from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.scene_files import save_scene
 
 SMALL = ["--width", "24", "--height", "16"]

@@ -11,8 +11,8 @@ import sys
 import time
 
 import pytest
-from reference_tracer.arguments import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
 from reference_tracer.cli import main
+from reference_tracer.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
 from reference_tracer.scene_files import save_scene
 from reference_tracer_grading.command import built_in
 
