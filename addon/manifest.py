@@ -32,7 +32,7 @@ class ObjectEntry:
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
     hidden: bool = False  # Blender does not draw it either, for the reason that is given
-    diagnosis: dict[str, Any] | None = None  # see scene_files.diagnose and merged
+    diagnosis: dict[str, Any] | None = None  # see diagnosis.py
 
 
 class Effect(Enum):

@@ -6,6 +6,7 @@ meshes from other files need no Blender.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -40,6 +41,8 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
         size = choice.width or default[0], choice.height or default[1]
         check_size(*size)  # before a large file is read
         camera = choice.placed(*size) if choice.eye else None
+        with _hidden("scipy", "networkx"):
+            import trimesh  # noqa: F401
         meshes = load_meshes(path, choice.up)
         try:
             return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
@@ -53,6 +56,21 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
         scene, manifest, settings = export_open_file(blender.context)
     print(*manifest.lines(), sep="\n")
     return scene, settings
+
+
+@contextmanager
+def _hidden(*libraries: str) -> Iterator[None]:
+    """Let an import do without libraries that it would take where they are.
+
+    trimesh's needs half a second for some of which nothing is asked here.
+    """
+    hidden = [name for name in libraries if name not in sys.modules]
+    sys.modules.update(dict.fromkeys(hidden))
+    try:
+        yield
+    finally:
+        for name in hidden:
+            del sys.modules[name]
 
 
 @contextmanager

@@ -9,8 +9,7 @@ import json
 import math
 import os
 import warnings
-from collections.abc import Generator, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
@@ -20,7 +19,6 @@ import numpy as np
 
 from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, UP, framing, shown_points
-from .manifest import Manifest
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
 from .tracer.memory import free_memory
 
@@ -33,55 +31,6 @@ _ARRAYS = {  # of a .npz, by what has them: their shapes
     "plane": {"point": "3", "normal": "3", "color": "4"},
 }
 _DENSEST = 1032  # deflate makes no more of a byte (zlib's technical details)
-
-
-def diagnose(mesh: Mesh) -> dict[str, Any]:
-    """Return trimesh's diagnosis of a mesh, for JSON.
-
-    Vertices at bit-identical positions count as one. A mesh is closed if every edge has two
-    triangles.
-    """
-    import trimesh
-
-    positions, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
-    faces = index.reshape(-1)[mesh.triangles]
-    whole = trimesh.Trimesh(positions.astype(np.float64), faces, process=False)
-    sorted_faces = np.sort(faces, axis=1)
-    return {
-        "closed": bool(whole.is_watertight),
-        "consistent_winding": bool(whole.is_winding_consistent),
-        "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
-        "duplicate_faces": len(faces) - len(trimesh.grouping.unique_rows(sorted_faces)[0]),
-    }
-
-
-def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manifest]:
-    """Return the manifest with a diagnosis of each object's meshes.
-
-    Yields 0 after each mesh: this is the first part of longer work.
-    """
-    diagnoses = []
-    for mesh in scene.meshes:
-        diagnoses.append(diagnose(mesh))
-        yield 0.0
-    own: dict[str, dict[int, None]] = {}
-    for instance in scene.instances:
-        own.setdefault(scene.objects[instance.object], {})[instance.mesh] = None
-    entries = tuple(
-        replace(e, diagnosis=merged([diagnoses[mesh] for mesh in own.get(e.name, ())]))
-        for e in manifest.objects
-    )
-    return replace(manifest, objects=entries)
-
-
-def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """Join the diagnoses of several meshes: closed if all are, and the sum of each count."""
-    if not diagnoses:
-        return None
-    return {
-        key: (all if isinstance(value, bool) else sum)(d[key] for d in diagnoses)
-        for key, value in diagnoses[0].items()
-    }
 
 
 def save_scene(path: str | Path, scene: Scene) -> None:

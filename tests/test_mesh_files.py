@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 import warnings
 from pathlib import Path
 
@@ -9,13 +11,9 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer import opening
+from reference_tracer.diagnosis import diagnose
 from reference_tracer.scene import Mesh, SceneError
-from reference_tracer.scene_files import (
-    diagnose,
-    load_meshes,
-    load_scene,
-    scene_of_meshes,
-)
+from reference_tracer.scene_files import load_meshes, load_scene, scene_of_meshes
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.vector import transform_points
 
@@ -223,6 +221,20 @@ def test_the_picture_of_a_mesh_is_nine_tenths_full(shape, size, make):
     assert 0 < x[0] and x[-1] < size[0] - 1 and 0 < y[0] and y[-1] < size[1] - 1
 
 
+def by_trimesh(mesh):
+    """Return trimesh's diagnosis."""
+    positions, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    faces = index.reshape(-1)[mesh.triangles]
+    whole = trimesh.Trimesh(positions.astype(np.float64), faces, process=False)
+    with np.errstate(all="ignore"):
+        return {
+            "closed": bool(whole.is_watertight),
+            "consistent_winding": bool(whole.is_winding_consistent),
+            "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
+            "duplicate_faces": len(faces) - len(np.unique(np.sort(faces, axis=1), axis=0)),
+        }
+
+
 class TestDiagnose:
     def of(self, shape, **changes):
         whole = {"vertices": np.array(shape.vertices), "triangles": np.array(shape.faces)} | changes
@@ -263,7 +275,23 @@ class TestDiagnose:
         assert (found["degenerate_faces"], found["duplicate_faces"]) == (1, 3)
 
     def test_nothing(self):
-        assert diagnose(Mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))["duplicate_faces"] == 0
+        nothing = Mesh(np.zeros((0, 3)), np.zeros((0, 3), int))
+        assert diagnose(nothing) == by_trimesh(nothing)
+
+    @pytest.mark.filterwarnings("error")
+    @pytest.mark.parametrize("scale", [1e-310, 3e-9, 1e-8, 1.0, 1e150, 1e307])
+    def test_it_is_what_trimesh_says(self, scale, rng):
+        """Of tetrahedra with what spoils them: points split, turned and doubled faces, loops."""
+        tetrahedron, seen = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)]), set()
+        for _ in range(150):
+            points = rng.integers(-1, 2, (8, 3)) * scale
+            faces = tetrahedron[rng.permutation(4)[: rng.integers(1, 5)]]
+            faces = np.concatenate((faces, 7 - faces, rng.integers(0, 8, (rng.integers(3), 3))))
+            mesh = Mesh(points, faces[:, ::-1] if rng.random() < 0.5 else faces)
+            found = diagnose(mesh)
+            assert found == by_trimesh(mesh)
+            seen.add(tuple(map(bool, found.values())))
+        assert len(seen) > 6 if scale == 1 else len(seen) > 1
 
 
 def test_a_mesh_that_only_we_refuse_is_named(tmp_path):
@@ -303,3 +331,34 @@ def test_a_part_of_a_pixel(size, word):
     with pytest.raises(SceneError, match=rf"{word}; it must be an integer"):
         scene_of_meshes([(box, np.eye(4))], None, *size)
     assert scene_of_meshes([(box, np.eye(4))], None, np.int64(6), 4).camera.width == 6
+
+
+def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
+    """It takes longer than all else at the start of `reftrace trace`."""
+    several = trimesh.Scene()
+    for k in range(2):
+        at = trimesh.transformations.translation_matrix((3 * k, 0, 1))
+        several.add_geometry(trimesh.creation.box(), transform=at)
+    several.export(tmp_path / "a.glb")
+    trimesh.creation.icosphere(1).export(tmp_path / "b.stl")
+    points = np.round(np.column_stack((*np.c_[[np.cos(v := np.arange(6)), np.sin(v)]], v)), 3)
+    write_ply(tmp_path / "c.ply", points, {"face": [(0, 1, 2, 3), (2, 3, 4, 5)]}, BINARY[0])
+    text = "".join(f"v {x} {y} {z}\n" for x, y, z in points) + "f 1 2 3 4 5 6\nf 1 2 3 4\n"
+    (tmp_path / "d.obj").write_text(text)
+    code = """if True:
+        import sys
+        from pathlib import Path
+        from reference_tracer import opening
+        for name in sys.argv[1:]:
+            for mesh in opening.load(Path(name))[0].meshes:
+                print(mesh.vertices[mesh.triangles].tolist())
+        print([n for n in sys.modules if n.split(".")[0] in ("scipy", "networkx")])
+        import scipy
+    """
+    files = sorted(map(str, tmp_path.iterdir()))
+    done = subprocess.run(
+        [sys.executable, "-c", code, *files], capture_output=True, text=True, check=True
+    )
+    *found, imported = done.stdout.splitlines()
+    expected = [m.vertices[m.triangles].tolist() for path in files for m, _ in load_meshes(path)]
+    assert found == list(map(str, expected)) and len(found) == 5 and imported == "[]"

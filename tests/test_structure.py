@@ -23,6 +23,7 @@ FLOORS = {
     "framing": 1,
     "scene_files": 1,
     "parser": 0,
+    "diagnosis": 1,
     "methods": 1,
     "compare": 2,
     "study": 2,

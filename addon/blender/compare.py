@@ -17,12 +17,12 @@ from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
 from ..compare.picture import Picture, Source
+from ..diagnosis import diagnosed
 from ..manifest import Manifest
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
 from ..report import folders, page
 from ..scene import Scene, SceneError
-from ..scene_files import diagnosed
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings

@@ -16,6 +16,7 @@ from ..camera_options import add_camera, choice_from
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
+from ..diagnosis import diagnosed
 from ..manifest import Manifest, ObjectEntry
 from ..opening import load, open_blend
 from ..parser import EXIT_CODES_HELP, Parser
@@ -23,7 +24,6 @@ from ..report import comparison as comparison_report
 from ..report import folders, page
 from ..running import progress_bar
 from ..scene import Camera, Scene, SceneError
-from ..scene_files import diagnosed
 from ..tracer.progress import Work, result_of
 from .parts import command
 
