@@ -29,7 +29,7 @@ from .temporary import is_temporary, values_kept
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message
 SHOW_EVERY = 0.5  # seconds, at least: showing rows takes at most the tenth part of the time
-_IN_BLENDER = tuple(p for p in PASSES if p.label)
+_COMBINED = PASSES[0]
 
 Certified = tuple[Scene, Manifest, CameraCertificate]
 _captured: list[Certified] | None = None
@@ -45,7 +45,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def update_render_passes(self, scene: Any, renderlayer: Any) -> None:
         """Declare the passes to the compositor."""
-        for p in _IN_BLENDER:
+        for p in _enabled(renderlayer):
             self.register_pass(scene, renderlayer, p.label, len(p.letters), p.letters, p.kind)
 
     def render(self, depsgraph: Any) -> None:
@@ -71,6 +71,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         settings = depsgraph.scene.reference_tracer.settings()
         frame = Frame.empty(scene)
         layer, rows, shown = depsgraph.view_layer.name, frame.shape[0], 0
+        passes = _enabled(depsgraph.view_layer)
         for share in steps(scene, settings, frame):
             if share < 1 and self.test_break():
                 frame.cancelled = True
@@ -82,11 +83,12 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
                 self.update_stats("", f"Tracing {int(100 * share)} %{left}")
                 done = int(frame.rows_done.sum())  # they are done from the lowest upwards
                 if done > shown:
-                    self._show(frame, layer, _IN_BLENDER[:1], slice(shown, done))
+                    self._show(frame, layer, passes[:1], slice(shown, done))
                     shown = done
                 ended = time.monotonic()
                 due = ended + max(SHOW_EVERY, 9 * (ended - now))
-        self._show(frame, layer, _IN_BLENDER, slice(0, rows))
+        # Blender takes over all passes of a row at once: those that are added need all rows again.
+        self._show(frame, layer, passes, slice(0 if len(passes) > 1 else shown, rows))
         if frame.cancelled:
             done = int(frame.rows_done.sum())
             _say(f"Cancelled: {done} of {rows} rows are traced, the others are empty")
@@ -108,6 +110,11 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
             values = np.ascontiguousarray(p.shown(getattr(frame, p.name)[rows]), dtype=np.float32)
             have[p.label].rect.foreach_set(values.ravel())
         self.end_result(result)
+
+
+def _enabled(layer: Any) -> tuple[Pass, ...]:
+    """Return the passes of a view layer: the picture first, then what is chosen."""
+    return _COMBINED, *(p for p in PASSES if p.label in layer.reference_tracer.passes)
 
 
 def _say(text: str) -> None:

@@ -209,11 +209,26 @@ class OBJECT_PT_reference_tracer(bpy.types.Panel):
         self.layout.prop(context.object.reference_tracer, "infinite_plane")
 
 
+class VIEWLAYER_PT_reference_tracer(bpy.types.Panel):
+    bl_label = "Passes"
+    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "view_layer"
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Show for this engine."""
+        return context.engine == ENGINE
+
+    def draw(self, context: Any) -> None:
+        """Draw what is rendered beside the picture."""
+        self.layout.column().prop(context.view_layer.reference_tracer, "passes")
+
+
 CLASSES = (
     *both(_Main),
     *both(_Result, "_result"),
     *both(_Export, "_export"),
     OBJECT_PT_reference_tracer,
+    VIEWLAYER_PT_reference_tracer,
 )
 _register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 

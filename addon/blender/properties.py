@@ -11,6 +11,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 from ..methods import Method
 from ..study.scenarios.sweeps import SCENARIOS
 from ..tracer.coloring import Color
+from ..tracer.frame import PASSES
 from ..tracer.settings import Precision, Settings
 from . import judges
 
@@ -35,6 +36,8 @@ SHADINGS = (
     ),
     ("AS_IS", "As It Is", "Blender draws with the shading that the scene has", 1),
 )
+# Its number is one bit of what a .blend stores: a new pass takes the last place among PASSES.
+PASS_ITEMS = tuple((p.label, p.label, "", 2**k) for k, p in enumerate(PASSES) if p.label)[1:]
 SWEEPS = tuple((s.name, s.title, s.explanation) for s in SCENARIOS)
 
 
@@ -90,6 +93,19 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         return Method(self.method).is_plain
 
 
+class ReferenceTracerLayer(bpy.types.PropertyGroup):
+    """What is rendered of a view layer."""
+
+    passes: EnumProperty(  # type: ignore[valid-type]
+        name="Passes",
+        items=PASS_ITEMS,
+        options={"ENUM_FLAG"},
+        default={label for label, *_ in PASS_ITEMS},
+        update=lambda self, _: [v.update_render_passes() for v in self.id_data.view_layers],
+        description="What the compositor and files get beside the picture; fewer take less time",
+    )
+
+
 class ReferenceTracerObject(bpy.types.PropertyGroup):
     """What an object is to the tracer."""
 
@@ -116,6 +132,7 @@ class ReferenceTracerWindow(bpy.types.PropertyGroup):
 # Where each is: the type of Blender's, and the name there.
 POINTERS = (
     (bpy.types.Scene, "reference_tracer", ReferenceTracerScene),
+    (bpy.types.ViewLayer, "reference_tracer", ReferenceTracerLayer),
     (bpy.types.Object, "reference_tracer", ReferenceTracerObject),
     (bpy.types.WindowManager, "reference_tracer", ReferenceTracerWindow),
 )

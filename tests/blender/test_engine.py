@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender.engine import ENGINE, ReferenceTracerEngine
 from reference_tracer.tracer import render as rendering
-from reference_tracer.tracer.frame import NO_HIT_DEPTH, PASSES
+from reference_tracer.tracer.frame import NO_HIT_DEPTH, PASSES, Frame
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -172,6 +172,30 @@ def test_the_passes_are_declared_to_the_compositor(solids, build):
     assert shown - {"Image", "Alpha"} == LABELS - {"Combined"}
 
 
+def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(
+    solids, build, rendered, monkeypatch
+):
+    """Each layer chooses for itself; a file that stores no choice has them all."""
+    frame = rendered()["ViewLayer"]
+    chosen, other = solids.view_layers[0], solids.view_layers.new("Other")
+    _, node = build.compositor()
+    chosen.reference_tracer.passes = {"Depth", "Certainty"}
+    shown = {output.name for output in node.outputs if output.enabled}
+    assert shown - {"Image", "Alpha"} == {"Depth", "Certainty"}
+    layers = rendered()
+    assert set(layers["Other"]) == LABELS and set(layers) == {"ViewLayer", "Other"}
+    assert set(layers["ViewLayer"]) == {"Combined", "Depth", "Certainty"}
+    for name, values in layers["ViewLayer"].items():
+        np.testing.assert_array_equal(values, frame[name])
+    solids.view_layers.remove(other)
+    chosen.reference_tracer.passes = set()
+    for name in ("position", "normal", "object_index"):
+        monkeypatch.setattr(Frame, name, property(lambda _: pytest.fail("nobody asks for it")))
+    (combined,) = (alone := rendered()["ViewLayer"]).values()
+    assert set(alone) == {"Combined"}
+    np.testing.assert_array_equal(combined, frame["Combined"])
+
+
 @pytest.mark.parametrize("name", ["Triangle Index", "Object Index", "Depth", "Normal"])
 def test_a_pass_goes_through_the_compositor(name, solids, build, export, tmp_path):
     solids.view_layers[0].update_render_passes()
@@ -228,19 +252,25 @@ def handed_over(monkeypatch):
     return tiles
 
 
-def test_no_row_is_shown_twice_before_the_end(solids, rendered, export, handed_over):
+@pytest.mark.parametrize("chosen", [LABELS - {"Combined"}, set()], ids=["all", "none"])
+def test_no_row_is_shown_twice_before_the_end(chosen, solids, rendered, export, handed_over):
     """However long Blender takes to show them, it is a tenth of the time; and all comes through."""
+    solids.view_layers[0].reference_tracer.passes = chosen
     passes = rendered()["ViewLayer"]
     *partial, (first, rows, ended) = handed_over
-    assert (first, rows) == (0, 54)
     assert len(partial) > 3
     known = 0
-    for first, rows, _ in partial:
-        assert first == known and rows > 0
-        known = first + rows
-    assert known <= 54
+    for start, count, _ in partial:
+        assert start == known and count > 0
+        known = start + count
+    # With other passes the picture comes once more, as Blender takes all of a row at once.
+    assert (first, rows) == ((0, 54) if chosen else (known, 54 - known))
+    assert known < 54
     assert 30 * known / 54 <= ended / 10
-    assert_same(passes, render(export.render()[0]))
+    frame = render(export.render()[0])
+    if chosen:
+        assert_same(passes, frame)
+    np.testing.assert_array_equal(passes["Combined"], frame.color)
 
 
 class CancelledEngine:
