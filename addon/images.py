@@ -21,6 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .runs import by_runs
+
 _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
 _UP = 2  # PNG's filter: the difference from the row above
 _RGBA, _PALETTE = 6, 3  # PNG's colour types
@@ -37,8 +39,12 @@ def to_display(color: NDArray[np.floating]) -> NDArray[np.uint8]:
     The transfer function is sRGB's (IEC 61966-2-1), Blender's view transform 'Standard'; values are
     cut off at 1, and what is not a number is black.
     """
-    color = np.nan_to_num(np.asarray(color, dtype=np.float64), posinf=1.0, neginf=0.0)
-    return np.rint(255 * encoded(color)).astype(np.uint8)
+
+    def shown(color: NDArray) -> NDArray[np.uint8]:
+        color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
+        return np.rint(255 * encoded(color)).astype(np.uint8)
+
+    return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
 
 
 def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:

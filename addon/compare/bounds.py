@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..images import encoded
+from ..runs import run_starts
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
@@ -73,17 +74,19 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
     eye = scene.camera.origin
     far = np.abs(positions - eye).sum(axis=1)
     error = _MODEL * (np.abs(eye).sum() + far) + _VIEW * (2 * np.abs(eye).sum() + far)
+    names = np.stack((hits.instance, hits.triangle))
     for mesh, rows in by_mesh(scene, hits.instance):
-        keys = np.stack((hits.instance[rows], hits.triangle[rows]))
-        # Pixels outnumber triangles, mostly: each triangle's corners are looked at once.
-        (instance, triangle), which = np.unique(keys, axis=1, return_inverse=True)
+        # Pixels outnumber triangles, mostly: the corners are looked at once for a run of pixels.
+        first = run_starts(*names[:, rows])
+        instance, triangle = names[:, rows[first]]
+        length = np.diff(first, append=len(rows))
         matrices, error[rows] = scene.instance_matrices[..., instance], 0.0
         for s, corner in zip(hits.s[:, rows], mesh.triangles[triangle].T, strict=True):
             v = mesh.vertices[corner].T
             p = np.abs(transform_points(matrices, v)).sum(axis=0)
             model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
             own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
-            error[rows] += s * own[which.reshape(-1)]
+            error[rows] += s * np.repeat(own, length)
     return U32 * error
 
 

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..runs import by_runs
+
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
@@ -71,13 +73,18 @@ def decode(picture: NDArray[np.floating], count: int) -> NDArray[np.int32]:
     Linear RGBA, premultiplied: NOTHING where it is transparent, UNKNOWN where it is none of the
     first `count` colours.
     """
+    flat = picture.reshape(-1, picture.shape[-1])
+    return by_runs(lambda some: _decode(some, count), flat).reshape(picture.shape[:-1])
+
+
+def _decode(colors: NDArray[np.floating], count: int) -> NDArray[np.int32]:
     with np.errstate(invalid="ignore"):
-        scaled = np.nan_to_num(picture[..., :3].astype(np.float64), nan=0.5) * (LEVELS - 1)
+        scaled = np.nan_to_num(colors[..., :3].astype(np.float64), nan=0.5) * (LEVELS - 1)
         digits = np.rint(np.clip(scaled, 0, LEVELS - 1)).astype(np.int32)
         sure = (np.abs(scaled - digits) <= _OFF).all(axis=-1)
         red, green, blue = np.moveaxis(digits, -1, 0)
-        sure &= ((red + green + blue) % 2 == 0) & (np.abs(picture[..., 3] - 1) <= 1 / 255)
+        sure &= ((red + green + blue) % 2 == 0) & (np.abs(colors[..., 3] - 1) <= 1 / 255)
         number = (red * LEVELS + green) * (LEVELS // 2) + blue // 2
         found = np.where(sure & (number < count), number, UNKNOWN)
         # A window lets a little of the neighbour through beside an edge.
-        return np.where(picture[..., 3] <= 1 / 255, NOTHING, found).astype(np.int32)
+        return np.where(colors[..., 3] <= 1 / 255, NOTHING, found).astype(np.int32)

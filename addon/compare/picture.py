@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..runs import by_runs
 from ..scene import Scene
 from ..tracer import shading
 from ..tracer.nearest import Hits
@@ -103,23 +104,31 @@ class Picture:
         self, colors: NDArray, interpolated: NDArray[np.bool_] | bool = False
     ) -> NDArray[np.bool_]:
         """Return where the colour is another than (..., 4) traced ones."""
-        traced, own = self._sides(colors)
-        return differing(traced, own, interpolated, self.levels, self.sums, self.dither)
+        shape, count = colors.shape[:-1], colors.shape[-1]
+        flat = colors.reshape(-1, count), self.color.reshape(-1, self.color.shape[-1])
+
+        def differ(traced: NDArray, own: NDArray, between: NDArray) -> NDArray[np.bool_]:
+            return differing(
+                *self._sides(traced, own), between, self.levels, self.sums, self.dither
+            )
+
+        between = np.broadcast_to(interpolated, shape).ravel()
+        return by_runs(differ, *flat, between).reshape(shape)
 
     def difference(self, colors: NDArray) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return how far (..., 4) traced colours are from these, and how far they may be, (...).
 
         Of the channel that is nearest to being too far.
         """
-        traced, own = self._sides(colors)
+        traced, own = self._sides(colors, self.color)
         apart, allowed = difference(traced, own, False, self.levels, self.sums, self.dither)
         worst = np.argmax(np.nan_to_num(apart - allowed), axis=-1)[..., None]
         return tuple(np.take_along_axis(v, worst, -1)[..., 0] for v in (apart, allowed))
 
-    def _sides(self, colors: NDArray) -> tuple[NDArray, NDArray]:
-        """Return traced colours (..., 4) and these, in the channels that are compared."""
+    def _sides(self, colors: NDArray, own: NDArray) -> tuple[NDArray, NDArray]:
+        """Return traced colours (..., 4) and those of pixels, in the channels that are compared."""
         traced = self.made_of(colors)
-        return traced, self.color[..., : traced.shape[-1]]
+        return traced, own[..., : traced.shape[-1]]
 
     def made_of(self, colors: NDArray) -> NDArray:
         """Return traced colours (..., 4) as this picture has them, (..., 3) if it is opaque."""

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...methods import Method
+from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
 from ...tracer.camera import Rays, camera_rays, film_positions
@@ -61,8 +62,9 @@ def seen(frame: Frame) -> SeenSurfaces:
     """Return the surfaces that a frame sees, each once."""
     instance, triangle = (a.astype(np.int64) for a in (frame.instance_index, frame.triangle_index))
     names = np.where(instance == NOTHING, -1, (instance << 32) | (triangle + 1))
-    unique, number = np.unique(np.append(names.ravel(), -1), return_inverse=True)
-    number = number.ravel()[:-1].reshape(names.shape)
+    first = run_starts(names.ravel())
+    unique, number = np.unique(np.append(names.flat[first], -1), return_inverse=True)
+    number = np.repeat(number[:-1], np.diff(first, append=names.size)).reshape(names.shape)
     return SeenSurfaces(
         number.astype(np.int32),
         (unique[1:] >> 32).astype(np.int32),

@@ -1,0 +1,38 @@
+"""Runs of equal pixels: what follows from a pixel alone is computed once for each.
+
+A picture in constant colours has some thousand runs, and millions of pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def run_starts(*values: NDArray) -> NDArray[np.intp]:
+    """Return where the runs of n items begin, (k,): in each, all of the values have the same bits.
+
+    Each of `values` is (n, ...).
+    """
+    count = len(values[0])
+    new = np.zeros(count, bool)
+    new[:1] = True
+    for value in values if count > 1 else ():
+        rows = np.ascontiguousarray(value).reshape(count, -1)
+        size = next(s for s in (8, 4, 2, 1) if rows[0].nbytes % s == 0)
+        for column in rows.view(f"u{size}").T:
+            new[1:] |= column[1:] != column[:-1]
+    return np.flatnonzero(new)
+
+
+def by_runs(of: Callable[..., NDArray], *values: NDArray) -> NDArray:
+    """Return what a function makes of n items, (n, ...), which it makes of each by itself.
+
+    `values` are its arguments, (n, ...) each; the function is asked about the first of each run.
+    """
+    first, count = run_starts(*values), len(values[0])
+    if 2 * len(first) > count:
+        return of(*values)
+    return np.repeat(of(*(v[first] for v in values)), np.diff(first, append=count), axis=0)
