@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +20,8 @@ from .folders import replacing, write_json
 PICTURES = "traced", "blender", "difference"
 ARRAYS, JSON = "frame.npz", "comparison.json"
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
+# Passes whose last digits are noise: nothing but runs of one byte is found in them, or sought.
+_NOISE = "position", "barycentrics"
 _DIM = 0.25  # of the traced picture below the causes
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
@@ -39,18 +43,22 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
     with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
-        np.savez_compressed(
-            new / ARRAYS,
-            **comparison.frame.passes(),
-            blender=comparison.picture,
-            cause=causes.cause,
-            cause_figure=causes.figure,
-            cause_allowed=causes.allowed,
-            blind=causes.blind,
-            **whose,
-        )
+        arrays = comparison.frame.passes() | whose
+        arrays |= {"blender": comparison.picture, "cause": causes.cause, "blind": causes.blind}
+        arrays |= {"cause_figure": causes.figure, "cause_allowed": causes.allowed}
+        _write_arrays(new / ARRAYS, arrays)
         page.write(new / page.NAME, comparison, extras)
         write_json(new / JSON, comparison.to_dict())
+
+
+def _write_arrays(path: Path, arrays: dict[str, NDArray]) -> None:
+    """Write what `numpy.savez_compressed` does, a few per cent larger in a third of the time."""
+    with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
+        for name, values in arrays.items():
+            with stored.open(f"{name}.npy", "w", force_zip64=True) as file:
+                if name in _NOISE:  # zipfile itself knows no strategy: without, it is just slower
+                    file._compressor = zlib.compressobj(1, wbits=-15, strategy=zlib.Z_RLE)
+                np.lib.format.write_array(file, values, allow_pickle=False)
 
 
 def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
