@@ -18,7 +18,7 @@ from .bounds import largest_within
 from .cause import Cause, Causes
 from .identity import Identity
 
-_ROWS = 32  # looked at together, so that a step of the work is short
+_ROWS, _COLUMNS = 32, 64  # looked at together, so that a step is short
 EXAMPLES = 10  # pixels named of each cause
 
 
@@ -50,12 +50,17 @@ def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
     _same_shape(first, second)
     shortest = min(first.shape[:2])
     size = min(size, shortest - (1 - shortest % 2))
-    windows, total = first.shape[0] - size + 1, 0.0
-    for start in range(0, windows, _ROWS):
-        rows = slice(start, min(start + _ROWS, windows) + size - 1)
-        total += _similarity(first[rows], second[rows], data_range, size).sum()
-        yield start / windows
-    return float(total / (windows * (first.shape[1] - size + 1) * first.shape[2]))
+    height, width, total = first.shape[0] - size + 1, first.shape[1] - size + 1, 0.0
+    for y in range(0, height, _ROWS):
+        for x in range(0, width, _COLUMNS):
+            rows, columns = min(_ROWS, height - y), min(_COLUMNS, width - x)
+            part = np.s_[y : y + rows + size - 1, x : x + columns + size - 1]
+            sides = first[part], second[part]
+            if all((side == side[0, 0]).all() for side in sides):  # each window is as the others
+                sides = tuple(side[:size, :size] for side in sides)
+            total += rows * columns * _similarity(*sides, data_range, size).mean(axis=(0, 1)).sum()
+        yield y / height
+    return float(total / (height * width * first.shape[2]))
 
 
 def _similarity(first: NDArray, second: NDArray, data_range: float, size: int) -> NDArray:
@@ -91,7 +96,8 @@ def image_metrics(
     height, squares, largest = len(a), 0.0, {"value": -1.0}
     for start in range(0, height, _ROWS):
         rows = slice(start, min(start + _ROWS, height))
-        a[rows], b[rows] = np.nan_to_num(traced[rows]), np.nan_to_num(picture[rows])
+        for made, of in ((a, traced), (b, picture)):
+            made[rows] = of[rows] if np.isfinite(of[rows]).all() else np.nan_to_num(of[rows])
         squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
         found = largest_difference(a[rows], b[rows])
         if found["value"] > largest["value"]:
@@ -104,14 +110,17 @@ def image_metrics(
 
 
 def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Return the mean over every size x size window, by running sums along each axis."""
+    """Return the mean over every size x size window; sums of 1, 2, 4... make up those of `size`."""
     for axis in (0, 1):
-        sums = np.cumsum(picture, axis=axis)
-        sums = np.concatenate((np.zeros_like(sums.take([0], axis)), sums), axis=axis)
-        count = picture.shape[axis]
-        picture = (
-            sums.take(range(size, count + 1), axis) - sums.take(range(count + 1 - size), axis)
-        ) / size
+        picture = np.moveaxis(picture, axis, 0)
+        count, sums, done, total = len(picture) - size + 1, picture, 0, 0.0
+        for bit in range(size.bit_length()):
+            step = 1 << bit
+            if size & step:
+                total = total + sums[done : done + count]
+                done += step
+            sums = sums[:-step] + sums[step:]
+        picture = np.moveaxis(total / size, 0, axis)
     return picture
 
 
