@@ -159,10 +159,11 @@ def candidates(
 ) -> Iterator[tuple[float, Pairs | None]]:
     """Yield the share of the work that is done, and the next pairs of a tile (None: none yet).
 
-    They index the tile's n pixels row by row from the lowest. Of those only the `wanted` (n,) are
-    proposed.
+    They index the tile's n pixels row by row from the lowest. If some are `wanted` (n,), they index
+    these, in that order.
     """
     limit = max(1, min(PAIRS, culled.memory // (4 * _BYTES_PER_PAIR)))
+    before = None if wanted is None else np.append(0, np.cumsum(wanted, dtype=np.int32))
     work = [
         b
         for b, (y0, y1) in zip(culled.batches, culled.rows, strict=True)
@@ -174,19 +175,20 @@ def candidates(
         inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
         triangles = triangles.take(inside)
         yield done / len(work), None
-        for pixel, row in pairs(bounds[:, inside], tile, limit):
-            if wanted is not None:
-                keep = np.flatnonzero(wanted[pixel])
-                pixel, row = pixel[keep], row[keep]
+        for pixel, row in pairs(bounds[:, inside], tile, limit, before):
             yield done / len(work), Pairs(pixel, row, triangles)
 
 
 def pairs(
-    bounds: NDArray[np.int32], tile: Region, limit: int
+    bounds: NDArray[np.int32],
+    tile: Region,
+    limit: int,
+    before: NDArray[np.integer] | None = None,
 ) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
     """Spell out boxes, within the tile, as pairs, at most about `limit` at a time.
 
-    Yields pixels, as they are numbered in the tile, and columns of `bounds`, (p,) each.
+    Yields pixels, as they are numbered in the tile, and columns of `bounds`, (p,) each. With
+    `before` (n + 1,), how many pixels count before each and in all, only those are numbered.
     """
     x0, x1, y0, y1 = bounds
     some = np.flatnonzero((x0 < x1) & (y0 < y1))
@@ -197,6 +199,9 @@ def pairs(
     row += y0[triangle]
     start = (row - tile.y0) * tile.width + (x0[triangle] - tile.x0)
     length = (x1 - x0)[triangle]
+    if before is not None:
+        start, end = before[start], before[start + length]
+        length = end - start
     for first, last in groups(length, limit):
         run, step = spread(np.arange(first, last), length[first:last])
         yield start[run] + step, triangle[run]

@@ -13,10 +13,10 @@ import numpy as np
 from ...scene import Camera
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, plan
-from ...tracer.progress import Work
+from ...tracer.progress import Work, scaled
 from ..bounds import U32, depth_resolution
 from ..cause import Cause
-from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts
+from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
 
 # The clip range is widened by so many times what it may be off for a point right before the camera.
 WIDENED = 64
@@ -27,7 +27,9 @@ def check(pixels: OpenPixels) -> Work[None]:
     if pixels.open.any():
         scene = pixels.case.scene
         wide = replace(scene, camera=_widened(scene.camera))
-        yield from by_parts(pixels, (yield from plan(wide, SOUND, reach=0.0)), _clipped)
+        made = yield from plan(wide, SOUND, reach=0.0)
+        asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.5)
+        yield from scaled(by_parts(pixels, made, _clipped, asked), 0.5, 0.5)
 
 
 def _clipped(part: Part) -> Work[None]:

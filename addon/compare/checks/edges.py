@@ -15,12 +15,12 @@ from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, plan
-from ...tracer.progress import Work
+from ...tracer.progress import Work, scaled
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from ..picture import Picture
 from .coverage import coverage
-from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts
+from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
 
 # Where in the band the tracer is asked again, in widths of it: eight directions on three rings,
 # and eight between them on the rim.
@@ -35,7 +35,9 @@ def check(pixels: OpenPixels) -> Work[None]:
     """Settle open pixels at edges and depth ties, a part of the picture at a time."""
     if pixels.open.any():
         reach = float(pixels.band[pixels.open].max())
-        yield from by_parts(pixels, (yield from plan(pixels.case.scene, SOUND, reach)), _look)
+        made = yield from plan(pixels.case.scene, SOUND, reach)
+        asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.2)
+        yield from scaled(by_parts(pixels, made, _look, asked), 0.2, 0.8)
 
 
 @dataclass(eq=False)

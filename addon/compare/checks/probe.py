@@ -7,7 +7,7 @@ so for a part of the picture at a time, in steps of a bounded number of pixels a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -21,9 +21,9 @@ from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
 from ...tracer.progress import Work, scaled
-from ...tracer.render import tiles
 from ...tracer.settings import Precision, Settings
-from ...tracer.shading import positions
+from ...tracer.shading import interpolated, positions
+from ...tracer.vector import groups
 from ..bounds import depth_resolution, view_error
 from ..case import Case
 from ..cause import Cause, Causes
@@ -95,14 +95,12 @@ class Probe:
 
         Yields the share of the work done; returns the probe.
         """
-        number = np.cumsum(wanted) - 1
         chunks = []
         for share, some in candidates(plan, tile, wanted):
             if some is not None and len(some.pixel):
-                chunks.append(replace(some, pixel=number[some.pixel]))
+                chunks.append(some)
             yield share
-        px, py = film_positions(tile, 0.0, 0.0)
-        return cls(plan, px[wanted], py[wanted], chunks)
+        return cls(plan, *film_positions(tile, pixel=np.flatnonzero(wanted)), chunks)
 
     def points(self, hits: Hits) -> NDArray[np.float64]:
         """Return where the rays through the n centres end, (n, 3) world space."""
@@ -152,7 +150,7 @@ class Part:
     @property
     def settled(self) -> bool:
         """Whether no pixel is left."""
-        return not self.pixels.open.any()
+        return not self.pixels.open[self.wanted].any()
 
     def settle(
         self, where: NDArray[np.bool_], cause: Cause, figure: ArrayLike, allowed: ArrayLike
@@ -173,28 +171,68 @@ class Part:
         return out
 
 
-def by_parts(pixels: OpenPixels, plan: Plan, look: Callable[[Part], Work[None]]) -> Work[None]:
+def by_parts(
+    pixels: OpenPixels,
+    plan: Plan,
+    look: Callable[[Part], Work[None]],
+    asked: NDArray[np.bool_] | bool = True,
+) -> Work[None]:
     """Have `look` settle the open pixels of a whole picture, a part of it at a time.
 
-    The scene of `plan` is what is asked: it may have another clip range than the case's.
+    The scene of `plan` is what is asked: it may have another clip range than the case's. Only the
+    pixels `asked` (h, w) are looked at, if given.
     """
-    parts, first = list(parts_of(plan.scene, pixels.open)), plan.scene.camera.region.y0
-    for number, tile in enumerate(parts):
-        own = pixels.rows(slice(tile.y0 - first, tile.y1 - first))
-        wanted = own.open.copy()
+    parts = parts_of(plan.scene, pixels.open & asked, FEW)
+    for number, (tile, rows, wanted) in enumerate(parts):
         done, size = number / len(parts), 1 / len(parts)
         probe = yield from scaled(Probe.of(plan, tile, wanted.ravel()), done, 0.5 * size)
-        for _ in look(Part(own, wanted, probe)):
+        for _ in look(Part(pixels.rows(rows), wanted, probe)):
             yield done + 0.5 * size
 
 
-def parts_of(scene: Scene, open_: NDArray[np.bool_]) -> Iterator[Region]:
-    """Yield tiles that have open pixels, cut into lower ones where these are many."""
-    region = scene.camera.region
-    for tile in tiles(scene.camera):
-        many = int(open_[tile.y0 - region.y0 : tile.y1 - region.y0].sum())
-        rows = max(1, tile.height * FEW // max(many, FEW))
-        for y in range(tile.y0, tile.y1, rows):
-            part = Region(tile.x0, y, tile.x1, min(y + rows, tile.y1))
-            if open_[part.y0 - region.y0 : part.y1 - region.y0].any():
-                yield part
+def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[NDArray[np.bool_]]:
+    """Return which open pixels, (h, w), show the colour and the object of something near them.
+
+    What the others show no ray sees that passes within the plan's reach, at whatever depth.
+    """
+    scene, out = plan.scene, pixels.open.copy()
+    everywhere = (NOTHING, *range(len(scene.instances), len(scene.instances) + len(scene.planes)))
+    parts = parts_of(scene, out, BLOCK)
+    for number, (tile, rows, wanted) in enumerate(parts):
+        picture, count = pixels.picture.at(rows).at(wanted), int(wanted.sum())
+        seen = np.zeros((2, count), bool)
+        for instance in everywhere:
+            seen |= _shown(picture, scene, np.full(count, instance), np.full(count, NOTHING))
+        for share, some in candidates(plan, tile, wanted.ravel()):
+            yield (number + share) / len(parts)
+            if some is not None:
+                shown = _shown(picture.at(some.pixel), scene, some.instance, some.triangle)
+                for side, same in zip(seen, shown, strict=True):
+                    side[some.pixel[same]] = True
+        out[rows][wanted] = seen.all(axis=0)
+    return out
+
+
+def _shown(
+    picture: Picture, scene: Scene, instance: NDArray[np.integer], triangle: NDArray[np.integer]
+) -> NDArray[np.bool_]:
+    """Return where n pixels show the colour of a triangle, and its object, (2, n).
+
+    Between corners, a triangle may have any colour.
+    """
+    count = len(instance)
+    hits = Hits(np.zeros(count), instance, triangle, np.zeros((3, count)))
+    color = picture.same_color(scene, hits) | interpolated(scene, instance)
+    return np.stack((color, ~picture.other_object(instance)))
+
+
+def parts_of(
+    scene: Scene, open_: NDArray[np.bool_], most: int
+) -> list[tuple[Region, slice, NDArray[np.bool_]]]:
+    """Return parts of whole rows with about `most` open pixels, as tiles and rows, and these."""
+    r = scene.camera.region
+    return [
+        (Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), slice(y0, y1), open_[y0:y1].copy())
+        for y0, y1 in groups(open_.sum(axis=1), most)
+        if open_[y0:y1].any()
+    ]
