@@ -7,6 +7,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -283,6 +284,12 @@ class Scene:
             for s in shown:
                 if not 0 <= s.object < len(self.objects):
                     raise SceneError(f"An {what} names object {s.object} of {len(self.objects)}.")
+
+    def seen_by(self, camera: Camera) -> Scene:
+        """Return the same scene with another camera; what is known of it stays known."""
+        other = copy(self)
+        _store(other, "camera", camera)
+        return other
 
     @cached_property
     def instance_meshes(self) -> NDArray[np.intp]:

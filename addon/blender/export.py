@@ -8,7 +8,7 @@ counted, and left out. Nothing of bpy is held in what is returned.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -21,7 +21,7 @@ from .colors import background
 from .planes import outside
 from .temporary import user_scene
 from .unmodelled import of_scene
-from .visible import Met, Seen, Shown, export_mesh, visible
+from .visible import Seen, Shown, export_mesh, plain_mesh, read_vertices, visible
 
 _NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
 
@@ -37,17 +37,33 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
         If the scene has no camera that can be traced.
     """
     scene = depsgraph.scene_eval
-    camera = export_camera(scene)
-    seen, shown, met = visible(depsgraph)
-    matrices = np.array([s.matrix for s in shown]).reshape(-1, 4, 4)
-    unseen = _outside(camera, shown, matrices, met)
+    camera, shading = export_camera(scene), scene.display.shading
+    seen, shown, met = visible(depsgraph, shading, _meet)
+    unseen = _outside(camera, shown, met)
     meshes = _read(depsgraph, shown, unseen, met)
+    parts, owners = assemble(seen, shown, unseen, meshes)
+    manifest = _manifest(depsgraph, camera.name, seen, meshes)
+    whole = Scene(camera=camera, background=background(scene), **parts)
+    return whole, replace(manifest, owners=owners)
+
+
+def assemble(
+    seen: dict[str, Seen],
+    shown: list[Shown],
+    unseen: NDArray[np.bool_],
+    meshes: dict[int, tuple[Mesh, int]],
+) -> tuple[dict[str, tuple], tuple[str, ...]]:
+    """Return the parts of a `Scene` but its camera and background, and who owns each surface.
+
+    The meshes are by address, with the triangles left out; what is `unseen`, (k,), needs none.
+    What each object shows is counted in `seen`.
+    """
     numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
     # Numbered in the order in which they come, in the view or not: it stays when the camera moves.
     objects: dict[str, int] = {}
     instances: list[tuple[Instance, str]] = []  # with its owner
     planes: list[tuple[Plane, str]] = []
-    all_finite = np.isfinite(matrices).all(axis=(1, 2))
+    all_finite = np.isfinite(_matrices(shown)).all(axis=(1, 2))
     for item, out, finite in zip(shown, unseen, all_finite, strict=True):
         name, owner, key, matrix, colors = item
         entry = seen[name]
@@ -74,38 +90,48 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
         index = objects.setdefault(name, len(objects))
         instances.append((Instance(number, index, matrix, colors), owner))
     instances.sort(key=lambda i: i[0].object)
-    out_scene = Scene(
-        camera=camera,
-        meshes=tuple(meshes[key][0] for key in numbers),
-        instances=tuple(i for i, _ in instances),
-        planes=tuple(p for p, _ in planes),
-        background=background(scene),
-        objects=tuple(objects),
-    )
-    manifest = _manifest(depsgraph, camera.name, seen, meshes)
-    owners = tuple(owner for _, owner in (*instances, *planes))
-    return out_scene, replace(manifest, owners=owners)
+    parts = {
+        "meshes": tuple(meshes[key][0] for key in numbers),
+        "instances": tuple(i for i, _ in instances),
+        "planes": tuple(p for p, _ in planes),
+        "objects": tuple(objects),
+    }
+    return parts, tuple(owner for _, owner in (*instances, *planes))
 
 
-def _outside(
-    camera: Camera, shown: list[Shown], matrices: NDArray[np.float64], met: dict[int, Met]
-) -> NDArray[np.bool_]:
+class _Met(NamedTuple):
+    """A mesh as it was first met, before it is known whether it is outside the view."""
+
+    name: str
+    vertices: NDArray[np.float32]
+
+
+def _meet(obj: Any, name: str) -> _Met | None:
+    with plain_mesh(obj) as mesh:
+        return _Met(name, read_vertices(mesh)) if len(mesh.polygons) else None
+
+
+def _matrices(shown: list[Shown]) -> NDArray[np.float64]:
+    return np.array([s.matrix for s in shown]).reshape(-1, 4, 4)
+
+
+def _outside(camera: Camera, shown: list[Shown], met: dict[int, _Met | None]) -> NDArray[np.bool_]:
     """Return which appearances no ray of the camera can meet; an infinite plane is none."""
     boxes = {}
     for key, mesh in met.items():
-        across = mesh.vertices.T.copy()  # one behind the other they are looked at much faster
-        if across.size:
+        if mesh:
+            across = mesh.vertices.T.copy()  # one behind the other they are looked at much faster
             boxes[key] = across.min(axis=1), across.max(axis=1)
     on_mesh = [n for n, s in enumerate(shown) if s.key is not None]
     out = np.zeros(len(shown), bool)
     if on_mesh:
         low, high = np.swapaxes([boxes[shown[n].key] for n in on_mesh], 0, 1)
-        out[on_mesh] = outside(camera, low, high, matrices[on_mesh])
+        out[on_mesh] = outside(camera, low, high, _matrices(shown)[on_mesh])
     return out
 
 
 def _read(
-    depsgraph: Any, shown: list[Shown], unseen: NDArray[np.bool_], met: dict[int, Met]
+    depsgraph: Any, shown: list[Shown], unseen: NDArray[np.bool_], met: dict[int, _Met | None]
 ) -> dict[int, tuple[Mesh, int]]:
     """Return the meshes that are not wholly unseen, by address, and the triangles left out."""
     wanted = {s.key for s, out in zip(shown, unseen, strict=True) if not out} - {None}
@@ -118,7 +144,8 @@ def _read(
         key = item.object.data.as_pointer()
         if key in wanted:
             wanted.remove(key)
-            meshes[key] = export_mesh(item.object, met[key].vertices, met[key].name, with_colors)
+            with plain_mesh(item.object) as mesh:
+                meshes[key] = export_mesh(mesh, met[key].vertices, met[key].name, with_colors)
             if not wanted:
                 break
     return meshes

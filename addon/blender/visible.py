@@ -11,10 +11,10 @@ such. The plain properties (`vertices[i].co` and the like) are asked for one by 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,21 +55,24 @@ class Shown(NamedTuple):
     colors: NDArray[np.float32]
 
 
-class Met(NamedTuple):
-    """A mesh as it was first met, before it is known whether it is outside the view."""
-
-    name: str
-    vertices: NDArray[np.float32]  # none where there is no face
+Met = TypeVar("Met")  # what is kept of a mesh
 
 
-def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met]]:
-    """Return by name what is visible, every appearance of it, and the meshes by address."""
+def visible(
+    depsgraph: Any, shading: Any, meet: Callable[[Any, str], Met | None], space: Any = None
+) -> tuple[dict[str, Seen], list[Shown], dict[int, Met | None]]:
+    """Return by name what is visible, every appearance of it, and the meshes by address.
+
+    `meet` is called with the evaluated object and the name by which a mesh is first met; it
+    returns what to keep of it, None where it has no face. The shading is a `View3DShading`. Of a
+    `space`, a `SpaceView3D`, what is shown in that view alone decides: local view, local
+    collections, types of objects.
+    """
     viewport, layer = depsgraph.mode == "VIEWPORT", depsgraph.view_layer
-    judge, shading = judge_of(depsgraph.scene), depsgraph.scene_eval.display.shading
-    color_type = shading.color_type
+    judge, color_type = judge_of(depsgraph.scene), shading.color_type
     seen: dict[str, Seen] = {}
     shown: list[Shown] = []
-    met: dict[int, Met] = {}
+    met: dict[int, Met | None] = {}
     # Instances of one mesh by one object look the same, but for the colour that each may inherit.
     modelled: set[tuple] = set()  # as a whole
     all_colors: dict[tuple, NDArray[np.float32]] = {}
@@ -78,7 +81,10 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
         name = obj.original.name_full
         # The depsgraph hands out what only the eye of a collection hides.
         owner = (item.parent if item.is_instance else obj).original
-        if viewport and not owner.visible_get(view_layer=layer):
+        if space:
+            if not (obj.visible_in_viewport_get(space) and shows_type(space, obj.type)):
+                continue
+        elif viewport and not owner.visible_get(view_layer=layer):
             continue
         if name not in seen:
             original = obj.original
@@ -106,10 +112,8 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
             continue
         else:
             if key not in met:
-                with plain_mesh(obj) as own:
-                    faces = len(own.polygons)
-                    met[key] = Met(name, read_vertices(own) if faces else np.zeros((0, 3)))
-            if not len(met[key].vertices):
+                met[key] = meet(obj, name)
+            if met[key] is None:
                 continue
         if look not in all_colors:
             materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
@@ -119,6 +123,14 @@ def visible(depsgraph: Any) -> tuple[dict[str, Seen], list[Shown], dict[int, Met
         matrix = np.array(item.matrix_world, dtype=np.float64)
         shown.append(Shown(name, owner.name_full, key, matrix, all_colors[look]))
     return seen, shown, met
+
+
+def shows_type(space: Any, kind: str) -> bool:
+    """Return whether a 3D view shows objects of a type, as `Object.type` has it."""
+    kind = {"SURFACE": "surf", "GPENCIL": "grease_pencil", "GREASEPENCIL": "grease_pencil"}.get(
+        kind, kind.lower()
+    )
+    return getattr(space, f"show_object_viewport_{kind}", True)
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
@@ -154,19 +166,18 @@ def read_vertices(mesh: Any) -> NDArray[np.float32]:
 
 
 def export_mesh(
-    obj: Any, vertices: NDArray[np.float32], name: str, with_colors: bool
+    mesh: Any, vertices: NDArray[np.float32], name: str, with_colors: bool
 ) -> tuple[Mesh, int]:
-    """Return the loop triangles of an evaluated object's mesh, and how many were left out.
+    """Return the loop triangles of an evaluated mesh with faces, and how many were left out.
 
     They are numbered as `mesh.loop_triangles`, but for those that touch a vertex that is not
     finite, which are left out. The vertices (v, 3) are its own, as :func:`read_vertices` gives
     them; `with_colors` says whether its active colour attribute is what will be shown.
     """
-    with plain_mesh(obj) as mesh:
-        loops = _read(mesh.loop_triangles, "loops", 3, np.int32)
-        triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
-        slots = _slots(mesh)
-        colors = _corner_colors(mesh, triangles, loops) if with_colors else None
+    loops = _read(mesh.loop_triangles, "loops", 3, np.int32)
+    triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
+    slots = _slots(mesh)
+    colors = _corner_colors(mesh, triangles, loops) if with_colors else None
     vertices, keep = drop_non_finite(vertices, triangles)
     left_out = len(keep) - int(keep.sum())
     if left_out:
