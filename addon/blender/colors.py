@@ -23,14 +23,14 @@ OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
 
 
 def instance_colors(
-    obj: Any, color_type: str, single: Any, materials: list[Any]
+    obj: Any, holder: Any, color_type: str, single: Any, materials: list[Any]
 ) -> NDArray[np.float32]:
     """Return (k, 4) float32: the colour of each material slot, at least one.
 
-    The object is evaluated: an instance of a collection already carries the instancing empty's
-    colour. Of `View3DShading.color_type`, 'VERTEX' means a mesh without a colour attribute;
-    'TEXTURE' is not modelled, and shows the material's colour. `single` (3,) is the colour under
-    'SINGLE'; the materials are by slot, None where it is empty.
+    The object is evaluated; of an instance, the holder is what instances it: its colour is shown.
+    Of `View3DShading.color_type`, 'VERTEX' means a mesh without a colour attribute; 'TEXTURE' is
+    not modelled, and shows the material's colour. `single` (3,) is the colour under 'SINGLE'; the
+    materials are by slot, None where it is empty.
     """
     if color_type == "SINGLE":
         return np.array([(*single, 1.0)], np.float32)
@@ -39,7 +39,7 @@ def instance_colors(
     if color_type == "VERTEX":
         color_type = WITHOUT_ATTRIBUTE
     if color_type == "OBJECT":
-        return np.array([obj.color], np.float32)
+        return np.array([holder.color], np.float32)
     return np.array([m.diffuse_color if m else GREY for m in materials] or [GREY], np.float32)
 
 

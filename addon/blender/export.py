@@ -23,7 +23,7 @@ from .temporary import user_scene
 from .unmodelled import of_scene
 from .visible import Seen, Shown, export_mesh, plain_mesh, read_vertices, visible
 
-_NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
+NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
 
 
 def export(depsgraph: Any) -> tuple[Scene, Manifest]:
@@ -41,10 +41,10 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     seen, shown, met = visible(depsgraph, shading, _meet)
     unseen = _outside(camera, shown, met)
     meshes = _read(depsgraph, shown, unseen, met)
-    parts, owners = assemble(seen, shown, unseen, meshes)
+    parts, surfaces = assemble(seen, shown, unseen, meshes)
     manifest = _manifest(depsgraph, camera.name, seen, meshes)
     whole = Scene(camera=camera, background=background(scene), **parts)
-    return whole, replace(manifest, owners=owners)
+    return whole, replace(manifest, owners=tuple(s.owner for s in surfaces))
 
 
 def assemble(
@@ -52,8 +52,8 @@ def assemble(
     shown: list[Shown],
     unseen: NDArray[np.bool_],
     meshes: dict[int, tuple[Mesh, int]],
-) -> tuple[dict[str, tuple], tuple[str, ...]]:
-    """Return the parts of a `Scene` but its camera and background, and who owns each surface.
+) -> tuple[dict[str, tuple], list[Shown]]:
+    """Return the parts of a `Scene` but its camera and background, and what its surfaces show.
 
     The meshes are by address, with the triangles left out; what is `unseen`, (k,), needs none.
     What each object shows is counted in `seen`.
@@ -61,16 +61,16 @@ def assemble(
     numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
     # Numbered in the order in which they come, in the view or not: it stays when the camera moves.
     objects: dict[str, int] = {}
-    instances: list[tuple[Instance, str]] = []  # with its owner
-    planes: list[tuple[Plane, str]] = []
+    instances: list[tuple[Instance, Shown]] = []
+    planes: list[tuple[Plane, Shown]] = []
     all_finite = np.isfinite(_matrices(shown)).all(axis=(1, 2))
     for item, out, finite in zip(shown, unseen, all_finite, strict=True):
-        name, owner, key, matrix, colors = item
+        name, _, key, matrix, colors, _ = item
         entry = seen[name]
         if key is None:
             if finite and matrix[:3, :2].any(axis=0).all():
                 index = objects.setdefault(name, len(objects))
-                planes.append((_plane(index, matrix, colors[0]), owner))
+                planes.append((_plane(index, matrix, colors[0]), item))
                 entry.planes += 1
             else:
                 entry.left_out += 1
@@ -88,7 +88,7 @@ def assemble(
         entry.triangles += len(mesh.triangles)
         number = numbers.setdefault(key, len(numbers))
         index = objects.setdefault(name, len(objects))
-        instances.append((Instance(number, index, matrix, colors), owner))
+        instances.append((Instance(number, index, matrix, colors), item))
     instances.sort(key=lambda i: i[0].object)
     parts = {
         "meshes": tuple(meshes[key][0] for key in numbers),
@@ -96,7 +96,7 @@ def assemble(
         "planes": tuple(p for p, _ in planes),
         "objects": tuple(objects),
     }
-    return parts, tuple(owner for _, owner in (*instances, *planes))
+    return parts, [item for _, item in (*instances, *planes)]
 
 
 class _Met(NamedTuple):
@@ -205,7 +205,7 @@ def _nothing(entry: Seen) -> str:
         return OUTSIDE
     if entry.left_out:
         return "all its triangles have a vertex or a matrix that is not finite"
-    if entry.type in _NO_SURFACE:
+    if entry.type in NO_SURFACE:
         return "has no surface"
     return "has no triangles as it is evaluated and drawn here"
 

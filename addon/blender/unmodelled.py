@@ -55,12 +55,24 @@ def _reaches(obj: Any) -> Iterator[float]:
                     yield from (v.value for v in frame.drawing.attributes["radius"].data)
 
 
+def unfilled(obj: Any, holder: Any) -> bool:
+    """Return whether a viewport draws no surface of an object, or of an instance by its holder."""
+    return bool({obj.display_type, holder.display_type} & {"WIRE", "BOUNDS"})
+
+
 def of_object(
-    obj: Any, matrix: Any, shading: Any, layer: Any, mode: str, judge: Judge | None
+    obj: Any,
+    holder: Any,
+    matrix: Any,
+    shading: Any,
+    layer: Any,
+    viewport: bool,
+    judge: Judge | None,
 ) -> Iterator[Unmodelled]:
     """Yield what is not modelled of an evaluated object as it appears with a world_from_object.
 
-    The mode is 'VIEWPORT' or 'RENDER'. What the judge does not draw has no effect, and no bounds.
+    Its holder is what instances it, else itself. What the judge does not draw has no effect, and no
+    bounds.
     """
     bounds = None
 
@@ -77,8 +89,8 @@ def of_object(
     if obj.type != "MESH":
         return
     color_type = shading.color_type
-    if color_type in ("OBJECT", "VERTEX") and obj.color[3] < 1:
-        detail = f"the object's colour has alpha {obj.color[3]:.3g}"
+    if color_type in ("OBJECT", "VERTEX") and holder.color[3] < 1:
+        detail = f"the object's colour has alpha {holder.color[3]:.3g}"
         yield found("transparency", Effect.COLOR, detail)
     if color_type in ("MATERIAL", "TEXTURE"):
         for material in {m.name: m for m in slot_materials(obj) if m}.values():
@@ -103,8 +115,8 @@ def of_object(
         yield found("indirect only", Effect.UNSEEN, detail)
     if not original.visible_camera:
         yield found("not visible to the camera", Effect.UNSEEN)
-    if mode == "VIEWPORT" and obj.display_type in ("WIRE", "BOUNDS"):
-        detail = f"{obj.display_type.lower()}: the viewport draws no surface"
+    if viewport and unfilled(obj, holder):
+        detail = "wire or bounds: the viewport draws no surface"
         yield found("display type", Effect.UNPLACED, detail)
     for system in obj.particle_systems:
         if is_hair(system.settings):

@@ -6,11 +6,12 @@ instances is kept little.
 
 Meshes are read in bulk. What is stored as an attribute is one block of memory, and is copied as
 such. The plain properties (`vertices[i].co` and the like) are asked for one by one, also by
-`foreach_get`: some 50 times as slow. Only the loop triangles' corners cannot be had otherwise.
+`foreach_get`: some 50 times as slow.
 """
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -23,7 +24,7 @@ from ..manifest import Unmodelled
 from ..scene import Mesh, drop_non_finite
 from .colors import instance_colors, slot_materials
 from .temporary import judge_of
-from .unmodelled import HAIR, of_object
+from .unmodelled import HAIR, of_object, unfilled
 
 
 @dataclass
@@ -53,7 +54,10 @@ class Shown(NamedTuple):
     key: int | None
     matrix: NDArray[np.float64]
     colors: NDArray[np.float32]
+    is_instance: bool
 
+
+_CORNERS = 12  # bytes: three int32
 
 Met = TypeVar("Met")  # what is kept of a mesh
 
@@ -79,10 +83,14 @@ def visible(
     for item in depsgraph.object_instances:
         obj = item.object
         name = obj.original.name_full
+        # Once a script has looked at an evaluated object, Blender (4.3 to 5.2) hands out that for
+        # an instance of it. So what an instance has of its holder is asked of the holder.
+        holder = item.parent if item.is_instance else obj
+        owner = holder.original
         # The depsgraph hands out what only the eye of a collection hides.
-        owner = (item.parent if item.is_instance else obj).original
         if space:
-            if not (obj.visible_in_viewport_get(space) and shows_type(space, obj.type)):
+            types = f"show_object_viewport_{obj.type.lower()}"
+            if not (holder.visible_in_viewport_get(space) and getattr(space, types, True)):
                 continue
         elif viewport and not owner.visible_get(view_layer=layer):
             continue
@@ -94,9 +102,9 @@ def visible(
             continue
         mesh = obj.data if obj.type == "MESH" else None
         key = mesh.as_pointer() if mesh else None
-        look = name, key, obj.color[:] if color_type in ("OBJECT", "VERTEX") else None
+        look = name, key, holder.color[:] if color_type in ("OBJECT", "VERTEX") else None
         if look not in modelled:
-            found = list(of_object(obj, item.matrix_world, shading, layer, depsgraph.mode, judge))
+            found = list(of_object(obj, holder, item.matrix_world, shading, layer, viewport, judge))
             if not item.show_self:  # its hair is shown without it
                 found = [u for u in found if u.feature == HAIR]
             by_nodes = item.is_instance and owner.instance_type == "NONE"
@@ -108,7 +116,7 @@ def visible(
             continue
         if entry.is_plane:
             key = None
-        elif not mesh or (viewport and obj.display_type in ("WIRE", "BOUNDS")):
+        elif not mesh or (viewport and unfilled(obj, holder)):
             continue
         else:
             if key not in met:
@@ -117,20 +125,15 @@ def visible(
                 continue
         if look not in all_colors:
             materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
-            all_colors[look] = instance_colors(obj, color_type, shading.single_color, materials)
+            all_colors[look] = instance_colors(
+                obj, holder, color_type, shading.single_color, materials
+            )
             if color_type == "MATERIAL" and not entry.is_plane:
                 entry.empty_slots = max(entry.empty_slots, materials.count(None))
         matrix = np.array(item.matrix_world, dtype=np.float64)
-        shown.append(Shown(name, owner.name_full, key, matrix, all_colors[look]))
+        colors = all_colors[look]
+        shown.append(Shown(name, owner.name_full, key, matrix, colors, item.is_instance))
     return seen, shown, met
-
-
-def shows_type(space: Any, kind: str) -> bool:
-    """Return whether a 3D view shows objects of a type, as `Object.type` has it."""
-    kind = {"SURFACE": "surf", "GPENCIL": "grease_pencil", "GREASEPENCIL": "grease_pencil"}.get(
-        kind, kind.lower()
-    )
-    return getattr(space, f"show_object_viewport_{kind}", True)
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
@@ -174,7 +177,7 @@ def export_mesh(
     finite, which are left out. The vertices (v, 3) are its own, as :func:`read_vertices` gives
     them; `with_colors` says whether its active colour attribute is what will be shown.
     """
-    loops = _read(mesh.loop_triangles, "loops", 3, np.int32)
+    loops = _loops(mesh.loop_triangles)
     triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
     slots = _slots(mesh)
     colors = _corner_colors(mesh, triangles, loops) if with_colors else None
@@ -185,6 +188,21 @@ def export_mesh(
         slots = None if slots is None else slots[keep]
         colors = None if colors is None else colors[keep]
     return Mesh(vertices, triangles, slots, colors, name), left_out
+
+
+def _loops(triangles: Any) -> NDArray[np.int32]:
+    """Return the corners of a mesh's loop triangles, (n, 3).
+
+    Blender asks for them one by one. But it says where each is in memory: where they lie one behind
+    the other there, and as they should, they are copied at once.
+    """
+    n = len(triangles)
+    first, some = triangles[0].as_pointer(), (0, n // 2, n - 1)
+    if all(triangles[i].as_pointer() == first + _CORNERS * i for i in (*some, min(1, n - 1))):
+        loops = np.frombuffer(ctypes.string_at(first, _CORNERS * n), np.int32).reshape(n, 3)
+        if all(tuple(loops[i]) == tuple(triangles[i].loops) for i in some):
+            return loops
+    return _read(triangles, "loops", 3, np.int32)
 
 
 def _slots(mesh: Any) -> NDArray[np.int32] | None:
