@@ -55,9 +55,9 @@ class KeptScene:
 
     def scene(self, camera: Camera) -> Scene:
         """Return what has been read, as a camera sees it."""
-        if self._scene is None:
-            self._scene = Scene(camera=camera, **self._parts)
-        return self._scene.seen_by(camera)
+        old = self._scene
+        self._scene = old.seen_by(camera) if old else Scene(camera=camera, **self._parts)
+        return self._scene
 
     def _move(self, depsgraph: Any) -> bool:
         """Move single objects if nothing else has changed; return whether that is so."""
