@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.certificate import CameraCertificate, certify, known_points
-from ..projections import PROJECTIONS
+from ..projections import PROJECTIONS, Projection
 from ..scene import Camera, Region, SceneError, ViewWindow
 
 
@@ -80,6 +80,28 @@ def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
     return matrix
 
 
+def projection_of(obj: Any, scene: Any) -> Projection:
+    """Return how an object projects that a `bpy.types.Scene` is seen through.
+
+    Raises
+    ------
+    SceneError
+        If it is no camera, or of a kind that the tracer does not model.
+    """
+    if obj.type != "CAMERA":
+        raise SceneError(
+            f"'{obj.name}', the active camera of scene '{scene.name}', is a {obj.type.lower()}: "
+            "make a camera object active."
+        )
+    projections = {p.blender: p for p in PROJECTIONS.values()}
+    if obj.data.type not in projections:
+        raise SceneError(
+            f"Camera '{obj.name}' is of type {obj.data.type.lower()}; Reference Tracer models "
+            f"{' and '.join(PROJECTIONS)} cameras."
+        )
+    return projections[obj.data.type]
+
+
 def export_camera(scene: Any) -> Camera:
     """Return the active camera of an evaluated `bpy.types.Scene`.
 
@@ -94,18 +116,8 @@ def export_camera(scene: Any) -> Camera:
             f"Scene '{scene.name}' has no camera: add one that frames all (the panel's button, or "
             "--frame-all), place one (--eye X Y Z), or make one active (--camera NAME)."
         )
-    if obj.type != "CAMERA":
-        raise SceneError(
-            f"'{obj.name}', the active camera of scene '{scene.name}', is a {obj.type.lower()}: "
-            "make a camera object active."
-        )
+    projection = projection_of(obj, scene)
     data, render = obj.data, scene.render
-    projections = {p.blender: p for p in PROJECTIONS.values()}
-    if data.type not in projections:
-        raise SceneError(
-            f"Camera '{obj.name}' is of type {data.type.lower()}; Reference Tracer models "
-            f"{' and '.join(PROJECTIONS)} cameras."
-        )
     width, height = resolution(render)
     if width < 1 or height < 1:
         raise SceneError(
@@ -121,7 +133,7 @@ def export_camera(scene: Any) -> Camera:
         window=window_of(scene),
         width=width,
         height=height,
-        projection=projections[data.type],
+        projection=projection,
         clip_start=data.clip_start,
         clip_end=data.clip_end,
         region=region,

@@ -1,4 +1,4 @@
-"""The render engine REFERENCE_TRACER: F12, animations, `blender -b -E REFERENCE_TRACER -f 1`.
+"""The render engine REFERENCE_TRACER: F12, animations, `blender -b -E ...`, the 3D view.
 
 Blender hands over an evaluated depsgraph; it is exported first, and what is traced then is the
 exported scene. Every failure ends in `report({'ERROR'})`: an exception or `error_set` alone would
@@ -24,6 +24,7 @@ from ..tracer.render import steps
 from .camera import certify_camera
 from .export import export
 from .judges import Judge
+from .live.view import LiveView
 from .temporary import is_temporary, values_kept
 
 ENGINE = "REFERENCE_TRACER"
@@ -60,6 +61,15 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         except Exception as error:  # whatever it is, Blender must hear of it
             traceback.print_exc()
             self.report({"ERROR"}, f"Reference Tracer failed: {type(error).__name__}: {error}")
+
+    def view_update(self, context: Any, depsgraph: Any) -> None:
+        """Take over what has changed for a 3D view in Rendered mode; each has its own engine."""
+        self.live = getattr(self, "live", None) or LiveView()
+        self.live.update(context, depsgraph)
+
+    def view_draw(self, context: Any, depsgraph: Any) -> None:
+        """Draw such a view."""
+        self.live.draw(self, context)
 
     def _trace(self, depsgraph: Any) -> None:
         began = time.monotonic()

@@ -1,0 +1,100 @@
+"""What a 3D view shows -> `scene.Camera`, of the matrices with which Blender itself draws it.
+
+A point v of the world is at c = view_matrix v before the view, and appears, from -1 to 1 over the
+region, at (P00 cx + P02 cz + P03) / w and (P11 cy + P12 cz + P13) / w, where P is the window_matrix
+and w the depth -cz in perspective, else 1. The matrices are float32, and taken as they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ...projections import ORTHOGRAPHIC, PERSPECTIVE
+from ...scene import Camera, Region, ViewWindow
+from ...tracer.camera import film_of
+from ..camera import border_region, projection_of
+
+
+def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
+    """Return the camera of a 3D view, whose picture is as large as its region.
+
+    In are a `bpy.types.Region`, its `RegionView3D`, the `SpaceView3D` and the `Scene` that it
+    shows. Clip range and render border are the view's own or the camera's, as Blender has it.
+
+    Raises
+    ------
+    SceneError
+        If the view looks through an object that the tracer does not model, or shows nothing.
+    """
+    through = _through(region_3d, space, scene)
+    own = through.data if through else space
+    start, end = own.clip_start, own.clip_end
+    p = np.array(region_3d.window_matrix, np.float64)
+    is_parallel = p[3, 3] != 0
+    if is_parallel and not through:  # Blender looks both ways
+        start, end = -end / 2, end / 2
+    # Where -1 and 1 are: P00 u - P02 = -1 or 1 at u = cx / w in perspective, as cz / w = -1 there;
+    # P00 u + P03 else.
+    middle = -p[:2, 3] if is_parallel else p[:2, 2]
+    scale = p[[0, 1], [0, 1]]
+    (left, bottom), (right, top) = (middle - 1) / scale, (middle + 1) / scale
+    camera = Camera(
+        world_from_camera=np.linalg.inv(np.array(region_3d.view_matrix, np.float64)),
+        window=ViewWindow(float(left), float(right), float(bottom), float(top)),
+        width=region.width,
+        height=region.height,
+        projection=ORTHOGRAPHIC if is_parallel else PERSPECTIVE,
+        clip_start=start,
+        clip_end=end,
+        name=through.name if through else "3D view",
+    )
+    return _within_border(camera, through, space, scene)
+
+
+def coarser(camera: Camera, factor: int) -> Camera:
+    """Return a camera whose pixels are `factor` times as wide and high, from the same corner on.
+
+    The last ones may reach beyond the picture.
+    """
+    width, height = -(-camera.width // factor), -(-camera.height // factor)
+    w, r = camera.window, camera.region
+    across = (w.right - w.left) * (width * factor / camera.width)
+    up = (w.top - w.bottom) * (height * factor / camera.height)
+    return replace(
+        camera,
+        window=replace(w, right=w.left + across, top=w.bottom + up),
+        width=width,
+        height=height,
+        region=Region(r.x0 // factor, r.y0 // factor, -(-r.x1 // factor), -(-r.y1 // factor)),
+    )
+
+
+def _through(region_3d: Any, space: Any, scene: Any) -> Any | None:
+    """Return the camera that a view looks through; None for a free view."""
+    obj = space.camera if space.use_local_camera else scene.camera
+    if region_3d.view_perspective != "CAMERA" or obj is None:
+        return None
+    projection_of(obj, scene)
+    return obj
+
+
+def _within_border(camera: Camera, through: Any, space: Any, scene: Any) -> Camera:
+    """Return the camera with the part of its picture that a render border leaves."""
+    if through:
+        owner, name, used = scene.render, "border", scene.render.use_border
+    else:
+        owner, name, used = space, "render_border", space.use_render_border
+    if not used:
+        return camera
+    ends = [[getattr(owner, f"{name}_{end}_{axis}") for axis in "xy"] for end in ("min", "max")]
+    if through:  # it is that of the camera's frame, whose corners are here:
+        corners = np.array(through.data.view_frame(scene=scene), np.float64).T
+        axes = camera.world_from_camera
+        film = np.array(film_of(camera, axes[:3, :3] @ corners + axes[:3, 3:])[:2])
+        low, high = film.min(axis=1), film.max(axis=1)
+        ends = (low + ends * (high - low)) / (camera.width, camera.height)
+    (x0, y0), (x1, y1) = np.clip(ends, 0, 1)
+    return replace(camera, region=border_region(camera.width, camera.height, x0, x1, y0, y1))
