@@ -10,69 +10,23 @@ from __future__ import annotations
 import time
 import traceback
 import weakref
-from collections.abc import Iterator
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import bpy
 
 from ...arguments import EXPECTED, words
 from ...scene import Camera
-from ...tracer.settings import Settings
 from . import shows
-from .camera import camera_of, coarser
-from .drawing import Textures, draw_words
+from .camera import camera_of
+from .drawing import draw_words
+from .job import Job, Wanted
 from .kept import KeptScene
 
-AT_ONCE = 0.015  # seconds that the interface waits for work
+AT_ONCE = 0.015  # seconds that the interface waits for work; a step may take as long once more
 COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels
-SLOW = 0.05  # seconds: one that takes longer is followed by a coarser one
-SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own take long
-
-
-class Wanted(NamedTuple):
-    """What is to be shown; two that are equal look the same."""
-
-    key: str  # of the camera
-    version: int  # of the scene
-    settings: Settings
-    show: shows.Show
-
-    def differs_in_more_than_the_camera(self, other: Wanted) -> bool:
-        """Return whether not only the camera has moved."""
-        return self[1:] != other[1:]
-
-
-class Job:
-    """A picture in the making, or made."""
-
-    def __init__(self, wanted: Wanted, camera: Camera, factor: int, kept: KeptScene) -> None:
-        self.wanted, self.camera, self.factor = wanted, camera, factor
-        scene = kept.scene(camera if factor == 1 else coarser(camera, factor))
-        self.region = scene.camera.region
-        self.picture = shows.Picture.empty(scene.camera)
-        self.work: Iterator[float] = wanted.show.steps(scene, wanted.settings, self.picture)
-        self.textures: Textures | None = None
-        self.seconds, self.is_done = 0.0, False
-
-    def step(self) -> None:
-        """Do one step."""
-        began = time.perf_counter()
-        self.is_done = next(self.work, None) is None
-        self.seconds += time.perf_counter() - began
-        if self.is_done:
-            self.work = iter(())  # what it holds is free
-
-    def upload(self, until: float) -> bool:
-        """Bring what is done to the graphics card; True if some of it is left."""
-        self.textures = self.textures or Textures(self.picture)
-        return self.textures.upload(until)
-
-    def draw(self, width: int, height: int) -> None:
-        """Draw what is there over a region of this size, stretched if it is of another."""
-        x = self.factor * width / self.camera.width
-        y = self.factor * height / self.camera.height
-        self.textures.draw(self.region.x0 * x, self.region.y0 * y, x, y)
+SLOW = 0.05  # seconds that a coarse one may take; else the next one is coarser
+SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
 
 class LiveView:
@@ -82,94 +36,93 @@ class LiveView:
         self._kept = KeptScene()
         self._version = 0
         self._wanted: tuple[Wanted, Camera] | None = None
-        self._shown: Job | None = None  # the best that is whole
-        self._job: Job | None = None
+        self.shown: Job | None = None  # the best one that is done
+        self._job: Job | None = None  # a better one
         self._factor = COARSE
-        self._scene_error = self._error = ""
+        self._unread = self._failed = ""  # why there is no scene; why not what is wanted
         self._timer: Any = None
-        self._drawn = 0.0
+        self._drawn = 0.0  # when
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
         self._version += 1
-        self._scene_error = _said(self._kept.update, depsgraph, context.space_data)
+        self._unread = _said(self._kept.update, depsgraph, context.space_data)
 
     def draw(self, engine: Any, context: Any) -> None:
         """Draw the view, as well as it is known at once."""
         until = time.perf_counter() + AT_ONCE
-        self._error = self._scene_error or _said(self._aim, context)
-        while not self._error and self._job and self._job.factor > 1:
-            self._error = _said(self._step)
-            if time.perf_counter() > until:
-                break
-        if self._error:
-            self._shown = self._job = None
+        if error := self._unread or _said(self._aim, context):
+            self._give_up(error)
+        while self._job and self._job.factor > 1 and time.perf_counter() < until:
+            self._step()
         self._draw(engine, context, until)
         if self._job and not (self._timer and bpy.app.timers.is_registered(self._timer)):
             self._timer = partial(_tick, weakref.ref(engine))
             bpy.app.timers.register(self._timer, first_interval=0.0)
 
+    def tick(self, engine: Any) -> float | None:
+        """Work for a while; returns when to go on, in seconds, None for not."""
+        shown, until = self.shown, time.perf_counter() + AT_ONCE
+        while self._job and time.perf_counter() < until:
+            self._step()
+        grown = self._job and self._job.picture.rows_done.any()
+        if self.shown is not shown or (grown and until > self._drawn + SHOW_EVERY):
+            engine.tag_redraw()
+        return 0.0 if self._job else None
+
     def _aim(self, context: Any) -> None:
         """Find out what is wanted, and begin to make it."""
-        region, space, scene = context.region, context.space_data, context.scene
-        camera = camera_of(region, context.region_data, space, scene)
+        scene, space = context.scene, context.space_data
+        camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
         wanted = Wanted(str(camera.to_dict()), self._version, settings, shows.chosen(context))
-        self._wanted = wanted, camera
+        if not self._wanted or self._wanted[0] != wanted:
+            self._wanted, self._failed = (wanted, camera), ""
+        # A coarse picture of where the view has just been is finished: a view that never rests
+        # would never show one.
         job = self._job
-        if job and job.wanted != wanted:
-            # A coarse picture of where the view has just been is finished: else a view that never
-            # rests would never see one.
-            if job.factor == 1 or job.wanted.differs_in_more_than_the_camera(wanted):
-                self._job = None
+        if job and job.wanted != wanted and (job.factor == 1 or not wanted.is_moved(job.wanted)):
+            self._job = None
         self._begin()
 
     def _begin(self) -> None:
-        """Begin the next picture, if there is none in the making and a better one to be made."""
+        """Begin a better picture, if there is one to be made and none in the making."""
         wanted, camera = self._wanted
-        if self._job:
+        is_right = self.shown and self.shown.wanted == wanted
+        if self._job or self._failed or (is_right and self.shown.factor == 1):
             return
-        if not self._shown or self._shown.wanted != wanted:
-            self._job = Job(wanted, camera, self._factor, self._kept)
-        elif self._shown.factor > 1:
-            self._job = Job(wanted, camera, 1, self._kept)
+        self._job = Job(wanted, self._kept, camera, 1 if is_right else self._factor)
 
     def _step(self) -> None:
-        """Do one step of the work that there is, and begin the next if that was the last."""
+        """Do one step; a picture that is done with it is shown, and a better one begun."""
         job = self._job
-        job.step()
-        if job.is_done:
-            if job.factor > 1:
-                limit = SLOW if job.factor == COARSE else SLOW * (COARSE / COARSER) ** 2
-                self._factor = COARSER if job.seconds > limit else COARSE
-            self._shown, self._job = job, None
-            self._begin()
+        if error := _said(job.step):
+            self._give_up(error)
+        elif job.is_done:
+            if job.factor > 1:  # the time falls with the pixels: from one to the other a quarter
+                share = job.seconds / SLOW * (job.factor / COARSE) ** 2
+                self._factor = COARSER if share > 1 else COARSE
+            self.shown, self._job = job, None
+            self._give_up(_said(self._begin))
 
-    def tick(self, engine: Any) -> float | None:
-        """Work for a while; returns when to go on, in seconds, None for never."""
-        until, shown = time.perf_counter() + AT_ONCE, self._shown
-        while self._job and not self._error and time.perf_counter() < until:
-            self._error = self._scene_error = _said(self._step)
-        grown = self._job and self._job.picture.rows_done.any()
-        due = grown and time.perf_counter() > self._drawn + SHOW_EVERY
-        if self._shown is not shown or self._error or due:
-            engine.tag_redraw()
-        return 0.0 if self._job and not self._error else None
+    def _give_up(self, error: str) -> None:
+        """Show nothing but what went wrong, if something did."""
+        if error:
+            self._failed, self.shown, self._job = error, None, None
 
     def _draw(self, engine: Any, context: Any, until: float) -> None:
         import gpu
 
         region = context.region
-        jobs = [job for job in (self._shown, self._job) if job]
-        gpu.state.blend_set("NONE")  # what is drawn later replaces what is below
+        gpu.state.blend_set("NONE")  # what is better replaces what is below, where it is done
         engine.bind_display_space_shader(context.scene)
-        for job in jobs:
-            if job.upload(until):
-                engine.tag_redraw()
-            job.draw(region.width, region.height)
+        jobs = [job for job in (self.shown, self._job) if job]
+        left = [job.draw(region.width, region.height, until) for job in jobs]
         engine.unbind_display_space_shader()
-        if self._error:
-            draw_words(self._error, region, context.preferences.system.ui_scale)
+        if any(left):
+            engine.tag_redraw()
+        if self._failed:
+            draw_words(self._failed, region, context.preferences.system.ui_scale)
         engine.update_stats("", jobs[-1].picture.line if jobs else "")
         self._drawn = time.perf_counter()
 

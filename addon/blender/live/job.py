@@ -1,0 +1,70 @@
+"""A picture of a 3D view in the making, coarse or whole, and its way to the screen."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from ...scene import Camera
+from ...tracer.settings import Settings
+from .camera import coarser
+from .drawing import Textures
+from .kept import KeptScene
+from .shows import Picture, Show
+
+_NOTHING = np.zeros(4, np.float32)
+
+
+class Wanted(NamedTuple):
+    """What a view is to show; two that are equal look the same."""
+
+    camera: str  # all that it has
+    version: int  # of the scene
+    settings: Settings
+    show: Show
+
+    def is_moved(self, other: Wanted) -> bool:
+        """Return whether the camera alone is another one."""
+        return self != other and self[1:] == other[1:]
+
+
+class Job:
+    """A picture whose pixels are `factor` times as wide and high as those of the region."""
+
+    def __init__(self, wanted: Wanted, kept: KeptScene, camera: Camera, factor: int) -> None:
+        self.wanted, self.factor = wanted, factor
+        scene = kept.scene(camera if factor == 1 else coarser(camera, factor))
+        scene = replace(scene, background=_NOTHING)  # Blender draws its own behind the picture
+        self._size = camera.width, camera.height
+        self._corner = scene.camera.region.x0, scene.camera.region.y0
+        self.picture = Picture.empty(scene.camera)
+        self._work: Iterator[float] | None = wanted.show.steps(scene, wanted.settings, self.picture)
+        self.seconds = 0.0
+        self._textures: Textures | None = None
+
+    @property
+    def is_done(self) -> bool:
+        """Whether there is nothing left to do."""
+        return self._work is None
+
+    def step(self) -> None:
+        """Do one step of the work."""
+        began = time.perf_counter()
+        if next(self._work, None) is None:
+            self._work = None  # with all that it holds
+        self.seconds += time.perf_counter() - began
+
+    def draw(self, width: int, height: int, until: float) -> bool:
+        """Draw what is done over a region, in pixels; True if something could not be by a time.
+
+        Of a region of another size it is stretched.
+        """
+        self._textures = self._textures or Textures(self.picture)
+        is_left = self._textures.upload(until)
+        x, y = self.factor * width / self._size[0], self.factor * height / self._size[1]
+        self._textures.draw(self._corner[0] * x, self._corner[1] * y, x, y)
+        return is_left
