@@ -21,6 +21,7 @@ import interruption_stories
 import page_stories
 import stories
 import study_stories
+import viewport_stories
 from story import OUT, noted, window
 
 STORIES = {
@@ -32,6 +33,7 @@ STORIES = {
         interruption_stories,
         page_stories,
         study_stories,
+        viewport_stories,
     )
     for story in module.STORIES
 }

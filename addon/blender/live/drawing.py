@@ -1,6 +1,7 @@
 """Rows of a picture -> textures of the graphics card, drawn pixel on pixel; and words.
 
-`gpu` is asked for only where something is drawn: a server has no display.
+What is drawn is scene linear: Blender brings it to the screen by the scene's view transform, as it
+does with its own. `gpu` is asked for only where something is drawn: a server has no display.
 """
 
 from __future__ import annotations
@@ -13,7 +14,34 @@ from .shows import Picture
 
 BAND = 1 << 17  # pixels of a texture: it is made in some 2 ms
 _LETTER = 0.55  # mean width of Blender's font, in its size
-_TEXT = 14  # points
+_SIZE = 14  # of words, points
+
+# A texture's own pixels, never a mean of two: so Blender's image shader would have it.
+_PLACED = """
+void main() { place = at; gl_Position = ModelViewProjectionMatrix * vec4(pos, 0.0, 1.0); }
+"""
+_FETCHED = "void main() { color = texelFetch(image, ivec2(floor(place)), 0); }"
+
+
+def pixel_shader() -> Any:
+    """Return a shader that shows a texture, each of its pixels as it is.
+
+    Its vertices have `pos`, in pixels of the region, and `at`, in pixels of the texture.
+    """
+    import gpu
+
+    place = gpu.types.GPUStageInterfaceInfo("reference_tracer_place")
+    place.smooth("VEC2", "place")
+    info = gpu.types.GPUShaderCreateInfo()
+    info.push_constant("MAT4", "ModelViewProjectionMatrix")
+    info.sampler(0, "FLOAT_2D", "image")
+    info.vertex_in(0, "VEC2", "pos")
+    info.vertex_in(1, "VEC2", "at")
+    info.vertex_out(place)
+    info.fragment_out(0, "VEC4", "color")
+    info.vertex_source(_PLACED)
+    info.fragment_source(_FETCHED)
+    return gpu.shader.create_from_info(info)
 
 
 class Textures:
@@ -23,50 +51,58 @@ class Textures:
         height, width = picture.color.shape[:2]
         step = max(1, BAND // width)
         self._picture: Picture | None = picture
-        self._width = width
         self._missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
-        self._bands: list[tuple[slice, Any]] = []
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether nothing is missing."""
-        return not self._missing
+        self._bands: list[tuple[int, Any]] = []  # the first row of each
 
     def upload(self, until: float) -> bool:
-        """Make textures of rows that are done until a time of the clock; True if some are left.
+        """Make textures of rows that are done, one at least; True if some are left.
 
-        `until` is one of `time.perf_counter()`; one band is made in any case.
+        `until` is when to stop, as `time.perf_counter()` has it.
         """
         import gpu
 
-        for rows in [r for r in self._missing if self._picture.rows_done[r].all()]:
-            data = self._picture.color[rows].reshape(-1)
-            buffer = gpu.types.Buffer("FLOAT", data.shape, data)
-            size = self._width, rows.stop - rows.start
-            self._bands.append((rows, gpu.types.GPUTexture(size, format="RGBA32F", data=buffer)))
+        if self._picture is None:
+            return False
+        done = [rows for rows in self._missing if self._picture.rows_done[rows].all()]
+        for number, rows in enumerate(done, start=1):
+            data = self._picture.color[rows]
+            buffer = gpu.types.Buffer("FLOAT", (data.size,), data.reshape(-1))
+            size = data.shape[1], data.shape[0]
+            self._bands.append(
+                (rows.start, gpu.types.GPUTexture(size, format="RGBA32F", data=buffer))
+            )
             self._missing.remove(rows)
             if time.perf_counter() > until:
-                break
-        if self.is_whole:
+                return number < len(done)
+        if not self._missing:
             self._picture = None  # its memory is free
-            return False
-        return any(self._picture.rows_done[r].all() for r in self._missing)
+        return False
 
-    def draw(self, x: float, y: float, pixel_width: float, pixel_height: float) -> None:
-        """Draw what is there, the lower left corner at (x, y); all in pixels of the region."""
-        from gpu_extras.presets import draw_texture_2d
+    def draw(self, shader: Any, x: float, y: float, width: float, height: float) -> None:
+        """Draw what is there, its lower left corner at (x, y), and its pixels of this size.
 
-        for rows, texture in self._bands:
-            at = x, y + rows.start * pixel_height
-            height = (rows.stop - rows.start) * pixel_height
-            draw_texture_2d(texture, at, self._width * pixel_width, height)
+        All are pixels of the region.
+        """
+        from gpu_extras.batch import batch_for_shader
+
+        for row, texture in self._bands:
+            corners = (
+                (0, 0),
+                (texture.width, 0),
+                (0, texture.height),
+                (texture.width, texture.height),
+            )
+            pos = [(x + i * width, y + (row + j) * height) for i, j in corners]
+            batch = batch_for_shader(shader, "TRI_STRIP", {"pos": pos, "at": corners})
+            shader.uniform_sampler("image", texture)
+            batch.draw(shader)
 
 
 def draw_words(text: str, region: Any, scale: float) -> None:
     """Draw a sentence in the middle of a region, in as many lines as its width needs."""
     import blf
 
-    size = _TEXT * scale
+    size = _SIZE * scale
     lines = textwrap.wrap(text, max(16, int(0.7 * region.width / (size * _LETTER))))
     blf.size(0, size)
     blf.color(0, 1, 1, 1, 1)

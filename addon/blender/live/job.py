@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -58,7 +58,7 @@ class Job:
             self._work = None  # with all that it holds
         self.seconds += time.perf_counter() - began
 
-    def draw(self, width: int, height: int, until: float) -> bool:
+    def draw(self, shader: Any, width: int, height: int, until: float) -> bool:
         """Draw what is done over a region, in pixels; True if something could not be by a time.
 
         Of a region of another size it is stretched.
@@ -66,5 +66,5 @@ class Job:
         self._textures = self._textures or Textures(self.picture)
         is_left = self._textures.upload(until)
         x, y = self.factor * width / self._size[0], self.factor * height / self._size[1]
-        self._textures.draw(self._corner[0] * x, self._corner[1] * y, x, y)
+        self._textures.draw(shader, self._corner[0] * x, self._corner[1] * y, x, y)
         return is_left

@@ -19,13 +19,13 @@ from ...arguments import EXPECTED, words
 from ...scene import Camera
 from . import shows
 from .camera import camera_of
-from .drawing import draw_words
+from .drawing import draw_words, pixel_shader
 from .job import Job, Wanted
 from .kept import KeptScene
 
-AT_ONCE = 0.015  # seconds that the interface waits for work; a step may take as long once more
+AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
 COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels
-SLOW = 0.05  # seconds that a coarse one may take; else the next one is coarser
+SLOW = 0.022  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
 SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
 
@@ -35,13 +35,20 @@ class LiveView:
     def __init__(self) -> None:
         self._kept = KeptScene()
         self._version = 0
-        self._wanted: tuple[Wanted, Camera] | None = None
+        self._wanted: Wanted | None = None
+        self.camera: Camera | None = None  # of what is wanted
         self.shown: Job | None = None  # the best one that is done
         self._job: Job | None = None  # a better one
         self._factor = COARSE
         self._unread = self._failed = ""  # why there is no scene; why not what is wanted
         self._timer: Any = None
+        self._shader: Any = None
         self._drawn = 0.0  # when
+
+    @property
+    def rests(self) -> bool:
+        """Whether nothing is left to do: the whole picture is there, or why it cannot be."""
+        return not self._job and bool(self.shown or self._failed)
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
@@ -50,7 +57,7 @@ class LiveView:
 
     def draw(self, engine: Any, context: Any) -> None:
         """Draw the view, as well as it is known at once."""
-        until = time.perf_counter() + AT_ONCE
+        until = time.perf_counter() + SLOW
         if error := self._unread or _said(self._aim, context):
             self._give_up(error)
         while self._job and self._job.factor > 1 and time.perf_counter() < until:
@@ -76,8 +83,8 @@ class LiveView:
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
         wanted = Wanted(str(camera.to_dict()), self._version, settings, shows.chosen(context))
-        if not self._wanted or self._wanted[0] != wanted:
-            self._wanted, self._failed = (wanted, camera), ""
+        if self._wanted != wanted:
+            self._wanted, self.camera, self._failed = wanted, camera, ""
         # A coarse picture of where the view has just been is finished: a view that never rests
         # would never show one.
         job = self._job
@@ -87,11 +94,11 @@ class LiveView:
 
     def _begin(self) -> None:
         """Begin a better picture, if there is one to be made and none in the making."""
-        wanted, camera = self._wanted
-        is_right = self.shown and self.shown.wanted == wanted
+        is_right = self.shown and self.shown.wanted == self._wanted
         if self._job or self._failed or (is_right and self.shown.factor == 1):
             return
-        self._job = Job(wanted, self._kept, camera, 1 if is_right else self._factor)
+        factor = 1 if is_right else self._factor
+        self._job = Job(self._wanted, self._kept, self.camera, factor)
 
     def _step(self) -> None:
         """Do one step; a picture that is done with it is shown, and a better one begun."""
@@ -115,10 +122,9 @@ class LiveView:
 
         region = context.region
         gpu.state.blend_set("NONE")  # what is better replaces what is below, where it is done
-        engine.bind_display_space_shader(context.scene)
+        self._shader = self._shader or pixel_shader()
         jobs = [job for job in (self.shown, self._job) if job]
-        left = [job.draw(region.width, region.height, until) for job in jobs]
-        engine.unbind_display_space_shader()
+        left = [job.draw(self._shader, region.width, region.height, until) for job in jobs]
         if any(left):
             engine.tag_redraw()
         if self._failed:
