@@ -27,13 +27,6 @@ from .extras import Extras
 SCHEMA = "reference_tracer.page/1"
 MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser still opens at once
 
-_CERTAINTY = {
-    Certainty.NOT_CERTIFIED: "floating point alone decided, without a proof",
-    Certainty.BOUND: "floating point decided, and its error bound leaves no doubt",
-    Certainty.EXACT: "integer arithmetic decided, where the error bound left a doubt",
-    Certainty.AMBIGUOUS: "the ray meets an edge, a corner or two surfaces at once: a rule decided",
-}
-
 
 def content(
     comparison: Comparison, extras: Extras | None = None, limit: int = MOST_CHARACTERS
@@ -59,8 +52,8 @@ def content(
         ],
         "causes": _causes(comparison),
         "certainties": {
-            str(int(c)): {"name": _words(c.name), "sentence": text}
-            for c, text in _CERTAINTY.items()
+            str(int(c)): {"name": _words(c.name), "sentence": c.sentence, "color": c.color}
+            for c in Certainty
         },
         "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
         "pictures": _pictures(comparison, extras.literal),

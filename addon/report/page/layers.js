@@ -4,12 +4,6 @@
 // By id: { id, label, note, canvas, values, key: what its colours mean }.
 const layers = new Map();
 
-const CERTAINTY_COLORS = {
-  0: [120, 120, 120],
-  1: [46, 77, 89],
-  2: [86, 180, 233],
-  3: [240, 228, 66],
-};
 const DIM = 0.42; // of what agrees, on the screen
 
 async function loadLayers() {
@@ -55,11 +49,12 @@ function drawCauses() {
 function drawCertainty() {
   const layer = layers.get("certainty");
   const there = [...new Set(pixels.certainty)].sort();
-  layer.key = there.map((c) => [page.certainties[c].name, `rgb(${CERTAINTY_COLORS[c]})`]);
+  layer.key = there.map((c) => [page.certainties[c].name, page.certainties[c].color]);
+  const colors = new Map(there.map((c) => [c, [...rgbOf(page.certainties[c].color), 255]]));
   const image = new ImageData(WIDTH, HEIGHT);
   for (let pixel = 0; pixel < pixels.certainty.length; pixel++) {
     const i = offsetOf(pixel % WIDTH, Math.floor(pixel / WIDTH));
-    image.data.set([...CERTAINTY_COLORS[pixels.certainty[pixel]], 255], i);
+    image.data.set(colors.get(pixels.certainty[pixel]), i);
   }
   layer.canvas.getContext("2d").putImageData(image, 0, 0);
   layer.values = image.data;

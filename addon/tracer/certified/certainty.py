@@ -13,12 +13,25 @@ import numpy as np
 
 
 class Certainty(IntEnum):
-    """How the surface that a ray sees was decided."""
+    """How the surface that a ray sees was decided; a member is a number, with these attributes."""
 
-    NOT_CERTIFIED = 0  # by floating point alone
-    BOUND = 1  # by floating point, with an error bound that leaves no doubt
-    EXACT = 2  # by integers, where the bound left some
-    AMBIGUOUS = 3  # by the rule: the ray meets an edge, a corner or two surfaces at once
+    color: str  # on a map
+    sentence: str
+
+    NOT_CERTIFIED = 0, "#787878", "floating point alone decided, without a proof"
+    BOUND = 1, "#2e4d59", "floating point decided, and its error bound leaves no doubt"
+    EXACT = 2, "#56b4e9", "integer arithmetic decided, where the error bound left a doubt"
+    AMBIGUOUS = (
+        3,
+        "#f0e442",
+        "the ray meets an edge, a corner or two surfaces at once: a rule decided",
+    )
+
+    def __new__(cls, number: int, color: str, sentence: str) -> Certainty:
+        """Make a member of a record."""
+        self = int.__new__(cls, number)
+        self._value_, self.color, self.sentence = number, color, sentence
+        return self
 
 
 class AssumptionError(RuntimeError):
