@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import images
-from ..compare.cause import Cause
 from ..compare.comparison import SCHEMA, Comparison
+from ..compare.maps import cause_map
 from . import page
 from .folders import replacing, write_json
 
@@ -22,8 +22,6 @@ ARRAYS, JSON = "frame.npz", "comparison.json"
 NAMES = *(f"{name}.png" for name in PICTURES), ARRAYS, page.NAME, JSON
 # Passes whose last digits are noise: nothing but runs of one byte is found in them, or sought.
 _NOISE = "position", "barycentrics"
-_DIM = 0.25  # of the traced picture below the causes
-_LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 
 def write(directory: str | Path, comparison: Comparison, extras: page.Extras | None = None) -> None:
@@ -63,15 +61,7 @@ def _write_arrays(path: Path, arrays: dict[str, NDArray]) -> None:
 
 def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
-    grey = _DIM * (np.nan_to_num(comparison.frame.color[..., :3]) @ np.array(_LUMINANCE))
-    out = np.ones((*grey.shape, 4), np.float32)
-    out[..., :3] = grey[..., None]
-    for cause in Cause:
-        if cause.color is not None:
-            where = comparison.causes.cause == cause
-            share = 0.5 if cause.see_through else 1.0
-            out[where, :3] = (1 - share) * out[where, :3] + share * np.array(cause.color)
-    return out
+    return cause_map(comparison.frame.color, comparison.causes.cause)
 
 
 @contextmanager

@@ -1,0 +1,54 @@
+"""Maps over a traced picture: it is dimmed and grey there, so that single pixels stand out.
+
+All are of pictures (h, w, 4), or of some rows of them: linear RGBA, opaque.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..images import curve_undone
+from ..tracer.certified.certainty import Certainty
+from .cause import Cause, Color
+
+WRONG: Color = (1.0, 0.0, 0.0)
+DIM = 0.25  # of what lies below
+_LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
+
+
+def dimmed(color: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return a picture's light, dimmed."""
+    out = np.ones(color.shape, np.float32)
+    out[..., :3] = (DIM * (np.nan_to_num(color[..., :3]) @ np.array(_LUMINANCE)))[..., None]
+    return out
+
+
+def wrong_map(color: NDArray[np.float32], wrong: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Return a picture with the pixels that are wrong (h, w)."""
+    out = dimmed(color)
+    out[wrong, :3] = WRONG
+    return out
+
+
+def cause_map(color: NDArray[np.float32], cause: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """Return a picture with the pixels that have a `Cause` other than to agree (h, w)."""
+    out = dimmed(color)
+    for c in Cause:
+        if c.color is not None:
+            where = cause == c
+            share = 0.5 if c.see_through else 1.0
+            out[where, :3] = (1 - share) * out[where, :3] + share * np.array(c.color)
+    return out
+
+
+def certainty_map(color: NDArray[np.float32], certainty: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """Return a picture with the `Certainty` of each pixel (h, w).
+
+    What whole surfaces have leaves these visible.
+    """
+    table = np.array([bytearray.fromhex(c.color[1:]) for c in Certainty])
+    share = np.array([0.5 if c < Certainty.EXACT else 1.0 for c in Certainty])[certainty][..., None]
+    out = dimmed(color)
+    out[..., :3] += share * (curve_undone(table / 255)[certainty] - out[..., :3])
+    return out
