@@ -5,6 +5,8 @@ Results are not stored here: see `results.py`.
 
 from __future__ import annotations
 
+from typing import Any
+
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
@@ -14,6 +16,7 @@ from ..tracer.coloring import Color
 from ..tracer.frame import PASSES
 from ..tracer.settings import Precision, Settings
 from . import judges
+from .live.shows import SHOWS
 
 # (identifier, name, description, number). A .blend stores the number: one that was given away is
 # never given to another, and a new item takes the next.
@@ -38,7 +41,15 @@ SHADINGS = (
 )
 # Its number is one bit of what a .blend stores: a new pass takes the last place among PASSES.
 PASS_ITEMS = tuple((p.label, p.label, "", 2**k) for k, p in enumerate(PASSES) if p.label)[1:]
+SHOW_ITEMS = tuple((s.identifier, s.label, s.description, s.number) for s in SHOWS)
 SWEEPS = tuple((s.name, s.title, s.explanation) for s in SCENARIOS)
+
+
+def _redraw_views(scene: Any, context: Any) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
 
 
 class ReferenceTracerScene(bpy.types.PropertyGroup):
@@ -61,6 +72,12 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         description="Colour is the mean of this number squared of rays, spread over the pixel",
     )
     color: EnumProperty(name="Color", items=COLORS, description="What a render shows of a surface")  # type: ignore[valid-type]
+    show: EnumProperty(  # type: ignore[valid-type]
+        name="Show",
+        items=SHOW_ITEMS,
+        description="What a 3D view shows in Rendered mode, if this is the render engine",
+        update=_redraw_views,
+    )
     judge: EnumProperty(  # type: ignore[valid-type]
         name="Compare With",
         items=JUDGE_ITEMS,

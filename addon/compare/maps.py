@@ -14,6 +14,7 @@ from .cause import Cause, Color
 
 WRONG: Color = (1.0, 0.0, 0.0)
 DIM = 0.25  # of what lies below
+RING, MOST_RINGS = 5, 500  # pixels from the one that is marked; rings, so that these are found
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 
@@ -51,4 +52,18 @@ def certainty_map(color: NDArray[np.float32], certainty: NDArray[np.uint8]) -> N
     share = np.array([0.5 if c < Certainty.EXACT else 1.0 for c in Certainty])[certainty][..., None]
     out = dimmed(color)
     out[..., :3] += share * (curve_undone(table / 255)[certainty] - out[..., :3])
+    return out
+
+
+def ringed(color: NDArray[np.float32], where: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """Return a picture with a ring of its own colour around each of few pixels (h, w)."""
+    y, x = np.nonzero(where)
+    if not 0 < len(y) <= MOST_RINGS:
+        return color
+    out, (height, width) = color.copy(), where.shape
+    dy, dx = np.mgrid[-RING : RING + 1, -RING : RING + 1]
+    on = np.maximum(abs(dy), abs(dx)) == RING
+    at = np.clip(y[:, None] + dy[on], 0, height - 1), np.clip(x[:, None] + dx[on], 0, width - 1)
+    out[at] = color[y, x][:, None]
+    out[y, x] = color[y, x]
     return out

@@ -1,23 +1,43 @@
-"""What a 3D view in Rendered mode can show: a record each."""
+"""What a 3D view in Rendered mode can show: a record and a function each.
+
+A function fills a picture in steps. All but the picture of F12 show how each pixel came about: by
+one ray through its centre, in colours that a screen shows as they are.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...compare.cause import Cause
+from ...compare.causes import explain
+from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
+from ...compare.metrics import boundary, count_pixels
+from ...images import encoded
 from ...scene import Camera, Scene
+from ...tracer.certified.certainty import Certainty, broken_assumptions
+from ...tracer.coloring import Color
 from ...tracer.frame import Frame
+from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Settings
+from . import like_for_like
+
+ROWS = 64  # entered together, in some milliseconds
+MOST_EXPLAINED = 20_000  # of the pixels that differ: in some seconds
 
 
 @dataclass(eq=False)
 class Picture:
-    """A picture of h x w pixels that is being made: a camera's region, row 0 at the bottom."""
+    """A picture of h x w pixels that is being made: a camera's region, row 0 at the bottom.
+
+    A new array in `color` is the picture anew, whatever was shown of the one before.
+    """
 
     color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
     rows_done: NDArray[np.bool_]  # (h,) of which the colour is known
@@ -37,8 +57,12 @@ class Show(NamedTuple):
     label: str
     description: str
     number: int  # what a .blend stores: one that was given away is never given to another
-    steps: Callable[[Scene, Settings, Picture], Iterator[float]]
-    is_raw: bool = False  # whether a screen shows the values as they are, by no view transform
+    steps: Callable[..., Iterator[float]]  # of a Scene, Settings, a Picture
+    is_raw: bool = True  # whether a screen shows the values as they are, by no view transform
+    of_space: bool = False  # whether `steps` takes the 3D view's space first, by its address
+
+
+Rows = Callable[[Frame, slice], NDArray]  # what is shown of rows of a frame, linear RGBA
 
 
 def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
@@ -48,9 +72,145 @@ def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]
     yield from steps(scene, settings, frame)
 
 
-SHOWS = (Show("PICTURE", "Picture", "What a render shows", 0, picture),)
+def colored(color: Color, scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+    """Trace one of the things that a render can show of a surface."""
+    yield from _traced(scene, replace(settings, color=color), shown, lambda f, r: f.color[r])
+
+
+def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+    """Trace by the settings' method, and mark where it sees another surface than is proven."""
+    if not settings.method.is_plain:
+        yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+        shown.line = "proven, so none is wrong: choose another method to see what it gets wrong"
+        return
+    if lacks := broken_assumptions():
+        shown.line = f"nothing can be proven here: no {' and '.join(lacks)}"
+        yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+        return
+    truth = Frame.empty(scene)
+    yield from scaled(steps(scene, Settings("certified"), truth), 0.0, 0.4)
+
+    def rows(frame: Frame, r: slice) -> NDArray:
+        return wrong_map(frame.color[r], frame.wrong_against(truth)[r])
+
+    frame = yield from scaled(_traced(scene, settings, shown, rows), 0.4, 0.6)
+    wrong = frame.wrong_against(truth)
+    shown.color = ringed(shown.color, wrong)
+    name = f"{settings.precision} {settings.method.words}"
+    shown.line = f"{name}: {wrong.sum():,} wrong of {wrong.size:,} pixels"
+
+
+def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+    """Trace, and show how each pixel was decided."""
+
+    def rows(frame: Frame, r: slice) -> NDArray:
+        return certainty_map(frame.color[r], frame.certainty[r])
+
+    frame = yield from _traced(scene, settings, shown, rows)
+    shown.color = ringed(shown.color, frame.certainty > Certainty.BOUND)
+    counts = ((c, int((frame.certainty == c).sum())) for c in Certainty)
+    shown.line = ", ".join(f"{c.name.lower().replace('_', ' ')} {n:,}" for c, n in counts if n)
+
+
+def difference(space: int, scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+    """Trace, have Blender draw the same once the view rests, and show why pixels differ."""
+    settings = replace(settings, samples=1, color=Color.OBJECT)
+    work = _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+    frame = yield from scaled(work, 0.0, 0.5)
+    if not like_for_like.is_whole(space, scene.camera):
+        return
+    shown.line = "Blender's viewport draws the same once the view rests"
+    while like_for_like.is_busy():
+        yield 0.5
+    case = like_for_like.case_of(space, scene, settings)
+    yield 0.6
+    if scene.planes:  # which may have other colours there
+        frame = Frame.empty(case.scene)
+        yield from scaled(steps(case.scene, settings, frame), 0.6, 0.1)
+    causes = (yield from scaled(explain(case, frame, MOST_EXPLAINED), 0.7, 0.2)).causes
+    color = np.empty_like(shown.color)
+    for rows in _parts(0, len(color)):
+        color[rows] = encoded(cause_map(frame.color[rows], causes.cause[rows]))
+        yield 0.9
+    shown.color = ringed(color, causes.cause != Cause.AGREE)
+    pixels = count_pixels(causes, boundary(frame))
+    differ = pixels["differ"] + causes.passed_over
+    found = [f"{n:,} {Cause[c.upper()].label}" for c, n in pixels["by_cause"].items() if n]
+    found += [f"{causes.passed_over:,} not looked at"] if causes.passed_over else []
+    inside = pixels["interior"]["differ"]
+    shown.line = (
+        f"{differ:,} of {pixels['total']:,} pixels differ from Blender's viewport"
+        f"{': ' if found else ''}{', '.join(found)}; {inside:,} away from edges"
+    )
+
+
+def _parts(first: int, end: int) -> Iterator[slice]:
+    """Yield rows that are entered together."""
+    return (slice(y, min(y + ROWS, end)) for y in range(first, end, ROWS))
+
+
+def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Work[Frame]:
+    """Trace one ray a pixel, and show what is made of the rows that are done."""
+    frame = Frame.empty(scene)
+    for share in steps(scene, replace(settings, samples=1), frame):
+        new = np.flatnonzero(frame.rows_done & ~shown.rows_done)
+        for some in _parts(new[0], new[-1] + 1) if len(new) else ():
+            color = encoded(rows(frame, some))
+            color[..., :3] *= color[..., 3:]
+            shown.color[some], shown.rows_done[some] = color, True
+            yield share
+        yield share
+    return frame
+
+
+SHOWS = (
+    Show("PICTURE", "Picture", "What a render shows", 0, picture, is_raw=False),
+    Show(
+        "WRONG",
+        "Wrong Pixels",
+        "What the method makes, dimmed; red where it sees another surface than is proven. Counted "
+        "in the view's corner",
+        1,
+        wrong_pixels,
+    ),
+    Show(
+        "DIFFERENCE",
+        "Difference to Blender's Viewport",
+        "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that "
+        "differ have the colour of their cause, as in a comparison",
+        2,
+        difference,
+        of_space=True,
+    ),
+    Show(
+        "CERTAINTY",
+        "Certainty",
+        "How each pixel was decided: dark by an error bound, blue by integers, yellow by a rule, "
+        "as the ray meets an edge or two surfaces at once",
+        3,
+        certainty,
+    ),
+    # The others follow, in the order of their numbers, from 4 on.
+    *(
+        Show(c.name, c.capitalize(), c.description, 4 + c.number, partial(colored, c))
+        for c in Color
+    ),
+)
+
+
+class _OfSpace(NamedTuple):
+    """Steps that take the 3D view's space first; equal for the same."""
+
+    steps: Callable[..., Iterator[float]]
+    space: int
+
+    def __call__(self, *arguments: Any) -> Iterator[float]:
+        return self.steps(self.space, *arguments)
 
 
 def chosen(context: Any) -> Show:
-    """Return what the view of a context is to show."""
-    return SHOWS[0]
+    """Return what the view of a context is to show; two that are equal show the same."""
+    show = next(s for s in SHOWS if s.identifier == context.scene.reference_tracer.show)
+    if show.of_space:
+        return show._replace(steps=_OfSpace(show.steps, context.space_data.as_pointer()))
+    return show

@@ -1,0 +1,108 @@
+"""Blender's own drawing of what a 3D view shows, like for like, and the case to be compared.
+
+It is drawn as a camera's picture in a temporary scene. Of the view itself an off-screen drawing
+could be made; but its shading would have to be switched for it, which frees its engine; and it
+would be anti-aliased by the user's preference, which draws everything eight times.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...compare.case import Case
+from ...compare.picture import Picture, Source
+from ...scene import Camera, Scene
+from ...tracer.settings import Settings
+from ...tracer.vector import transform_points
+from ..camera import certify_camera
+from ..export import export
+from ..judges import JUDGES
+from ..planes import stand_ins
+from ..rasteriser import snapping_of
+from ..scenario_scene import add_camera
+from ..temporary import drawn, leave_out, temporary_scene
+from ..viewport import picture, prepare_scene, use_view_shading
+
+AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
+_VIEWPORT = JUDGES["viewport"]
+
+
+def is_busy() -> bool:
+    """Return whether the user, or a render, is in the middle of something."""
+    windows = bpy.context.window_manager.windows
+    busy = any(w.modal_operators or w.screen.is_animation_playing for w in windows)
+    return busy or bpy.app.is_job_running("RENDER")
+
+
+def is_whole(space: int, camera: Camera) -> bool:
+    """Return whether a camera has all pixels of a 3D view, by its space's address."""
+    _, area = _place(space)
+    size = camera.width, camera.height
+    return any((r.width, r.height) == size for r in area.regions if r.type == "WINDOW")
+
+
+def case_of(space: int, scene: Scene, settings: Settings) -> Case:
+    """Have Blender draw the scene that a 3D view shows, by its space's address.
+
+    Raises
+    ------
+    SceneError
+        If Blender makes no picture of it, or its camera is another.
+    """
+    window, area = _place(space)
+    shown, layer = area.spaces.active, window.view_layer.name
+    with temporary_scene(window.scene, layer, _VIEWPORT) as tmp:
+        hidden = [o for o in drawn(tmp, layer) if not o.visible_in_viewport_get(shown)]
+        leave_out(tmp, layer, hidden)
+        use_view_shading(tmp, shown.shading)
+        prepare_scene(tmp, True)
+        looking = add_camera(tmp, _from_before(scene)).data
+        try:
+            with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
+                depsgraph = bpy.context.evaluated_depsgraph_get()
+                _, manifest = export(depsgraph)
+                certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+            certificate.check()
+            snapping = snapping_of(_VIEWPORT)
+            planes = [scene.objects[p.object] for p in scene.planes]
+            with stand_ins(tmp, layer, scene, planes) as traced:
+                pixels = picture(tmp, layer, _VIEWPORT, scene.camera, True)
+        finally:
+            bpy.data.cameras.remove(looking)  # and the object with it
+    source = Source(_VIEWPORT.name, bpy.app.version_string)
+    return Case(traced, manifest, settings, Picture(pixels, source, snapping=snapping), certificate)
+
+
+def _place(space: int) -> tuple[Any, Any]:
+    """Return the window and the area in which a space is active."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.spaces.active.as_pointer() == space:
+                return window, area
+    raise RuntimeError("the 3D view is gone")
+
+
+def _from_before(scene: Scene) -> Camera:
+    """Return a scene's camera, moved to before all that it shows if it looks behind itself, too.
+
+    So does an orthographic view, but no camera of Blender's. Parallel rays stay the same.
+    """
+    camera = scene.camera
+    if camera.clip_start > 0:
+        return camera
+    start = camera.clip_start
+    if not scene.planes:
+        corners = ((i, product(*scene.meshes[i.mesh].bounds.T)) for i in scene.instances)
+        points = (transform_points(i.world_from_object, np.transpose([*c])) for i, c in corners)
+        depths = [camera.forward @ (p - camera.origin[:, None]) for p in points]
+        start = np.clip(np.min(depths, initial=camera.clip_end), start, camera.clip_end)
+    back = start - AWAY * (camera.clip_end - start + 1)
+    matrix = camera.world_from_camera.copy()
+    matrix[:3, 3] += back * camera.forward
+    clip = {"clip_start": start - back, "clip_end": camera.clip_end - back}
+    return replace(camera, world_from_camera=matrix, **clip)
