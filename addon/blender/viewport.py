@@ -60,6 +60,7 @@ def prepare_scene(scene: Any, like_for_like: bool) -> dict[str, Any]:
         setattr(scene.path_resolve(owner), name, value)
     render, shading = scene.render, scene.display.shading
     set_format(render, "OPEN_EXR", "RGBA", "32")
+    render.image_settings.exr_codec = "NONE"  # read at once, and removed
     return {
         "like_for_like": like_for_like,
         "light": shading.light,

@@ -90,8 +90,8 @@ class Picture:
             "settings": source.settings,
         }
 
-    def at(self, where: NDArray | slice) -> Picture:
-        """Return some of the pixels: rows by a slice, or those where a mask is True."""
+    def at(self, where: NDArray | slice | tuple[NDArray, ...]) -> Picture:
+        """Return some of the pixels: rows by a slice, those of a mask, or by their indices."""
         of_pixels = {name: getattr(self, name) for name in ("owner", "drawn", "beneath")}
         some = {name: None if v is None else v[where] for name, v in of_pixels.items()}
         return replace(self, color=self.color[where], **some)

@@ -138,29 +138,35 @@ class Part:
         return self.pixels.case.scene
 
     @cached_property
+    def at(self) -> tuple[NDArray[np.intp], ...]:
+        """The rows and columns of the n pixels."""
+        return np.nonzero(self.wanted)
+
+    @cached_property
     def picture(self) -> Picture:
         """What the n pixels show."""
-        return self.pixels.picture.at(self.wanted)
+        return self.pixels.picture.at(self.at)
 
     @cached_property
     def band(self) -> NDArray[np.float64]:
         """How far from the n centres Blender's samples may lie, in pixels."""
-        return self.pixels.band[self.wanted]
+        return self.pixels.band[self.at]
 
     @property
     def settled(self) -> bool:
         """Whether no pixel is left."""
-        return not self.pixels.open[self.wanted].any()
+        return not self.pixels.open[self.at].any()
 
     def settle(
         self, where: NDArray[np.bool_], cause: Cause, figure: ArrayLike, allowed: ArrayLike
     ) -> None:
         """Give those of the n pixels a cause that have none yet."""
-        values = np.zeros((2, *self.wanted.shape))
-        values[0, self.wanted], values[1, self.wanted] = figure, allowed
-        settled = np.zeros(self.wanted.shape, bool)
-        settled[self.wanted] = where
-        self.pixels.settle(settled, cause, *values)
+        out = self.pixels.out
+        where = where & (out.cause[self.at] == Cause.AGREE)
+        at = tuple(v[where] for v in self.at)
+        out.cause[at], self.pixels.open[at] = cause, False
+        for values, own in ((out.figure, figure), (out.allowed, allowed)):
+            values[at] = np.broadcast_to(own, where.shape)[where]
 
     def resolution(self, hits: Hits) -> NDArray[np.float64]:
         """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
@@ -203,6 +209,7 @@ def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[NDArray[np.bool_]]:
         seen = np.zeros((2, count), bool)
         for instance in everywhere:
             seen |= _shown(picture, scene, np.full(count, instance), np.full(count, NOTHING))
+            yield number / len(parts)
         for share, some in candidates(plan, tile, wanted.ravel()):
             yield (number + share) / len(parts)
             if some is not None:

@@ -25,7 +25,7 @@ from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
 from ...tracer.world import world_corners
 
-_LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
+_LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
 _TOGETHER = 1 << 16  # pixels: some MiB of temporaries
 
 

@@ -14,7 +14,6 @@ from reference_tracer.compare.bounds import SNAPPING
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.checks import probe as probing
 from reference_tracer.scene import Mesh
-from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -139,10 +138,10 @@ def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
     monkeypatch.setattr(probing, "test_pairs", counting)
     frame = render(room)
     picture = render(replace(room, camera=shifted(room.camera, 0.3, 0.004))).color
-    picture[:, ::2] = WHITE
-    for few, rows in ((1 << 20, 1 << 20), (200, 32), (1 << 20, 3)):
+    picture[:, ::2] = frame.color[frame.instance_index == 2][0]  # the wall's, behind the others
+    for few, block in ((1 << 20, 1 << 20), (60, 1 << 20), (60, 100)):
         monkeypatch.setattr(probing, "FEW", few)
-        monkeypatch.setattr(rendering, "ROWS", rows)
+        monkeypatch.setattr(probing, "BLOCK", block)
         tested[:] = [0]
         work = find_causes(room, frame, picture)
         try:
