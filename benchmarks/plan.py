@@ -13,6 +13,7 @@ from reference_tracer.scene import SceneError
 
 from . import scenes
 from .scenes import SUBJECTS
+from .window import WINDOW
 
 SMALL, LARGE = (480, 270), (1920, 1080)  # pixels
 QUICK_ADVERSARIAL = "slivers_20k", "inside_soup"
@@ -21,6 +22,20 @@ QUICK_CYCLES = "cube", "icosphere_82k"
 MANY = 200_000  # triangles: an R-tree of more takes minutes and gigabytes to build
 REPEATS, QUICK_REPEATS = 5, 3
 BLENDER = frozenset({"bvhtree", "cycles", "workbench"})
+# What is measured as a user runs it, see `commands.py`; the quick ones are short.
+QUICK_COMMANDS = (
+    "reftrace --help",
+    "trace mesh.ply, 1.3 M triangles",
+    "F12, 1920 x 1080",
+    "F12, 1920 x 1080, the picture alone",
+)
+COMMANDS = (
+    *QUICK_COMMANDS,
+    "compare suzanne, 960 x 540",
+    "compare 12 triangles, 1920 x 1080",
+    "compare what one cause excuses",
+    *WINDOW,
+)
 
 
 @dataclass(frozen=True)
@@ -53,7 +68,8 @@ class Plan:
     repeats: int
     budget: float  # seconds for the repeats of one case
     slow: float  # seconds for each peer that is measured on a sample of rays
-    seconds: float = 1e9  # for all: who comes late gets fewer rounds
+    seconds: float = 1e9  # for all cases: who comes late gets fewer rounds
+    commands: tuple[str, ...] = ()  # of COMMANDS
 
 
 def plan(names: list[str] | None = None, quick: bool = False, repeats: int | None = None) -> Plan:
@@ -62,7 +78,8 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
     Parameters
     ----------
     names : list of str, optional
-        Scenes; all by default, but for --quick, which leaves out some of the adversarial.
+        Scenes, without the commands; all by default, but for --quick, which leaves out some of
+        the adversarial and the slow commands.
     quick : bool
     repeats : int, optional
         Rounds of every case, if they fit its time.
@@ -76,11 +93,12 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
         raise SceneError(f"--repeats is {repeats}; it must be at least 1")
     chosen = [scenes.subject(name).name for name in dict.fromkeys(names or _default(quick))]
     cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
+    commands = () if names else QUICK_COMMANDS if quick else COMMANDS
     if quick:
-        return Plan(
-            tuple(cases), True, repeats or QUICK_REPEATS, budget=5.0, slow=0.3, seconds=100.0
-        )
-    return Plan(tuple(cases), False, repeats or REPEATS, budget=10.0, slow=3.0, seconds=1200.0)
+        repeats, times = repeats or QUICK_REPEATS, {"budget": 5.0, "slow": 0.3, "seconds": 80.0}
+    else:
+        repeats, times = repeats or REPEATS, {"budget": 10.0, "slow": 3.0, "seconds": 1200.0}
+    return Plan(tuple(cases), quick, repeats, **times, commands=commands)
 
 
 def _default(quick: bool) -> list[str]:

@@ -12,7 +12,7 @@ from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 
 from .plot import picture
-from .rows import Bench, Row
+from .rows import Bench, CommandRow, Row
 from .scaling import scalings
 from .tables import table
 
@@ -26,6 +26,7 @@ _UNITS = {
     "_least, _most": "of the ratios of two times of one round",
     "embreex_differs": "share of pixels in which embreex, in float32, names another triangle",
     "stages": "seconds of a whole frame, by stage",
+    "commands": "cpu_s: CPU seconds of its process; ratio: to those of `import bpy`, of one round",
 }
 
 
@@ -39,6 +40,7 @@ def to_dict(bench: Bench) -> dict[str, Any]:
         "notes": bench.notes,
         "units": _UNITS,
         "rows": [asdict(r) for r in bench.rows],
+        "commands": [asdict(c) for c in bench.commands],
         "scaling": [asdict(s) for s in scalings(bench.rows)],
     }
 
@@ -92,9 +94,10 @@ def load(path: str | Path) -> Bench:
             raise SceneError(f"'{path}' has the schema {data['schema']!r}, not {SCHEMA!r}")
         known = {f.name for f in fields(Row)}
         rows = [Row(**{k: v for k, v in row.items() if k in known}) for row in data["rows"]]
-        ours = {"schema", "quick", "interrupted", "notes", "units", "rows", "scaling"}
+        ours = {"schema", "quick", "interrupted", "notes", "units", "rows", "commands", "scaling"}
         facts = {k: v for k, v in data.items() if k not in ours}
-        return Bench(facts, data["quick"], rows, data["notes"], data["interrupted"])
+        commands = [CommandRow(**row) for row in data.get("commands", ())]  # older ones have none
+        return Bench(facts, data["quick"], rows, data["notes"], data["interrupted"], commands)
     except (ValueError, TypeError, KeyError, AttributeError) as error:
         if isinstance(error, SceneError):
             raise

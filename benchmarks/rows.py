@@ -69,6 +69,21 @@ class Row:
 
 
 @dataclass
+class CommandRow:
+    """What a command takes in a process of its own: CPU seconds, and times `import bpy`.
+
+    Medians of the rounds, and the least and the most of the ratio of two times of one round.
+    """
+
+    name: str
+    cpu_s: float
+    ratio: float
+    ratio_least: float
+    ratio_most: float
+    rounds: int = 0
+
+
+@dataclass
 class Bench:
     """All rows so far."""
 
@@ -77,6 +92,7 @@ class Bench:
     rows: list[Row] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)  # what was left out, and why
     interrupted: int = 0  # by a signal: the exit code for it
+    commands: list[CommandRow] = field(default_factory=list)
 
     def note(self, text: str) -> None:
         """Say something, once."""

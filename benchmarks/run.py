@@ -10,12 +10,15 @@ from contextlib import closing
 from pathlib import Path
 
 from reference_tracer import running
-from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.progress import Work, result_of, scaled
 
+from .commands import measure_commands
 from .measure import METHODS, measure
-from .plan import plan
+from .plan import Plan, plan
 from .report import load, write_json
 from .rows import Bench, machine
+
+SCENES = 0.8  # their share of the time, about
 
 
 def run(
@@ -50,7 +53,7 @@ def run(
             written = len(bench.rows)
 
     try:
-        with closing(measure(wanted, bench, directory)) as work:
+        with closing(_all(wanted, bench, directory)) as work:
             result_of(work, show)
     except KeyboardInterrupt:
         bench.interrupted, word = running.ended()
@@ -58,3 +61,9 @@ def run(
         done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
         print(f"\nreftrace: {word}: {done} were measured", file=sys.stderr)
     return bench, baseline
+
+
+def _all(wanted: Plan, bench: Bench, directory: Path) -> Work[None]:
+    share = SCENES if wanted.commands else 1.0
+    yield from scaled(measure(wanted, bench, directory), 0.0, share)
+    yield from scaled(measure_commands(wanted, bench, directory), share, 1 - share)

@@ -21,13 +21,14 @@ _PEERS = {
 
 def table(bench: Bench, baseline: Bench | None = None) -> str:
     """Return all of it as lines of at most 100 characters."""
-    if not bench.rows:
+    if not bench.rows and not bench.commands:
         return "\n".join(["nothing was measured", *_notes(bench)])
     parts = [
-        list(_ours(bench)),
+        list(_ours(bench)) if bench.rows else [],
         list(_peers(bench)),
         list(_stages(bench)),
         list(_scaling(bench)),
+        list(_commands(bench, baseline)),
         list(_compared(bench, baseline)) if baseline else [],
         list(_notes(bench)),
     ]
@@ -126,6 +127,19 @@ def _scaling(bench: Bench) -> Iterator[str]:
         by = {s.of: f"{s.exponent:.2f}" for s in group}
         rows.append((*named, *(by.get(of, "-") for of in ("trace", "render", "embreex"))))
     yield from columns(rows, left=(0, 1, 2))
+
+
+def _commands(bench: Bench, baseline: Bench | None) -> Iterator[str]:
+    if not bench.commands:
+        return
+    before = {c.name: c.ratio for c in baseline.commands} if baseline else {}
+    rows = [("", "CPU s", "x import bpy (least - most)", "new / old")]
+    for c in bench.commands:
+        times = f"{c.ratio:.2f} ({c.ratio_least:.2f} - {c.ratio_most:.2f})"
+        then = f"{c.ratio / before[c.name]:.2f}" if before.get(c.name) else "-"
+        rows.append((c.name, f"{c.cpu_s:.2f}", times, then))
+    yield "commands, in processes of their own; x import bpy: in the same round"
+    yield from columns(rows if before else [row[:-1] for row in rows], left=(0,))
 
 
 def ratios(new: Bench, old: Bench, name: str) -> dict[tuple, float]:

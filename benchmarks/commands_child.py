@@ -1,0 +1,56 @@
+"""What the table of commands needs of Blender: files, and the time of F12.
+
+`make SUZANNE.blend FOLDER` writes the files; `f12 FILE all|none` renders with all passes or with
+the picture alone, and prints CPU seconds in its last line.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import bpy
+import reference_tracer
+
+from . import meshes, scenes
+from .blender_child import open_scene
+
+
+def make(suzanne: str, folder: str) -> None:
+    """Write a cube, a mesh of 1.3 million triangles, and Suzanne in a shading that is not ours."""
+    import trimesh
+
+    out = Path(folder)
+    mesh = scenes.mesh_of("cube", out)
+    open_scene(scenes.build(mesh, 1920, 1080, "perspective"))
+    bpy.ops.wm.save_as_mainfile(filepath=str(out / "cube.blend"))
+    bpy.ops.wm.open_mainfile(filepath=suzanne)
+    shading = bpy.context.scene.display.shading
+    shading.show_cavity = shading.show_shadows = True
+    bpy.ops.wm.save_as_mainfile(filepath=str(out / "shaded.blend"))
+    vertices, triangles = meshes.icosphere(8)
+    trimesh.Trimesh(vertices, triangles, process=False).export(out / "mesh.ply")
+
+
+def f12(path: str, passes: str) -> None:
+    """Render twice at 1920 x 1080; of the first, a part is what a process does once."""
+    bpy.ops.wm.open_mainfile(filepath=path)
+    scene = bpy.context.scene
+    scene.render.engine = "REFERENCE_TRACER"
+    scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
+    scene.render.resolution_percentage = 100
+    if passes == "none":
+        for layer in scene.view_layers:
+            layer.reference_tracer.passes = set()
+    for _ in range(2):
+        began = time.process_time()
+        bpy.ops.render.render()
+        seconds = time.process_time() - began
+    print(seconds, flush=True)
+
+
+if __name__ == "__main__":
+    reference_tracer.register()
+    do, *rest = sys.argv[1:]
+    {"make": make, "f12": f12}[do](*rest)
