@@ -63,7 +63,10 @@ class Field:
             except MissingPeerError as error:
                 self._bench.note(str(error))
         self._mesh, self._built, self._embreex = mesh_of(name, self._cache), None, None
-        self._try("embreex", self._prepare_embreex)
+        if SUBJECTS[name].copies == 1:
+            self._try("embreex", self._prepare_embreex)
+        else:
+            self._bench.note(f"{name}: embreex has no instances: copied, they are gigabytes")
         return self._mesh
 
     def runners(self, scene: Scene, case: Case) -> dict[str, Runner]:
@@ -75,6 +78,7 @@ class Field:
             self._rays = fitting(timed, scene.camera, allowed)
             self._found["embreex_rays"] = self._rays.count
             out["embreex_trace"] = Runner(self._whole_embreex)
+            out["embreex_ids"] = Runner(self._whole_ids)
             if self._built is None:
                 out["embreex_build"] = Runner(self._embreex.build, allowed)
         if "rtree" in case.peers - self._gone:
@@ -118,6 +122,9 @@ class Field:
     def _whole_embreex(self) -> float:
         rays = self._rays
         return self._trace_embreex(rays, keep=self._hits is None) * rays.of / rays.count
+
+    def _whole_ids(self) -> float:
+        return self._embreex.ids(self._rays) * self._rays.of / self._rays.count
 
     def _rtree(self, scene: Scene) -> Runner:
         """Return a runner for a sample of rays, as many as fit the time of a slow peer."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from contextlib import closing
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 
@@ -27,11 +28,12 @@ from .meshes import MissingMeshError
 from .plan import Case, Plan
 from .rounds import Ratio, Runner, in_rounds, ratio
 from .rows import Bench, Row
-from .scenes import build, mesh_of
+from .scenes import SUBJECTS, build, mesh_of
 
 CERTIFIED, PLAIN = Settings(Method.CERTIFIED), Settings(Method.MOLLER_TRUMBORE)
 METHODS = PLAIN, CERTIFIED
 WHAT = TRACE, RENDER = "trace", "render"
+PICTURE, OUTPUTS = "picture", "outputs"  # what of a frame is asked for, of certified alone
 _MEMORY = 0.2  # the share of a scene's time that its memory takes, about
 
 Peaks = dict[memory.Job, int | None]
@@ -148,6 +150,8 @@ class Timing:
         self.certified: Frame | None = None  # the latest: peers are held against it
         self._stages: dict[Settings, list[dict[str, float]]] = {s: [] for s in METHODS}
         self.runners = {(s, what): Runner(self._of(s, what)) for what in WHAT for s in METHODS}
+        for what in (PICTURE, OUTPUTS):
+            self.runners[CERTIFIED, what] = Runner(self._of(CERTIFIED, what))
 
     def scene(self) -> Scene:
         """Return the case's scene, new: one that was traced keeps tables."""
@@ -155,12 +159,23 @@ class Timing:
         return build(self._mesh, case.width, case.height, case.camera)
 
     def _of(self, settings: Settings, what: str) -> Callable[[], float]:
-        return lambda: (self._trace if what == TRACE else self._render)(settings)
+        works = {TRACE: self._trace, RENDER: self._render}
+        return lambda: works.get(what, partial(self._frame, what))(settings)
 
     def _trace(self, settings: Settings) -> float:
         scene = self.scene()
         began = time.perf_counter()
-        trace(scene, settings)
+        hits = trace(scene, settings)
+        assert hits.t is not None and hits.s is not None  # found when they are asked for
+        return time.perf_counter() - began
+
+    def _frame(self, what: str, settings: Settings) -> float:
+        """Render; of the frame, its picture alone or t and barycentrics, too, are asked for."""
+        scene = self.scene()
+        began = time.perf_counter()
+        frame = render(scene, settings)
+        if what == OUTPUTS:
+            assert frame.t is not None and frame.barycentrics is not None
         return time.perf_counter() - began
 
     def _render(self, settings: Settings) -> float:
@@ -179,7 +194,8 @@ class Timing:
         case, ours = self._case, self.runners[settings, TRACE]
         whole = self.runners[settings, RENDER]
         row = Row(
-            *(case.scene, len(self._mesh.triangles), case.width, case.height, case.camera),
+            *(case.scene, SUBJECTS[case.scene].copies * len(self._mesh.triangles)),
+            *(case.width, case.height, case.camera),
             *(settings.method.value, settings.precision.value),
             trace_s=ours.median,
             render_s=whole.median,
@@ -194,6 +210,12 @@ class Timing:
         _enter(row, "render_ratio_to_mt", ratio(whole, self.runners[PLAIN, RENDER]))
         if "embreex_trace" in peers:
             _enter(row, "ratio_to_embreex", ratio(ours, peers["embreex_trace"]))
+        if settings == CERTIFIED:
+            picture, outputs = (self.runners[settings, what] for what in (PICTURE, OUTPUTS))
+            row.picture_s, row.outputs_s = picture.median, outputs.median
+            if "embreex_trace" in peers:
+                _enter(row, "picture_ratio", ratio(picture, peers["embreex_ids"]))
+                _enter(row, "outputs_ratio", ratio(outputs, peers["embreex_trace"]))
         return row
 
 

@@ -82,6 +82,14 @@ class Embreex:
         found = self._scene.run(rays.origins, rays.directions, dists=rays.length, output=1)
         return time.perf_counter() - began, found
 
+    def ids(self, rays: Rays) -> float:
+        """Trace rays, asking for triangles alone; returns seconds."""
+        if self._scene is None:
+            self.build()
+        began = time.perf_counter()
+        self._scene.run(rays.origins, rays.directions, dists=rays.length)
+        return time.perf_counter() - began
+
 
 class Rtree:
     """trimesh's own ray query: boxes from an R-tree, triangles tested in numpy."""

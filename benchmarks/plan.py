@@ -51,7 +51,7 @@ class Case:
     @property
     def cost(self) -> float:
         """About how long it takes, in some unit."""
-        return self.width * self.height + SUBJECTS[self.scene].triangles + 500_000
+        return self.width * self.height + SUBJECTS[self.scene].traced_triangles + 500_000
 
     @property
     def title(self) -> str:

@@ -31,7 +31,10 @@ class Row:
     precision: str
     trace_s: float | None = None  # ids, t, barycentrics
     render_s: float | None = None  # the whole frame with all passes
-    embreex_trace_s: float | None = None
+    picture_s: float | None = None  # colour and certified owners: a frame of which no more is asked
+    outputs_s: float | None = None  # that, t and barycentrics
+    embreex_ids_s: float | None = None  # triangles alone
+    embreex_trace_s: float | None = None  # and t, barycentrics, normals
     embreex_build_s: float | None = None
     rtree_s: float | None = None
     bvhtree_s: float | None = None
@@ -54,6 +57,12 @@ class Row:
     ratio_to_embreex: float | None = None  # trace against embreex's, without its build
     ratio_to_embreex_least: float | None = None
     ratio_to_embreex_most: float | None = None
+    picture_ratio: float | None = None  # `picture_s` against `embreex_ids_s`
+    picture_ratio_least: float | None = None
+    picture_ratio_most: float | None = None
+    outputs_ratio: float | None = None  # `outputs_s` against `embreex_trace_s`
+    outputs_ratio_least: float | None = None
+    outputs_ratio_most: float | None = None
     rounds: int = 0
     stages: dict[str, float] = field(default_factory=dict)  # seconds, by stage, of `render`
 

@@ -5,7 +5,7 @@ In comes a name, a size in pixels and the kind of camera; out goes a `scene.Scen
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -43,6 +43,12 @@ class Subject:
     mesh: Callable[[], Triangles] | None  # None for the one that Blender makes
     view: View
     group: str = EVERYDAY
+    copies: int = 1  # instances of the mesh, a square number: side by side, see `_places`
+
+    @property
+    def traced_triangles(self) -> int:
+        """Of all copies."""
+        return self.copies * self.triangles
 
 
 _AROUND = View((2.7, -2.5, 1.7), (0, 0, 0), 0.28, 1.12, (0.5, 10.0))  # frames the unit sphere
@@ -50,6 +56,7 @@ _CUBE = View((3.9, -3.6, 2.5), (0, 0, 0), 0.32, 1.85, (0.5, 15.0))  # frames the
 _GRAZING = View((0.1, -1.35, 0.19), (0, 0, 0.02), 0.4, 0.24, (0.01, 10.0))
 _INSIDE = View((0.01, 0.02, 0.03), (1, 0.4, 0.2), 0.5, 0.5, (0.001, 10.0))
 _ALONG = View((0.95, 0.02, 0.03), (0.6, 0.7, 0.2), 0.5, 0.5, (0.001, 10.0))  # the sphere's wall
+_FIELD = View((1.5, -1.7, 1.1), (0, 0, 0), 0.35, 1.0, (0.1, 10.0))  # frames the square of copies
 
 SUBJECTS = {
     s.name: s
@@ -75,6 +82,9 @@ SUBJECTS = {
         Subject("foliage", 600_000, partial(meshes.foliage, 300_000, 0.015), _AROUND, ADVERSARIAL),
         Subject(
             "subpixel_1m", 1_000_000, partial(meshes.soup, 1_000_000, 0.0006), _CUBE, ADVERSARIAL
+        ),
+        Subject(
+            "instances_10k", 5_120, partial(meshes.icosphere, 4), _FIELD, ADVERSARIAL, copies=10_000
         ),
         Subject("icosphere_5m", 5_242_880, partial(meshes.icosphere, 9), _AROUND, SCALING),
     )
@@ -120,13 +130,27 @@ def build(mesh: Mesh, width: int, height: int, camera: str) -> Scene:
 
     A scene keeps tables once they are made: a new one has none yet.
     """
-    view = subject(mesh.name).view
+    wanted = subject(mesh.name)
     return Scene(
-        camera_of(view, width, height, PROJECTIONS[camera]),
+        camera_of(wanted.view, width, height, PROJECTIONS[camera]),
         (mesh,),
-        (Instance(0, 0, np.eye(4)),),
+        tuple(Instance(0, 0, place) for place in _places(wanted.copies)),
         objects=(mesh.name,),
     )
+
+
+def _places(copies: int) -> Iterator[np.ndarray]:
+    """Yield where a mesh of the unit ball stands: copies side by side fill a square from -1 to 1.
+
+    One alone stays as it is.
+    """
+    side = int(copies**0.5)
+    for k in range(copies):
+        place = np.eye(4)
+        if copies > 1:
+            place[range(3), range(3)] = 0.9 / side
+            place[:2, 3] = (2 * np.array((k % side, k // side)) + 1) / side - 1
+        yield place
 
 
 def camera_of(view: View, width: int, height: int, projection: Projection) -> Camera:

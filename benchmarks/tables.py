@@ -25,6 +25,7 @@ def table(bench: Bench, baseline: Bench | None = None) -> str:
         return "\n".join(["nothing was measured", *_notes(bench)])
     parts = [
         list(_ours(bench)) if bench.rows else [],
+        list(_asked(bench)),
         list(_peers(bench)),
         list(_stages(bench)),
         list(_scaling(bench)),
@@ -43,10 +44,7 @@ def _ours(bench: Bench) -> Iterator[str]:
     head = "certified", "triangles", "seconds", "x MT (least - most)", "x embreex (the same) "
     rows: list[Sequence[str] | str] = [(*head, "build", "frame", "MiB")]
 
-    def size(row: Row) -> tuple[int, str]:
-        return row.pixels, row.camera
-
-    for (_, camera), group in groupby(sorted(_certified(bench), key=size), key=size):
+    for (_, camera), group in groupby(sorted(_certified(bench), key=_size), key=_size):
         some = list(group)
         rows += ["", f"{some[0].width} x {some[0].height} pixels, {camera}", *map(_cells, some)]
     yield from columns(rows, gap=" ")
@@ -55,6 +53,38 @@ def _ours(bench: Bench) -> Iterator[str]:
     yield "frame: render() with all passes. MiB: the peak of tracing. ~ is from a sample of rays."
     if bench.machine.get("one_core"):
         yield "Everything ran on one core."
+
+
+def _asked(bench: Bench) -> Iterator[str]:
+    """Yield what a frame takes by what is asked of it, beside what embreex is asked for."""
+    some = [r for r in _certified(bench) if r.picture_s and r.outputs_s]
+    if not some:
+        return
+    head = "owners", "x ids (least - most)", "x b+i", "outputs", "x trace (the same)", "x b+t"
+    rows: list[Sequence[str] | str] = [("", *head)]
+    for (_, camera), group in groupby(sorted(some, key=_size), key=_size):
+        of = list(group)
+        rows += ["", f"{of[0].width} x {of[0].height} pixels, {camera}", *map(_asked_cells, of)]
+    yield "what a frame is asked for, certified, beside embreex"
+    yield from columns(rows, gap=" ")
+    yield ""
+    yield "owners: colour and certified owners, beside embreex's ids; outputs: t and barycentrics,"
+    yield "too, beside embreex's trace. x b+i, x b+t: with embreex's build of its tree."
+
+
+def _asked_cells(r: Row) -> Sequence[str]:
+    out = [r.scene]
+    for seconds, ratio, peer in (
+        (r.picture_s, "picture_ratio", r.embreex_ids_s),
+        (r.outputs_s, "outputs_ratio", r.embreex_trace_s),
+    ):
+        whole = peer and r.embreex_build_s is not None and seconds / (peer + r.embreex_build_s)
+        out += [_seconds(seconds), _ratio(r, ratio), f"{whole:.2f}" if whole else "-"]
+    return out
+
+
+def _size(row: Row) -> tuple[int, str]:
+    return row.pixels, row.camera
 
 
 def _cells(r: Row) -> Sequence[str]:

@@ -27,6 +27,7 @@ SMALL = {
     "inside_sphere": partial(meshes.icosphere, 3),
     "foliage": partial(meshes.foliage, 300, 0.3),
     "subpixel_1m": partial(meshes.soup, 10_000, 0.02),
+    "instances_10k": partial(meshes.icosphere, 0),
 }
 
 
@@ -114,7 +115,7 @@ def test_the_plan():
     everyday = [n for n, s in SUBJECTS.items() if s.group == scenes.EVERYDAY]
     assert len(everyday) == 7 and {c.scene for c in whole.cases} == set(SUBJECTS)
     assert set(everyday) < {c.scene for c in quick.cases} < set(SUBJECTS)
-    assert len(whole.cases) == 4 * 16 + 1
+    assert len(whole.cases) == 4 * 17 + 1
     for c in whole.cases:
         at_peers = (c.width, c.height) == LARGE and c.camera == "perspective"
         assert (c.peers >= BLENDER) == (at_peers and c.scene in everyday)
