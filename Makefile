@@ -44,7 +44,7 @@ torture: extension ## run the long tests, too long for every day: the suites at 
 	$(PYTEST) -m torture
 
 # OPTIONS=--quick: two minutes instead; or any other option of `reftrace bench`.
-bench: .venv/.stamp ## measure speed beside embreex, Cycles and others, half an hour: out/bench
+bench: extension ## measure speed beside embreex, Cycles and others, half an hour: out/bench
 	$(PYTHON_IN_VENV) -m pip install --quiet --constraint constraints.txt --no-build-isolation \
 		--editable '.[bench]'
 	.venv/bin/reftrace bench --out out/bench $(OPTIONS)

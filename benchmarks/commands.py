@@ -13,6 +13,7 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from statistics import median
 
 from reference_tracer.tracer.progress import Work
 
@@ -60,25 +61,22 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
                 bench.note(f"{name}: {runner.failed}")
             elif found := ratio(runner, ruler):
                 times = found.median, found.least, found.most
-                bench.commands.append(
-                    CommandRow(name, runner.median, *times, rounds=len(runner.seconds))
-                )
-        if set(WINDOW) & set(plan.commands):
-            _enter_window(bench, cache, ruler)
+                rounds = len(runner.seconds)
+                bench.commands.append(CommandRow(name, runner.median, *times, rounds))
+        if ruler.median and set(WINDOW) & set(plan.commands):
+            _enter_window(bench, ruler)
 
 
-def _enter_window(bench: Bench, cache: Path, ruler: Runner) -> None:
+def _enter_window(bench: Bench, ruler: Runner) -> None:
     try:
         found = in_the_window()
     except MissingPeerError as error:
         bench.note(f"in the window: {error}")
         return
-    for name, seconds in found.items():
-        shares = sorted(s / ruler.median for s in seconds)
-        middle, least, most = shares[len(shares) // 2], shares[0], shares[-1]
-        bench.commands.append(
-            CommandRow(name, middle * ruler.median, middle, least, most, rounds=len(shares))
-        )
+    for name, rounds in found.items():
+        cpu, waited = zip(*rounds, strict=True)
+        times = (of(cpu) / ruler.median for of in (median, min, max))
+        bench.commands.append(CommandRow(name, median(cpu), *times, len(cpu), median(waited)))
 
 
 def _files(folder: Path) -> dict[str, Path]:
@@ -94,7 +92,7 @@ def _files(folder: Path) -> dict[str, Path]:
     files = {"suzanne": _SCENES / "suzanne.blend", "out": folder / "out"}
     if not files["suzanne"].is_file():
         raise MissingPeerError(f"there is no '{files['suzanne']}': they are measured in a clone")
-    made = {name: folder / name for name in ("cube.blend", "shaded.blend", "mesh.ply")}
+    made = {name: folder / name for name in ("cube.blend", "xray.blend", "mesh.ply")}
     if not all(path.is_file() for path in made.values()):
         folder.mkdir(parents=True, exist_ok=True)
         cpu_seconds([*_CHILD, "make", str(files["suzanne"]), str(folder)])
@@ -109,7 +107,9 @@ def _work(name: str, files: dict[str, Path]) -> Callable[[], float]:
         "reftrace --help": ["--help"],
         "compare suzanne, 960 x 540": ["compare", of["suzanne"], *into],
         "compare 12 triangles, 1920 x 1080": ["compare", of["cube.blend"], *_LARGE, *into],
-        "compare what one cause excuses": ["compare", of["shaded.blend"], "--as-is", *into],
+        "compare 385,000 pixels that one cause excuses": [
+            *("compare", of["xray.blend"], "--as-is", "--width", "1162", "--height", "654", *into)
+        ],
         "trace mesh.ply, 1.3 M triangles": [
             *("trace", of["mesh.ply"], *_LARGE, "--out", f"{of['out']}.png")
         ],

@@ -33,7 +33,7 @@ COMMANDS = (
     *QUICK_COMMANDS,
     "compare suzanne, 960 x 540",
     "compare 12 triangles, 1920 x 1080",
-    "compare what one cause excuses",
+    "compare 385,000 pixels that one cause excuses",
     *WINDOW,
 )
 

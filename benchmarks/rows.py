@@ -90,6 +90,7 @@ class CommandRow:
     ratio_least: float
     ratio_most: float
     rounds: int = 0
+    waited_s: float | None = None  # what a user waits for, where that was measured
 
 
 @dataclass

@@ -163,13 +163,14 @@ def _commands(bench: Bench, baseline: Bench | None) -> Iterator[str]:
     if not bench.commands:
         return
     before = {c.name: c.ratio for c in baseline.commands} if baseline else {}
-    rows = [("", "CPU s", "x import bpy (least - most)", "new / old")]
+    rows = [("", "CPU s", "x import bpy (least - most)", "waited", "new / old")]
     for c in bench.commands:
         times = f"{c.ratio:.2f} ({c.ratio_least:.2f} - {c.ratio_most:.2f})"
         then = f"{c.ratio / before[c.name]:.2f}" if before.get(c.name) else "-"
-        rows.append((c.name, f"{c.cpu_s:.2f}", times, then))
+        waited = "-" if c.waited_s is None else f"{c.waited_s:.2f} s"
+        rows.append((c.name, f"{c.cpu_s:.2f}", times, waited, then))
     yield "commands, in processes of their own; x import bpy: in the same round"
-    yield from columns(rows if before else [row[:-1] for row in rows], left=(0,))
+    yield from columns(rows if before else [row[:-1] for row in rows])
 
 
 def ratios(new: Bench, old: Bench, name: str) -> dict[tuple, float]:

@@ -24,8 +24,8 @@ _INSIDE = "/project/out/bench_window"  # the same, as that Blender sees it
 _LONGEST = 1200  # seconds
 
 
-def in_the_window() -> dict[str, list[float]]:
-    """Return the CPU seconds of each round, by their names in WINDOW.
+def in_the_window() -> dict[str, list[tuple[float, float]]]:
+    """Return the seconds of each round, of CPU and of waiting, by their names in WINDOW.
 
     Raises
     ------
@@ -35,7 +35,7 @@ def in_the_window() -> dict[str, list[float]]:
     packages = sorted((_PROJECT / "dist").glob("reference_tracer-*.zip"))
     if not _TOOL.is_file() or not packages:
         raise MissingPeerError("there is no extension in dist/: make extension")
-    check = subprocess.run([_TOOL, "check"], capture_output=True, text=True)
+    check = subprocess.run([_TOOL, "ready"], capture_output=True, text=True)
     if check.returncode:
         raise MissingPeerError(check.stdout.strip())
     shutil.rmtree(_OUT, ignore_errors=True)
@@ -47,7 +47,9 @@ def in_the_window() -> dict[str, list[float]]:
         found = json.loads((_OUT / "found.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         raise MissingPeerError(f"it failed ({log.strip().splitlines()[-1]})") from None
-    return {name: seconds for name, seconds in found.items() if seconds}
+    if not found:
+        raise MissingPeerError(f"it failed ({log.strip().splitlines()[-1]})")
+    return {name: [tuple(pair) for pair in found[name]] for name in WINDOW if found.get(name)}
 
 
 def _blender(*arguments: str) -> str:

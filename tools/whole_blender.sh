@@ -3,6 +3,7 @@
 # bpy wheels can't replace, since they have no window, no `blender -b` and no `--command`.
 #
 #   tools/whole_blender.sh check           exits 0 if this machine can do it, else says why not
+#   tools/whole_blender.sh ready           exits 0 if it is set up, else says why not
 #   tools/whole_blender.sh setup           makes the root folder (about a minute and 2 GB), once
 #   tools/whole_blender.sh run COMMAND...  runs a command in it, in a virtual screen of 1600×900,
 #                                          with this project at /project; sets up first if needed
@@ -116,6 +117,7 @@ in_root() {
 case "${1:-}" in
     check) check ;;
     setup) check >&2 && setup ;;
+    ready) check && { is_set_up || { echo "no whole Blender is set up: $0 setup" && false; }; } ;;
     run)
         check >&2
         setup

@@ -12,16 +12,18 @@ import pytest
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
-from reference_tracer_benchmarks import field, measure, memory, peers, scenes
+from reference_tracer_benchmarks import commands, field, measure, memory, peers, scenes
 from reference_tracer_benchmarks.blender_peer import BlenderPeer
 from reference_tracer_benchmarks.peers import Embreex, MissingPeerError, Rtree, Timed
 from reference_tracer_benchmarks.plan import Case, Plan
 from reference_tracer_benchmarks.rays import rays_of
 from reference_tracer_benchmarks.rounds import Runner, in_rounds, ratio
-from reference_tracer_benchmarks.rows import Bench, Row, machine
+from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
 from reference_tracer_benchmarks.scaling import exponent, scalings
+from reference_tracer_benchmarks.window import WINDOW
 
 WIDTH, HEIGHT = 48, 27
+FILES = "suzanne", "out", "cube.blend", "xray.blend", "mesh.ply"
 REQUIRED = {
     *("scene", "triangles", "width", "height", "camera", "method", "precision", "trace_s"),
     *("render_s", "embreex_trace_s", "embreex_build_s", "rtree_s", "bvhtree_s", "cycles_s"),
@@ -211,6 +213,34 @@ def test_who_fails_has_no_time():
     shares = list(in_rounds([broken, other], 2, 10.0))
     assert (broken.median, broken.failed, other.median) == (None, "gone", 1.0)
     assert shares == sorted(shares) and shares[-1] == 1
+
+
+# ---- commands
+
+
+def test_commands_are_times_the_ruler_and_what_fails_is_named(monkeypatch, tmp_path):
+    def window():
+        raise MissingPeerError("no whole Blender here")
+
+    monkeypatch.setattr(commands, "RULER", "sum(range(3_000_000))")
+    monkeypatch.setattr(commands, "_files", lambda folder: dict.fromkeys(FILES, tmp_path / "none"))
+    monkeypatch.setattr(commands, "in_the_window", window)
+    names = "reftrace --help", "compare suzanne, 960 x 540", WINDOW[0]
+    bench, wanted = Bench({}), Plan((), True, 1, 9.0, 1.0, commands=names)
+    result_of(commands.measure_commands(wanted, bench, tmp_path))
+    (row,) = bench.commands
+    assert row.name == names[0] and row.rounds == 1 and 0.01 < row.cpu_s < 5
+    assert 0 < row.ratio_least == row.ratio == row.ratio_most
+    assert bench.notes[0].startswith(f"{names[1]}: it failed (") and "none" in bench.notes[0]
+    assert bench.notes[1:] == ["in the window: no whole Blender here"]
+
+
+def test_what_is_measured_in_the_window_has_what_a_user_waits_for(monkeypatch):
+    rounds = {WINDOW[1]: [(1.0, 3.0), (4.0, 2.0), (2.0, 9.0)]}
+    monkeypatch.setattr(commands, "in_the_window", lambda: rounds)
+    bench = Bench({})
+    commands._enter_window(bench, Runner(None, seconds={1: 2.0}))
+    assert bench.commands == [CommandRow(WINDOW[1], 2.0, 1.0, 0.5, 2.0, 3, 3.0)]
 
 
 # ---- the whole

@@ -15,10 +15,10 @@ from reference_tracer.scene import SceneError
 from reference_tracer_benchmarks import report
 from reference_tracer_benchmarks import run as bench_run
 from reference_tracer_benchmarks.measure import measure
-from reference_tracer_benchmarks.plan import Case, Plan
+from reference_tracer_benchmarks.plan import COMMANDS, Case, Plan
 from reference_tracer_benchmarks.plot import largest, picture
 from reference_tracer_benchmarks.report import JSON, PLOT, SCHEMA, TABLE, load, to_dict, write
-from reference_tracer_benchmarks.rows import Bench, Row, machine
+from reference_tracer_benchmarks.rows import Bench, CommandRow, Row, machine
 from reference_tracer_benchmarks.scenes import CAMERAS, SUBJECTS
 from reference_tracer_benchmarks.tables import ratios, table
 
@@ -34,6 +34,9 @@ def made_row(name, size, camera, method, rng):
     row.embreex_rays, row.peak_bytes, row.rounds = pixels, 120 << 20, 5
     row.ratio_to_mt, row.ratio_to_mt_least, row.ratio_to_mt_most = 1.1, 1.02, 1.34
     row.ratio_to_embreex, row.ratio_to_embreex_least, row.ratio_to_embreex_most = 10.6, 9.5, 12.7
+    row.picture_s, row.outputs_s, row.embreex_ids_s = 0.5 * seconds, 0.8 * seconds, 6e-8 * pixels
+    row.picture_ratio, row.picture_ratio_least, row.picture_ratio_most = 0.71, 0.61, 0.81
+    row.outputs_ratio, row.outputs_ratio_least, row.outputs_ratio_most = 1.41, 1.31, 1.51
     row.stages = {s: row.render_s * (0.1 + 0.04 * k) for k, s in enumerate(STAGES)}
     if size[0] == 1920 and camera == "perspective":
         row.bvhtree_s, row.bvhtree_rays = 5e-7 * pixels, 300_000
@@ -53,7 +56,12 @@ def bench():
         for camera in CAMERAS
         for method in ("moller_trumbore", "certified")
     ]
-    return Bench(machine(True), False, rows, ["rtree: without rtree, which is not installed: ..."])
+    notes = ["rtree: without rtree, which is not installed: ..."]
+    commands = [
+        CommandRow(name, 0.5 + k, 0.4 + k, 0.3 + k, 9.5, 3) for k, name in enumerate(COMMANDS)
+    ]
+    commands[-1].waited_s = 0.25
+    return Bench(machine(True), False, rows, notes, commands=commands)
 
 
 def test_the_json_and_back(bench, tmp_path):
@@ -81,6 +89,9 @@ def test_the_table(bench):
     assert max(map(len, lines)) <= 100 and all(line == line.rstrip() for line in lines)
     assert all(name in text for name in SUBJECTS) and all(stage in text for stage in STAGES)
     assert "1.10 (1.02 - 1.34)" in text and "10.60 (9.50 - 12.70)" in text
+    assert "0.71 (0.61 - 0.81)" in text and "1.41 (1.31 - 1.51)" in text
+    assert all(name in text for name in COMMANDS) and "0.40 (0.30 - 9.50)" in text
+    assert text.count("0.25 s") == 1
     assert "~30,000" in text and bench.notes[0] in text
     assert "baseline" not in text and "nterrupted" not in text
     assert "Interrupted" in table(replace(bench, interrupted=True))
@@ -114,6 +125,9 @@ def test_against_a_baseline(bench):
     last = next(line for line in text.splitlines() if line.startswith("median"))
     assert last.split() == ["median", "0.50", "1.00", "1.00", "1.00"]
     assert f"numpy {bench.machine['numpy']} then, 9.9 now" in text
+    slower = [replace(c, ratio=3 * c.ratio) for c in bench.commands[1:]]
+    lines = table(Bench({}, commands=slower), bench).splitlines()
+    assert sum(line.endswith("3.00") for line in lines) == len(slower)
     other = Bench({}, rows=[replace(bench.rows[0], width=7)])
     assert "none of these rows" in table(other, bench)
 
