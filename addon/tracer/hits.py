@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +72,7 @@ class Ties(Mapping[int, frozenset[Name]]):
     triangle: NDArray[np.int32]
 
     @classmethod
+    @cache
     def none(cls) -> Ties:
         """Return no ties."""
         return cls.of(*np.zeros((3, 0), np.int64))
@@ -207,6 +208,7 @@ class Measured(Arrays):
         return self.t, self.s
 
     @classmethod
+    @cache
     def none(cls) -> Measured:
         """Return those of no rays."""
         return cls(np.zeros(0, np.int64), np.zeros(0), np.zeros((3, 0)))
@@ -249,7 +251,8 @@ class LazyHits(Hits):
 
     def take(self, index: NDArray | slice) -> LazyHits:
         """Return the hits of the rays at `index`, as lazy, without their ties."""
-        if isinstance(index, slice):
-            index = np.arange(*index.indices(len(self)))
-        ray = index if self._ray is None else self._ray[index]
+        if self._ray is not None:
+            ray = self._ray[index]
+        else:
+            ray = np.arange(*index.indices(len(self))) if isinstance(index, slice) else index
         return LazyHits(*(getattr(self, name)[index] for name in _NAMES), self.measure, ray)

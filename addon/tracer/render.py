@@ -41,6 +41,7 @@ except ModuleNotFoundError as missing:
 ROWS = 32
 PIXELS = 1 << 16  # of a tile, so that what is done for all of them at once is a short step
 SLOW_PIXELS = 1 << 18  # of a band where pixels take long
+RAYS = 1 << 23  # of a band where a pixel has many certified ones: a second or two
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, fragments, hits
 WHOLE = 0.999  # of the progress, until the picture is whole
 
@@ -211,7 +212,8 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     """
     pixels = settings.memory // BYTES_PER_PIXEL
     if settings.samples > 1 or settings.method.is_plain:
-        pixels = min(pixels, max(PIXELS, SLOW_PIXELS // settings.samples**2))
+        rays = SLOW_PIXELS if settings.method.is_plain else RAYS
+        pixels = min(pixels, max(PIXELS, rays // settings.samples**2))
     return _rows(camera.region, max(1, pixels // camera.region.width))
 
 
