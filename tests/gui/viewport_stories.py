@@ -2,24 +2,37 @@
 
 import gc
 import subprocess
+from pathlib import Path
 
+import addon_utils
 import bpy
 import numpy as np
 from mathutils import Euler
-from story import OUT, module, noted, until, window
+from story import MODULE, OUT, module, noted, until, window
 
 SWITCHES, MOVES = 20, 100  # every day; ten times as many in the long tests
+FILE = str(OUT / "rendered.blend")
 TURNED = Euler((1.1, 0.1, 0.7)).to_quaternion()
 
 
 def viewport_pixels():
     """Views of all kinds beside Blender's own solid drawing of them."""
     prepared()
+    preferences = bpy.context.preferences
+    before, dirty = preferences.system.viewport_aa, preferences.is_dirty
+    preferences.system.viewport_aa = "OFF"
+    try:
+        yield from all_beside()
+    finally:
+        preferences.system.viewport_aa, preferences.is_dirty = before, dirty
+
+
+def all_beside():
     for view in (frame, zoomed_border, parallel_camera, free, free_border, parallel):
         view()
         seen = yield from in_mode("RENDERED")
         camera = live()[0].camera
-        found = certified(camera) | {"projection": camera.projection.name}
+        found = {"apart": apart(camera), "projection": camera.projection.name}
         solid = yield from in_mode("SOLID")
         noted[view.__name__] = found | beside(seen, solid, camera.region)
 
@@ -54,6 +67,7 @@ def free():
     """Look from somewhere else."""
     view = region_3d()
     view.view_perspective, view.view_rotation, view.view_distance = "PERSP", TURNED, 9
+    space().clip_start = 0.1  # Blender's depth buffer is coarse beyond a nearer one
 
 
 def free_border():
@@ -68,16 +82,212 @@ def parallel():
     region_3d().view_perspective = "ORTHO"
 
 
+def viewport_events():
+    """One thing after another that a user does while the view is in Rendered mode."""
+    prepared()
+    yield from made_small()
+    before = yield from in_mode("RENDERED")
+    for story in EVENTS:
+        noted[story.__name__] = found = {}
+        yield from story(found)
+        yield from settled()
+        found["live"] = len(live())
+        found["same"] = int((np.abs(screen("after") - before) > 1).any(axis=-1).sum())
+    yield from in_mode("SOLID")
+    gc.collect()
+    noted["left"] = [len(live()), len(alive("job.Job")), len(alive("drawing.Textures"))]
+
+
+def moved(found):
+    """Orbit, and come back."""
+    view = region_3d()
+    matrix, factors = view.view_matrix.copy(), set()
+    view.view_perspective = "PERSP"
+    for turn in range(6):
+        view.view_rotation = Euler((1.1, 0.1, turn / 20)).to_quaternion()
+        yield 0.05
+        factors |= {v.shown.factor for v in live() if v.shown}
+    found["coarse"] = max(factors)
+    yield from settled()
+    found["whole"] = live()[0].shown.factor
+    view.view_matrix, view.view_perspective = matrix, "CAMERA"
+
+
+def undone(found):
+    """Move an object, delete another, and undo both."""
+    objects = window().scene.objects
+    with bpy.context.temp_override(window=window()):
+        bpy.ops.ed.undo_push(message="begun")
+        objects["Suzanne"].location.x += 1
+        bpy.ops.ed.undo_push(message="moved")
+        bpy.data.objects.remove(objects["Sphere"])
+        bpy.ops.ed.undo_push(message="removed")
+    yield from settled()
+    seen = screen("removed")
+    for _ in range(2):
+        with bpy.context.temp_override(window=window()):
+            bpy.ops.ed.undo()
+        yield 0.2
+    yield from settled()
+    found["changed"] = int((np.abs(screen("undone") - seen) > 1).any(axis=-1).sum())
+
+
+def edited(found):
+    """Go to Edit Mode, and back."""
+    window().view_layer.objects.active = window().scene.objects["Suzanne"]
+    for mode in ("EDIT", "OBJECT"):
+        with bpy.context.temp_override(window=window(), area=area()):
+            bpy.ops.object.mode_set(mode=mode)
+        yield from settled()
+
+
+def other_method(found):
+    """Choose the textbook's test as printed: there are holes."""
+    scene = window().scene.reference_tracer
+    whole = screen("whole")
+    scene.method = "textbook_literal"
+    yield from settled()
+    found["holes"] = int((np.abs(screen("literal") - whole) > 1).any(axis=-1).sum())
+    scene.method = "auto"
+
+
+def in_words(found):
+    """Look through a camera that is not modelled, and have no camera at all."""
+    camera, scene = window().scene.camera, window().scene
+    camera.data.type = "PANO"
+    yield from settled()
+    found["said"] = live()[0].said
+    found["white"] = int((screen("words") == 255).all(axis=-1).sum())
+    camera.data.type = "PERSP"
+    scene.camera = None
+    yield from settled()
+    found["without"] = live()[0].said
+    scene.camera = camera
+
+
+def two_views(found):
+    """Split the area, and choose Rendered in both parts; close the smaller one."""
+    with bpy.context.temp_override(window=window(), area=area(), region=region()):
+        bpy.ops.screen.area_split(direction="HORIZONTAL", factor=0.8)
+    both = [a for a in window().screen.areas if a.type == "VIEW_3D"]
+    for one in both:
+        one.spaces.active.shading.type = "RENDERED"
+    yield from until(lambda: len(live()) == 2, 10)
+    yield from settled()
+    found["heights"] = sorted(v.camera.height for v in live())
+    with bpy.context.temp_override(window=window(), area=min(both, key=lambda a: a.height)):
+        bpy.ops.screen.area_close()
+
+
+def four_views(found):
+    """Show a quad view, and leave it."""
+    for _ in range(2):
+        with bpy.context.temp_override(window=window(), area=area(), region=region()):
+            bpy.ops.screen.region_quadview()
+        yield from settled()
+        found.setdefault("views", len(live()))
+
+
+def rendered(found):
+    """Press F12 meanwhile."""
+    window().scene.render.resolution_percentage = 10
+    found["done"] = list(bpy.ops.render.render())
+    window().scene.render.resolution_percentage = 100
+    yield 0.1
+
+
+def loaded(found):
+    """Save the file, and open it again: Blender begins in Solid mode."""
+    Path(FILE).unlink(missing_ok=True)
+    bpy.ops.wm.save_as_mainfile(filepath=FILE, copy=True)
+    bpy.ops.wm.open_mainfile(filepath=FILE)
+    yield 0.3
+    found["none"] = len(live())
+    space().shading.type = "RENDERED"
+
+
+def switched_off(found):
+    """Switch the add-on off and on."""
+    addon_utils.disable(MODULE)
+    yield 0.3
+    addon_utils.enable(MODULE)
+    yield 0.3
+
+
+EVENTS = (
+    moved,
+    undone,
+    edited,
+    other_method,
+    in_words,
+    two_views,
+    four_views,
+    rendered,
+    loaded,
+    switched_off,
+)
+
+
+def viewport_often():
+    """Switch modes and move the view many times."""
+    yield from often(SWITCHES, MOVES)
+
+
+def viewport_more_often():
+    """The same, ten times as often."""
+    yield from often(10 * SWITCHES, 10 * MOVES)
+
+
+def often(switches, moves):
+    prepared()
+    yield from made_small()
+    for name, count, act in (("switches", switches, switched), ("moves", moves, turned)):
+        for number in range(count + 5):
+            if number == 5:  # what is allocated once is, by now
+                before = memory()
+            yield from act(number)
+        yield from settled()
+        noted[name] = memory() - before
+
+
+def switched(number):
+    space().shading.type = "SOLID"
+    yield 0.02
+    space().shading.type = "RENDERED"
+    yield from until(lambda: live() and live()[0].shown, 60)
+
+
+def turned(number):
+    region_3d().view_perspective = "PERSP"
+    region_3d().view_rotation = Euler((1.1, 0.1, number / 20)).to_quaternion()
+    yield 0.02
+
+
+def memory():
+    """Of this process, in MiB."""
+    gc.collect()
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 >> 20
+
+
 def prepared():
     """Our engine, flat light, and nothing over the picture."""
     window().scene.render.engine = "REFERENCE_TRACER"
     for shading in (window().scene.display.shading, space().shading):
         shading.light, shading.color_type = "FLAT", "MATERIAL"
         shading.show_object_outline = shading.show_cavity = False
-    bpy.context.preferences.system.viewport_aa = "OFF"
     space().overlay.show_overlays = space().show_gizmo = False
     for name in ("header", "tool_header", "toolbar", "ui", "hud", "asset_shelf"):
         setattr(space(), f"show_region_{name}", False)
+
+
+def made_small():
+    """Split the area, and give the larger part to another editor: less is to be drawn."""
+    with bpy.context.temp_override(window=window(), area=area(), region=region()):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.4)
+    yield 0.1
+    both = [a for a in window().screen.areas if a.type == "VIEW_3D"]
+    max(both, key=lambda a: a.width).type = "TEXT_EDITOR"
+    yield 0.1
 
 
 def area():
@@ -98,7 +308,13 @@ def region_3d():
 
 def live():
     """The views in Rendered mode that there are."""
-    kind = module("blender.live.view").LiveView
+    return alive("view.LiveView")
+
+
+def alive(kind):
+    """All objects of a class of ours."""
+    path, name = kind.split(".")
+    kind = getattr(module(f"blender.live.{path}"), name)
     return [o for o in gc.get_objects() if type(o) is kind]
 
 
@@ -126,7 +342,8 @@ def settled():
 def screen(name):
     """The view on the screen, (h, w, 3) from 0 to 255, row 0 at the bottom; a file keeps it."""
     path = str(OUT / f"{name}.png")
-    subprocess.run(["import", "-window", "root", path], check=True)
+    quick = ["-quality", "10"]  # of the default, a dithered picture takes five seconds
+    subprocess.run(["import", "-window", "root", *quick, path], check=True)
     image = bpy.data.images.load(path)
     image.colorspace_settings.name = "Non-Color"
     (width, height), r = image.size, region()
@@ -137,36 +354,32 @@ def screen(name):
     return whole[r.y : r.y + r.height, r.x : r.x + r.width]
 
 
-def certified(camera):
-    """How far known points are from where Blender's matrices have them, and its own product."""
+def apart(camera):
+    """How far known points are, at most, from where Blender's own matrices have them, in pixels."""
     certificate, view = module("compare.certificate"), region_3d()
     points = certificate.known_points(camera)
-    exact = np.array(view.window_matrix, float) @ np.array(view.view_matrix, float)
-    found = []
-    for matrix in (exact, np.array(view.perspective_matrix, float)):
-        at = matrix @ np.vstack((points, np.ones(points.shape[1])))
-        film = (at[:2] / at[3] + 1) / 2 * np.array([[camera.width], [camera.height]])
-        found.append(certificate.certify(camera, points, film))
-    return {"apart": found[0].largest, "certified": found[1].passed}
+    matrix = np.array(view.window_matrix, float) @ np.array(view.view_matrix, float)
+    at = matrix @ np.vstack((points, np.ones(points.shape[1])))
+    film = (at[:2] / at[3] + 1) / 2 * np.array([[camera.width], [camera.height]])
+    return certificate.certify(camera, points, film).largest
 
 
 def beside(seen, solid, region):
     """How many pixels of a region differ, and how many are not even as one beside them is."""
     inside = np.zeros(seen.shape[:2], bool)
     inside[region.y0 : region.y1, region.x0 : region.x1] = True
-    differ = (np.abs(seen - solid) > 1).any(axis=-1)
-    nearest = np.full(differ.shape, 255)
-    for shift in np.ndindex(3, 3):
-        moved = np.roll(seen, np.subtract(shift, 1), axis=(0, 1))
-        nearest = np.minimum(nearest, np.abs(moved - solid).max(axis=-1))
+    y, x = np.nonzero(inside & (np.abs(seen - solid) > 1).any(axis=-1))
+    own = np.pad(seen, ((1, 1), (1, 1), (0, 0)), "edge")
+    steps = [own[y + j, x + i] for j, i in np.ndindex(3, 3)]
+    nearest = np.abs(np.array(steps) - solid[y, x]).max(axis=-1).min(axis=0)
+    shades = seen @ (1 << 16, 1 << 8, 1)
     return {
-        "size": seen.shape[:2],
-        "colors": len(np.unique(seen[inside], axis=0)),
-        "differ": int((differ & inside).sum()),
-        "strange": int((differ & inside & (nearest > 1)).sum()),
-        "outside": len(np.unique(seen[~inside], axis=0)),
+        "colors": len(np.unique(shades[inside])),
+        "differ": len(y),
+        "strange": int((nearest > 1).sum()),
+        "outside": len(np.unique(shades[~inside])),
     }
 
 
 SCENE = "suzanne"
-STORIES = (viewport_pixels,)
+STORIES = (viewport_pixels, viewport_events, viewport_often, viewport_more_often)

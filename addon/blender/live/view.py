@@ -40,7 +40,7 @@ class LiveView:
         self.shown: Job | None = None  # the best one that is done
         self._job: Job | None = None  # a better one
         self._factor = COARSE
-        self._unread = self._failed = ""  # why there is no scene; why not what is wanted
+        self._unread = self.said = ""  # why there is no scene; why what is wanted is not shown
         self._timer: Any = None
         self._shader: Any = None
         self._drawn = 0.0  # when
@@ -48,7 +48,7 @@ class LiveView:
     @property
     def rests(self) -> bool:
         """Whether nothing is left to do: the whole picture is there, or why it cannot be."""
-        return not self._job and bool(self.shown or self._failed)
+        return not self._job and bool(self.shown or self.said)
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
@@ -84,7 +84,7 @@ class LiveView:
         settings = scene.reference_tracer.settings()
         wanted = Wanted(str(camera.to_dict()), self._version, settings, shows.chosen(context))
         if self._wanted != wanted:
-            self._wanted, self.camera, self._failed = wanted, camera, ""
+            self._wanted, self.camera, self.said = wanted, camera, ""
         # A coarse picture of where the view has just been is finished: a view that never rests
         # would never show one.
         job = self._job
@@ -95,7 +95,7 @@ class LiveView:
     def _begin(self) -> None:
         """Begin a better picture, if there is one to be made and none in the making."""
         is_right = self.shown and self.shown.wanted == self._wanted
-        if self._job or self._failed or (is_right and self.shown.factor == 1):
+        if self._job or self.said or (is_right and self.shown.factor == 1):
             return
         factor = 1 if is_right else self._factor
         self._job = Job(self._wanted, self._kept, self.camera, factor)
@@ -115,7 +115,7 @@ class LiveView:
     def _give_up(self, error: str) -> None:
         """Show nothing but what went wrong, if something did."""
         if error:
-            self._failed, self.shown, self._job = error, None, None
+            self.said, self.shown, self._job = error, None, None
 
     def _draw(self, engine: Any, context: Any, until: float) -> None:
         import gpu
@@ -127,8 +127,8 @@ class LiveView:
         left = [job.draw(self._shader, region.width, region.height, until) for job in jobs]
         if any(left):
             engine.tag_redraw()
-        if self._failed:
-            draw_words(self._failed, region, context.preferences.system.ui_scale)
+        if self.said:
+            draw_words(self.said, region, context.preferences.system.ui_scale)
         engine.update_stats("", jobs[-1].picture.line if jobs else "")
         self._drawn = time.perf_counter()
 
