@@ -17,6 +17,8 @@ from .colors import slot_materials
 from .judges import Judge
 from .temporary import is_temporary, judge_of
 
+_UNFILLED = ("WIRE", "BOUNDS")
+
 HAIR = "hair"  # of particles: the object that has it is drawn without it, too
 
 # Object types that Blender draws, but not as triangles.
@@ -57,7 +59,7 @@ def _reaches(obj: Any) -> Iterator[float]:
 
 def unfilled(obj: Any, holder: Any) -> bool:
     """Return whether a viewport draws no surface of an object, or of an instance by its holder."""
-    return bool({obj.display_type, holder.display_type} & {"WIRE", "BOUNDS"})
+    return obj.display_type in _UNFILLED or holder.display_type in _UNFILLED
 
 
 def of_object(

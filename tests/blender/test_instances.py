@@ -188,3 +188,27 @@ def test_no_reference_to_blenders_data_is_kept(build, export):
     bpy.data.meshes.remove(cube.data)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     np.testing.assert_array_equal(scene.meshes[0].vertices, before)
+
+
+def test_instances_look_the_same_once_a_script_has_looked_at_their_object(build, export):
+    """Blender hands out the object itself then, without its instancer's colour and display."""
+    build.scene(color_type="OBJECT")
+    build.far_camera()
+    kit = build.collection("Kit", build.cube(link=False, color=(0, 0, 1, 1)))
+    for name, display in (("Empty", "TEXTURED"), ("Wire", "WIRE")):
+        empty = build.empty(name, color=(1, 0, 0, 0.5))
+        empty.instance_type, empty.instance_collection = "COLLECTION", kit
+        empty.display_type = display
+    bpy.context.view_layer.update()
+
+    def seen():
+        scene, manifest = export.viewport()
+        features = [(u.feature, u.detail) for u in manifest.unmodelled]
+        return [i.colors.tolist() for i in scene.instances], features
+
+    before = seen()
+    assert before[0] == [[[1, 0, 0, 0.5]]]
+    assert len(before[1]) == 2
+    for evaluated in bpy.context.evaluated_depsgraph_get().ids:
+        assert evaluated.name
+    assert seen() == before

@@ -51,7 +51,10 @@ def contents(scene):
             (i.mesh, i.object, i.world_from_object.tobytes(), i.colors.tobytes())
             for i in scene.instances
         ],
-        [(p.object, p.point.tobytes(), p.normal.tobytes(), p.color.tobytes()) for p in scene.planes],
+        [
+            (p.object, p.point.tobytes(), p.normal.tobytes(), p.color.tobytes())
+            for p in scene.planes
+        ],
         scene.objects,
     )
 

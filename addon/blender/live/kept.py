@@ -38,7 +38,7 @@ class KeptScene:
         self._meshes: dict[tuple[int, bool], _Read] = {}
         self._scene: Scene | None = None
         self._parts: dict[str, Any] = {}
-        self._look: tuple = ()
+        self._look, self._of = (), ("", "")  # settings of the view; scene and view layer
         self._alone: dict[str, int] = {}  # instances that move with an object, which has no other
         self._bound: set[str] = set()  # other objects that what is shown depends on
 
@@ -48,8 +48,9 @@ class KeptScene:
 
     def update(self, depsgraph: Any, space: Any) -> None:
         """Read what has changed in an evaluated depsgraph, as a `SpaceView3D` shows it."""
-        self.meshes_read = 0
-        if self.outdated(space) or not self._move(depsgraph):
+        self.meshes_read, of = 0, (depsgraph.scene.name_full, depsgraph.view_layer.name)
+        if self.outdated(space) or of != self._of or not self._move(depsgraph):
+            self._look, self._of = (), of  # should reading fail, all is looked at again
             self._read(depsgraph, space)
             self._look = _look(space)
 
