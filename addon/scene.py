@@ -8,7 +8,7 @@ World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -385,3 +385,16 @@ def _colors(value: object, what: str) -> NDArray[np.float32]:
     if colors.ndim != 2 or colors.shape[1] != 4 or len(colors) < 1:
         raise SceneError(f"The colours of {what} must be (k, 4) linear RGBA, not {colors.shape}.")
     return _locked(colors)
+
+
+def alike(first: Any, second: Any) -> bool:
+    """Return whether two scenes, or parts of them, hold the same, but for memory."""
+    if first is second or type(first) is not type(second):
+        return first is second
+    if isinstance(first, np.ndarray):
+        return np.array_equal(first, second)
+    if isinstance(first, tuple):
+        return len(first) == len(second) and all(map(alike, first, second))
+    if is_dataclass(first):
+        return all(alike(getattr(first, f.name), getattr(second, f.name)) for f in fields(first))
+    return first == second

@@ -17,8 +17,8 @@ from ..framing import ANGLE, BACKWARD, UP, Choice, framing, shown_points
 from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, SceneError, ViewWindow
 from .camera import pixel_height, resolution
+from .camera_object import place_camera
 from .engine import export_for_render
-from .scenario_scene import place_camera
 from .stepping import bake_bodies, visited
 from .temporary import temporary_scene
 

@@ -89,13 +89,6 @@ def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
         icon = "BLANK1" if icon != "NONE" else icon
 
 
-def is_rendered(context: Any) -> bool:
-    """Return whether a 3D view shows what this engine traces: found in any window."""
-    ours = context.scene.render.engine == ENGINE
-    spaces = (a.spaces.active for w in context.window_manager.windows for a in w.screen.areas)
-    return ours and any(s.type == "VIEW_3D" and s.shading.type == "RENDERED" for s in spaces)
-
-
 class _Main:
     bl_label = "Reference Tracer"
 
@@ -114,9 +107,8 @@ class _Main:
         row.prop(stored, "precision")
         column.prop(stored, "samples")
         column.prop(stored, "color")
-        row = layout.row()
-        row.active = is_rendered(context)
-        row.prop(stored, "show")
+        column.separator()
+        column.prop(stored, "show")
         column = layout.column()
         column.prop(stored, "judge")
         column.prop(stored, "shading")

@@ -15,7 +15,7 @@ from ..study.scenarios.sweeps import SCENARIOS
 from ..tracer.coloring import Color
 from ..tracer.frame import PASSES
 from ..tracer.settings import Precision, Settings
-from . import judges
+from . import judges, results
 from .live.shows import SHOWS
 
 # (identifier, name, description, number). A .blend stores the number: one that was given away is
@@ -45,24 +45,26 @@ SHOW_ITEMS = tuple((s.identifier, s.label, s.description, s.number) for s in SHO
 SWEEPS = tuple((s.name, s.title, s.explanation) for s in SCENARIOS)
 
 
-def _redraw_views(scene: Any, context: Any) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+def _redraw(owner: Any, context: Any) -> None:
+    results.redraw(context)  # the 3D views in Rendered mode
 
 
 class ReferenceTracerScene(bpy.types.PropertyGroup):
     """How to trace and compare this scene."""
 
     method: EnumProperty(  # type: ignore[valid-type]
-        name="Method", items=METHOD_ITEMS, default="auto", description="How a ray meets a triangle"
+        name="Method",
+        items=METHOD_ITEMS,
+        default="auto",
+        description="How a ray meets a triangle",
+        update=_redraw,
     )
     precision: EnumProperty(  # type: ignore[valid-type]
         name="Precision",
         items=PRECISIONS,
         default="float64",
         description="Floating-point type of rays and corners; what is proven is proven in float64",
+        update=_redraw,
     )
     samples: IntProperty(  # type: ignore[valid-type]
         name="Samples",
@@ -70,13 +72,19 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         min=1,
         max=16,
         description="Colour is the mean of this number squared of rays, spread over the pixel",
+        update=_redraw,
     )
-    color: EnumProperty(name="Color", items=COLORS, description="What a render shows of a surface")  # type: ignore[valid-type]
+    color: EnumProperty(  # type: ignore[valid-type]
+        name="Color",
+        items=COLORS,
+        description="What a render shows of a surface",
+        update=_redraw,
+    )
     show: EnumProperty(  # type: ignore[valid-type]
         name="Show",
         items=SHOW_ITEMS,
         description="What a 3D view shows in Rendered mode, if this is the render engine",
-        update=_redraw_views,
+        update=_redraw,
     )
     judge: EnumProperty(  # type: ignore[valid-type]
         name="Compare With",

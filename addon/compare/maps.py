@@ -14,7 +14,7 @@ from .cause import Cause, Color
 
 WRONG: Color = (1.0, 0.0, 0.0)
 DIM = 0.25  # of what lies below
-RING, MOST_RINGS = 5, 500  # pixels from the one that is marked; rings, so that these are found
+RING, MOST_RINGS = 6, 500  # pixels from the one that is marked; rings, so that these are found
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 
@@ -62,7 +62,7 @@ def ringed(color: NDArray[np.float32], where: NDArray[np.bool_]) -> NDArray[np.f
         return color
     out, (height, width) = color.copy(), where.shape
     dy, dx = np.mgrid[-RING : RING + 1, -RING : RING + 1]
-    on = np.maximum(abs(dy), abs(dx)) == RING
+    on = np.maximum(abs(dy), abs(dx)) >= RING - 1
     at = np.clip(y[:, None] + dy[on], 0, height - 1), np.clip(x[:, None] + dx[on], 0, width - 1)
     out[at] = color[y, x][:, None]
     out[y, x] = color[y, x]

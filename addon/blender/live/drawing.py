@@ -51,6 +51,7 @@ class Textures:
         height, width = picture.color.shape[:2]
         step = max(1, BAND // width)
         self._picture: Picture | None = picture
+        self.color = picture.color  # of which they are
         self._missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
         self._bands: list[tuple[int, Any]] = []  # the first row of each
 

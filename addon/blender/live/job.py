@@ -26,6 +26,7 @@ class Wanted(NamedTuple):
     version: int  # of the scene
     settings: Settings
     show: Show
+    space: int  # the address of the view's
 
     def is_moved(self, other: Wanted) -> bool:
         """Return whether the camera alone is another one."""
@@ -41,10 +42,11 @@ class Job:
         scene = replace(scene, background=_NOTHING)  # Blender draws its own behind the picture
         self._size = camera.width, camera.height
         self._corner = scene.camera.region.x0, scene.camera.region.y0
-        self.picture = Picture.empty(scene.camera)
+        self.picture = Picture.empty(scene.camera, wanted.space, factor > 1)
         self._work: Iterator[float] | None = wanted.show.steps(scene, wanted.settings, self.picture)
         self.seconds = 0.0
         self._textures: Textures | None = None
+        self._rows = 0
 
     @property
     def is_done(self) -> bool:
@@ -58,12 +60,18 @@ class Job:
             self._work = None  # with all that it holds
         self.seconds += time.perf_counter() - began
 
+    def has_grown(self) -> bool:
+        """Return whether more rows are done than when this was last asked."""
+        before, self._rows = self._rows, int(self.picture.rows_done.sum())
+        return self._rows > before
+
     def draw(self, shader: Any, width: int, height: int, until: float) -> bool:
         """Draw what is done over a region, in pixels; True if something could not be by a time.
 
         Of a region of another size it is stretched.
         """
-        self._textures = self._textures or Textures(self.picture)
+        if not self._textures or self._textures.color is not self.picture.color:
+            self._textures = Textures(self.picture)
         is_left = self._textures.upload(until)
         x, y = self.factor * width / self._size[0], self.factor * height / self._size[1]
         self._textures.draw(shader, self._corner[0] * x, self._corner[1] * y, x, y)

@@ -20,11 +20,11 @@ from ...scene import Camera, Scene
 from ...tracer.settings import Settings
 from ...tracer.vector import transform_points
 from ..camera import certify_camera
+from ..camera_object import add_camera
 from ..export import export
 from ..judges import JUDGES
 from ..planes import stand_ins
 from ..rasteriser import snapping_of
-from ..scenario_scene import add_camera
 from ..temporary import drawn, leave_out, temporary_scene
 from ..viewport import picture, prepare_scene, use_view_shading
 
@@ -37,13 +37,6 @@ def is_busy() -> bool:
     windows = bpy.context.window_manager.windows
     busy = any(w.modal_operators or w.screen.is_animation_playing for w in windows)
     return busy or bpy.app.is_job_running("RENDER")
-
-
-def is_whole(space: int, camera: Camera) -> bool:
-    """Return whether a camera has all pixels of a 3D view, by its space's address."""
-    _, area = _place(space)
-    size = camera.width, camera.height
-    return any((r.width, r.height) == size for r in area.regions if r.type == "WINDOW")
 
 
 def case_of(space: int, scene: Scene, settings: Settings) -> Case:

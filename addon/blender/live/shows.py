@@ -1,7 +1,7 @@
 """What a 3D view in Rendered mode can show: a record and a function each.
 
 A function fills a picture in steps. All but the picture of F12 show how each pixel came about: by
-one ray through its centre, in colours that a screen shows as they are.
+the one ray through its centre.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from ...compare.cause import Cause
 from ...compare.causes import explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
 from ...compare.metrics import boundary, count_pixels
-from ...images import encoded
 from ...scene import Camera, Scene
-from ...tracer.certified.certainty import Certainty, broken_assumptions
+from ...tracer.certified.certainty import Certainty
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Settings
+from ...tracer.vector import parts
 from . import like_for_like
 
 ROWS = 64  # entered together, in some milliseconds
@@ -41,13 +41,16 @@ class Picture:
 
     color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
     rows_done: NDArray[np.bool_]  # (h,) of which the colour is known
+    space: int  # the address of the 3D view's space
+    is_coarse: bool  # whether its pixels are larger than the view's
     line: str = ""  # said in the view's corner
 
     @classmethod
-    def empty(cls, camera: Camera) -> Picture:
+    def empty(cls, camera: Camera, space: int = 0, is_coarse: bool = False) -> Picture:
         """Return one with no row done."""
         height, width = camera.region.height, camera.region.width
-        return cls(np.zeros((height, width, 4), np.float32), np.zeros(height, bool))
+        color, done = np.zeros((height, width, 4), np.float32), np.zeros(height, bool)
+        return cls(color, done, space, is_coarse)
 
 
 class Show(NamedTuple):
@@ -57,9 +60,8 @@ class Show(NamedTuple):
     label: str
     description: str
     number: int  # what a .blend stores: one that was given away is never given to another
-    steps: Callable[..., Iterator[float]]  # of a Scene, Settings, a Picture
-    is_raw: bool = True  # whether a screen shows the values as they are, by no view transform
-    of_space: bool = False  # whether `steps` takes the 3D view's space first, by its address
+    steps: Callable[[Scene, Settings, Picture], Iterator[float]]
+    is_drawn: bool = False  # whether Blender draws for it, in a scene that comes and goes
 
 
 Rows = Callable[[Frame, slice], NDArray]  # what is shown of rows of a frame, linear RGBA
@@ -80,12 +82,9 @@ def colored(color: Color, scene: Scene, settings: Settings, shown: Picture) -> I
 def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace by the settings' method, and mark where it sees another surface than is proven."""
     if not settings.method.is_plain:
-        yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
-        shown.line = "proven, so none is wrong: choose another method to see what it gets wrong"
-        return
-    if lacks := broken_assumptions():
-        shown.line = f"nothing can be proven here: no {' and '.join(lacks)}"
-        yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+        frame = yield from _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
+        proven = ["every pixel is proven, so none is wrong: choose another method"]
+        [shown.line] = frame.statistics.notes[:1] or proven
         return
     truth = Frame.empty(scene)
     yield from scaled(steps(scene, Settings("certified"), truth), 0.0, 0.4)
@@ -112,25 +111,25 @@ def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[floa
     shown.line = ", ".join(f"{c.name.lower().replace('_', ' ')} {n:,}" for c, n in counts if n)
 
 
-def difference(space: int, scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
+def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace, have Blender draw the same once the view rests, and show why pixels differ."""
     settings = replace(settings, samples=1, color=Color.OBJECT)
     work = _traced(scene, settings, shown, lambda f, r: dimmed(f.color[r]))
     frame = yield from scaled(work, 0.0, 0.5)
-    if not like_for_like.is_whole(space, scene.camera):
+    if shown.is_coarse:
         return
     shown.line = "Blender's viewport draws the same once the view rests"
     while like_for_like.is_busy():
         yield 0.5
-    case = like_for_like.case_of(space, scene, settings)
+    case = like_for_like.case_of(shown.space, scene, settings)
     yield 0.6
     if scene.planes:  # which may have other colours there
         frame = Frame.empty(case.scene)
         yield from scaled(steps(case.scene, settings, frame), 0.6, 0.1)
     causes = (yield from scaled(explain(case, frame, MOST_EXPLAINED), 0.7, 0.2)).causes
     color = np.empty_like(shown.color)
-    for rows in _parts(0, len(color)):
-        color[rows] = encoded(cause_map(frame.color[rows], causes.cause[rows]))
+    for rows in parts(len(color), ROWS):
+        color[rows] = cause_map(frame.color[rows], causes.cause[rows])
         yield 0.9
     shown.color = ringed(color, causes.cause != Cause.AGREE)
     pixels = count_pixels(causes, boundary(frame))
@@ -144,27 +143,21 @@ def difference(space: int, scene: Scene, settings: Settings, shown: Picture) -> 
     )
 
 
-def _parts(first: int, end: int) -> Iterator[slice]:
-    """Yield rows that are entered together."""
-    return (slice(y, min(y + ROWS, end)) for y in range(first, end, ROWS))
-
-
 def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Work[Frame]:
     """Trace one ray a pixel, and show what is made of the rows that are done."""
     frame = Frame.empty(scene)
     for share in steps(scene, replace(settings, samples=1), frame):
         new = np.flatnonzero(frame.rows_done & ~shown.rows_done)
-        for some in _parts(new[0], new[-1] + 1) if len(new) else ():
-            color = encoded(rows(frame, some))
-            color[..., :3] *= color[..., 3:]
-            shown.color[some], shown.rows_done[some] = color, True
+        for part in parts(len(new), ROWS):
+            some = slice(new[part][0], new[part][-1] + 1)
+            shown.color[some], shown.rows_done[some] = rows(frame, some), True
             yield share
         yield share
     return frame
 
 
 SHOWS = (
-    Show("PICTURE", "Picture", "What a render shows", 0, picture, is_raw=False),
+    Show("PICTURE", "Picture", "What a render shows", 0, picture),
     Show(
         "WRONG",
         "Wrong Pixels",
@@ -180,7 +173,7 @@ SHOWS = (
         "differ have the colour of their cause, as in a comparison",
         2,
         difference,
-        of_space=True,
+        is_drawn=True,
     ),
     Show(
         "CERTAINTY",
@@ -198,19 +191,6 @@ SHOWS = (
 )
 
 
-class _OfSpace(NamedTuple):
-    """Steps that take the 3D view's space first; equal for the same."""
-
-    steps: Callable[..., Iterator[float]]
-    space: int
-
-    def __call__(self, *arguments: Any) -> Iterator[float]:
-        return self.steps(self.space, *arguments)
-
-
 def chosen(context: Any) -> Show:
-    """Return what the view of a context is to show; two that are equal show the same."""
-    show = next(s for s in SHOWS if s.identifier == context.scene.reference_tracer.show)
-    if show.of_space:
-        return show._replace(steps=_OfSpace(show.steps, context.space_data.as_pointer()))
-    return show
+    """Return what the view of a context is to show."""
+    return next(s for s in SHOWS if s.identifier == context.scene.reference_tracer.show)

@@ -16,7 +16,7 @@ from typing import Any
 import bpy
 
 from ...arguments import EXPECTED, words
-from ...scene import Camera
+from ...scene import Camera, alike
 from . import shows
 from .camera import camera_of
 from .drawing import draw_words, pixel_shader
@@ -52,8 +52,12 @@ class LiveView:
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
-        self._version += 1
+        before = None
+        if self.shown and self.shown.wanted.show.is_drawn:  # it may itself be why Blender asks
+            before = self._kept.scene(self.camera)
         self._unread = _said(self._kept.update, depsgraph, context.space_data)
+        if self._unread or not (before and alike(before, self._kept.scene(self.camera))):
+            self._version += 1
 
     def draw(self, engine: Any, context: Any) -> None:
         """Draw the view, as well as it is known at once."""
@@ -72,8 +76,8 @@ class LiveView:
         shown, until = self.shown, time.perf_counter() + AT_ONCE
         while self._job and time.perf_counter() < until:
             self._step()
-        grown = self._job and self._job.picture.rows_done.any()
-        if self.shown is not shown or (grown and until > self._drawn + SHOW_EVERY):
+        due = self._job and until > self._drawn + SHOW_EVERY
+        if self.shown is not shown or (due and self._job.has_grown()):
             engine.tag_redraw()
         return 0.0 if self._job else None
 
@@ -82,7 +86,8 @@ class LiveView:
         scene, space = context.scene, context.space_data
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
-        wanted = Wanted(str(camera.to_dict()), self._version, settings, shows.chosen(context))
+        show, view = shows.chosen(context), space.as_pointer()
+        wanted = Wanted(str(camera.to_dict()), self._version, settings, show, view)
         if self._wanted != wanted:
             self._wanted, self.camera, self.said = wanted, camera, ""
         # A coarse picture of where the view has just been is finished: a view that never rests
@@ -129,7 +134,8 @@ class LiveView:
             engine.tag_redraw()
         if self.said:
             draw_words(self.said, region, context.preferences.system.ui_scale)
-        engine.update_stats("", jobs[-1].picture.line if jobs else "")
+        lines = [job.picture.line for job in jobs if job.picture.line]
+        engine.update_stats("", lines[-1] if lines else "")
         self._drawn = time.perf_counter()
 
 
