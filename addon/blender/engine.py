@@ -69,7 +69,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def view_draw(self, context: Any, depsgraph: Any) -> None:
         """Draw such a view."""
-        self.live.draw(self, context)
+        self.live.draw(self, context, depsgraph)
 
     def _trace(self, depsgraph: Any) -> None:
         began = time.monotonic()

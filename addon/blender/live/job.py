@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from ...scene import Camera
 from ...tracer.settings import Settings
@@ -15,8 +12,6 @@ from .camera import coarser
 from .drawing import Textures
 from .kept import KeptScene
 from .shows import Picture, Show
-
-_NOTHING = np.zeros(4, np.float32)
 
 
 class Wanted(NamedTuple):
@@ -39,7 +34,6 @@ class Job:
     def __init__(self, wanted: Wanted, kept: KeptScene, camera: Camera, factor: int) -> None:
         self.wanted, self.factor = wanted, factor
         scene = kept.scene(camera if factor == 1 else coarser(camera, factor))
-        scene = replace(scene, background=_NOTHING)  # Blender draws its own behind the picture
         self._size = camera.width, camera.height
         self._corner = scene.camera.region.x0, scene.camera.region.y0
         self.picture = Picture.empty(scene.camera, wanted.space, factor > 1)

@@ -26,6 +26,7 @@ from .kept import KeptScene
 AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
 COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels
 SLOW = 0.022  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
+LINES = 2  # of what the picture lacks, in the view's corner
 SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
 
@@ -59,11 +60,14 @@ class LiveView:
         if self._unread or not (before and alike(before, self._kept.scene(self.camera))):
             self._version += 1
 
-    def draw(self, engine: Any, context: Any) -> None:
+    def draw(self, engine: Any, context: Any, depsgraph: Any) -> None:
         """Draw the view, as well as it is known at once."""
+        if self._kept.outdated(context.space_data):
+            self.update(context, depsgraph)
         until = time.perf_counter() + SLOW
         if error := self._unread or _said(self._aim, context):
             self._give_up(error)
+            self._wanted = None  # whatever is wanted next is to be tried
         while self._job and self._job.factor > 1 and time.perf_counter() < until:
             self._step()
         self._draw(engine, context, until)
@@ -134,8 +138,10 @@ class LiveView:
             engine.tag_redraw()
         if self.said:
             draw_words(self.said, region, context.preferences.system.ui_scale)
-        lines = [job.picture.line for job in jobs if job.picture.line]
-        engine.update_stats("", lines[-1] if lines else "")
+        own = [job.picture.line for job in jobs if job.picture.line]
+        lines = own[-1:] + list(self._kept.lines[:LINES])
+        more = len(self._kept.lines) - LINES
+        engine.update_stats("", "; ".join(lines) + (f"; and {more} more" if more > 0 else ""))
         self._drawn = time.perf_counter()
 
 
