@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, TypeVar
 
+import bpy
 import numpy as np
 from numpy.typing import NDArray
 
@@ -80,6 +81,7 @@ def visible(
     # Instances of one mesh by one object look the same, but for the colour that each may inherit.
     modelled: set[tuple] = set()  # as a whole
     all_colors: dict[tuple, NDArray[np.float32]] = {}
+    unshown = types_left_out(space) if space else set()
     for item in depsgraph.object_instances:
         obj = item.object
         name = obj.original.name_full
@@ -89,8 +91,7 @@ def visible(
         owner = holder.original
         # The depsgraph hands out what only the eye of a collection hides.
         if space:
-            types = f"show_object_viewport_{obj.type.lower()}"
-            if not (holder.visible_in_viewport_get(space) and getattr(space, types, True)):
+            if obj.type in unshown or not _in_view(space, unshown, holder, layer):
                 continue
         elif viewport and not owner.visible_get(view_layer=layer):
             continue
@@ -134,6 +135,27 @@ def visible(
         colors = all_colors[look]
         shown.append(Shown(name, owner.name_full, key, matrix, colors, item.is_instance))
     return seen, shown, met
+
+
+def types_left_out(space: Any) -> set[str]:
+    """Return the types of objects that a 3D view does not show, as `Object.type` has them."""
+    types = bpy.types.Object.bl_rna.properties["type"].enum_items.keys()
+    names = {t: t.lower().replace("surface", "surf") for t in types}
+    return {t for t, name in names.items() if not getattr(space, f"show_object_viewport_{name}", 1)}
+
+
+def _in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
+    """Return whether a 3D view draws an object, or the instances by it, but for their own type.
+
+    It draws the instances by an object of a type that it does not show, while it says of that
+    object that it is hidden. (Local collections are not known then.)
+    """
+    if holder.type not in unshown:
+        return holder.visible_in_viewport_get(space)
+    owner = holder.original
+    return owner.visible_get(view_layer=layer) and not (
+        space.local_view and not owner.local_view_get(space)
+    )
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:

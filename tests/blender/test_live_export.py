@@ -323,8 +323,111 @@ def test_a_view_shows_its_own_colors_types_and_background(build, kept):
     view.shading.background_type = "VIEWPORT"
     view.shading.background_color = (0.25, 0.5, 1)
     assert shown().background.tolist() == [0.25, 0.5, 1, 1]
-    view.show_object_viewport_mesh = False
-    assert shown().objects == ()
+
+
+def test_types_that_a_view_leaves_out(build, kept):
+    """Of a text and of instances it is the type of what is drawn that counts, not of its owner."""
+    build.far_camera()
+    build.cube()
+    build.text()
+    kit = build.collection("Kit", build.square("In Kit", link=False))
+    empty = build.empty("Empty")
+    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    bpy.context.view_layer.update()
+    view, depsgraph = space(), bpy.context.evaluated_depsgraph_get()
+    assert [i.name for i in depsgraph.ids]  # looked at: see test_instances
+    for kind, shown in (
+        ("mesh", set()),
+        ("empty", {"Cube", "Text", "In Kit"}),
+        ("font", {"Cube", "Text", "In Kit"}),
+        ("light", {"Cube", "Text", "In Kit"}),
+    ):
+        setattr(view, f"show_object_viewport_{kind}", False)
+        assert kept.outdated(view)
+        kept.update(depsgraph, view)
+        assert set(of_view(kept).objects) == shown
+        setattr(view, f"show_object_viewport_{kind}", True)
+    empty.hide_set(True)
+    view.show_object_viewport_empty = False
+    bpy.context.view_layer.update()
+    assert set(of_view(kept).objects) == {"Cube", "Text"}
+
+
+def instancers(build):
+    """Objects that look as if a move of them were a move of one instance, with the move."""
+    cube = build.cube("Cube")
+    one = build.mesh("One Point", [(0, 0, 1)], [])
+    build.instances_on_points(one, "GeometryNodeMeshCube")
+    text = build.text()
+    plane = build.empty("Plane")
+    plane.reference_tracer.infinite_plane = True
+    kit = build.collection("Kit", cube)
+    empty = build.empty("Empty", location=(3, 0, 0))
+    empty.instance_type, empty.instance_collection = "COLLECTION", kit
+    parent = build.square("Parent")
+    child = build.square("Child")
+    child.parent = parent
+    wire = build.square("Wire")
+    wire.display_type = "WIRE"
+    view_layer = bpy.context.view_layer
+
+    def move(obj):
+        obj.location.y += 1
+
+    def as_instancer():
+        move(parent)
+        parent.instance_type = "VERTS"
+
+    def solid():
+        move(wire)
+        wire.display_type = "SOLID"
+
+    def colored():
+        cube.color = (1, 0, 0, 1)
+        space().shading.color_type = bpy.context.scene.display.shading.color_type = "OBJECT"
+        move(child)
+
+    def lost():
+        child.location.x = np.nan
+
+    def other_layer():
+        view_layer.layer_collection.children["Shelf"].exclude = True
+        other = bpy.context.scene.view_layers.new("Other")
+        bpy.context.window.view_layer = other
+        other.update()
+        bpy.context.window.view_layer = view_layer
+        move(child)
+
+    build.collection("Shelf", build.cube("On Shelf", link=False), link=True)
+    moves = {o.name: lambda o=o: move(o) for o in (cube, one, text, plane, empty, parent, child)}
+    others = (as_instancer, solid, colored, lost, other_layer)
+    return moves | {do.__name__: do for do in others}
+
+
+@pytest.mark.parametrize(
+    "what",
+    "Cube,One Point,Text,Plane,Empty,Parent,Child,as_instancer,solid,colored,lost,"
+    "other_layer".split(","),
+)
+def test_what_seems_to_be_a_move_alone(what, build, kept):
+    build.far_camera()
+    moves = instancers(build)
+    assert_as_a_whole_export(kept)
+    moves[what]()
+    assert_as_a_whole_export(kept)
+
+
+def test_all_is_read_after_a_failure(build, kept, monkeypatch):
+    build.far_camera()
+    cube, square = build.cube(), build.square()
+    assert_as_a_whole_export(kept)
+    square.display_type = "WIRE"
+    with monkeypatch.context() as context:
+        context.setattr("reference_tracer.blender.live.kept.visible", lambda *_: 1 / 0)
+        bpy.context.view_layer.update()  # Blender prints what a handler raises
+    cube.location.x = 1
+    assert_as_a_whole_export(kept)
+    assert of_view(kept).objects == ("Cube",)
 
 
 def test_what_the_picture_lacks_is_said(build, kept):

@@ -19,7 +19,7 @@ from ...manifest import Effect
 from ...scene import Camera, Mesh, Scene
 from ..export import NO_SURFACE, assemble
 from ..unmodelled import unfilled
-from ..visible import export_mesh, plain_mesh, read_vertices, visible
+from ..visible import export_mesh, plain_mesh, read_vertices, types_left_out, visible
 
 _Read = tuple[Mesh, int]  # with the triangles left out
 
@@ -124,5 +124,5 @@ def _look(space: Any) -> tuple:
     """Return the settings of a view on which the scene that it shows depends."""
     s = space.shading
     colors = s.color_type, s.single_color[:], s.background_type, s.background_color[:]
-    own = space.show_object_viewport_mesh, space.use_local_collections, space.local_view is None
+    own = types_left_out(space), space.use_local_collections, space.local_view is None
     return colors, own
