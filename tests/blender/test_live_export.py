@@ -347,7 +347,9 @@ def test_types_that_a_view_leaves_out(build, kept):
         kept.update(depsgraph, view)
         assert set(of_view(kept).objects) == shown
         setattr(view, f"show_object_viewport_{kind}", True)
-    empty.hide_set(True)
+    bpy.context.scene.collection.objects.unlink(empty)
+    build.collection("Hidden", empty, link=True)
+    bpy.context.view_layer.layer_collection.children["Hidden"].hide_viewport = True
     view.show_object_viewport_empty = False
     bpy.context.view_layer.update()
     assert set(of_view(kept).objects) == {"Cube", "Text"}
@@ -369,7 +371,6 @@ def instancers(build):
     child.parent = parent
     wire = build.square("Wire")
     wire.display_type = "WIRE"
-    view_layer = bpy.context.view_layer
 
     def move(obj):
         obj.location.y += 1
@@ -383,38 +384,53 @@ def instancers(build):
         wire.display_type = "SOLID"
 
     def colored():
-        cube.color = (1, 0, 0, 1)
-        space().shading.color_type = bpy.context.scene.display.shading.color_type = "OBJECT"
+        child.color = (1, 0, 0, 1)
         move(child)
 
     def lost():
         child.location.x = np.nan
 
-    def other_layer():
-        view_layer.layer_collection.children["Shelf"].exclude = True
-        other = bpy.context.scene.view_layers.new("Other")
-        bpy.context.window.view_layer = other
-        other.update()
-        bpy.context.window.view_layer = view_layer
-        move(child)
-
-    build.collection("Shelf", build.cube("On Shelf", link=False), link=True)
-    moves = {o.name: lambda o=o: move(o) for o in (cube, one, text, plane, empty, parent, child)}
-    others = (as_instancer, solid, colored, lost, other_layer)
+    nested = build.empty("Nested")
+    bpy.context.scene.collection.objects.unlink(nested)
+    nested.instance_type, nested.instance_collection = "COLLECTION", kit
+    outer = build.empty("Outer", location=(-4, 0, 0))
+    outer.instance_type = "COLLECTION"
+    outer.instance_collection = build.collection("Outer", nested)
+    moves = {
+        o.name: lambda o=o: move(o) for o in (cube, one, text, plane, empty, parent, child, nested)
+    }
+    others = (as_instancer, solid, colored, lost)
     return moves | {do.__name__: do for do in others}
 
 
 @pytest.mark.parametrize(
     "what",
-    "Cube,One Point,Text,Plane,Empty,Parent,Child,as_instancer,solid,colored,lost,"
-    "other_layer".split(","),
+    "Cube,One Point,Text,Plane,Empty,Parent,Child,Nested,as_instancer,solid,colored,lost".split(
+        ","
+    ),
 )
 def test_what_seems_to_be_a_move_alone(what, build, kept):
     build.far_camera()
+    space().shading.color_type = build.scene(color_type="OBJECT").display.shading.color_type
     moves = instancers(build)
     assert_as_a_whole_export(kept)
     moves[what]()
     assert_as_a_whole_export(kept)
+
+
+def test_another_view_layer_is_read_as_a_whole(build, kept):
+    build.far_camera()
+    cube = build.cube()
+    build.collection("Shelf", build.square("On Shelf", link=False), link=True)
+    other = bpy.context.scene.view_layers.new("Other")
+    other.layer_collection.children["Shelf"].exclude = True
+    assert_as_a_whole_export(kept)
+    other.update()
+    kept.update(other.depsgraph, space())
+    assert of_view(kept).objects == ("Cube",)
+    cube.location.x = 1
+    assert_as_a_whole_export(kept)
+    assert set(of_view(kept).objects) == {"Cube", "On Shelf"}
 
 
 def test_all_is_read_after_a_failure(build, kept, monkeypatch):

@@ -8,7 +8,6 @@ are those of objects whose geometry the depsgraph says is updated.
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import replace
 from typing import Any
 
@@ -107,10 +106,9 @@ class KeptScene:
         if space.shading.background_type == "VIEWPORT":
             self._parts["background"] = (*space.shading.background_color, 1.0)
         self._meshes, self._scene = kept, None
-        often = Counter(s.name for s in shown)
         self._alone, self._bound = {}, set()
         for number, s in enumerate(surfaces):
-            if s.key and not s.is_instance and often[s.name] == 1:
+            if s.key and not s.is_instance:
                 self._alone[s.name] = number
             else:
                 self._bound |= {s.name, s.owner}
