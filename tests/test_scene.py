@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from reference_tracer.projections import ORTHOGRAPHIC
@@ -14,6 +16,7 @@ from reference_tracer.scene import (
     Scene,
     SceneError,
     ViewWindow,
+    alike,
     drop_non_finite,
 )
 
@@ -192,3 +195,17 @@ def test_what_names_no_object_is_called_what_it_is(kind):
         shown = {"planes": (Plane(1, np.zeros(3), np.ones(3)),)}
     with pytest.raises(SceneError, match=f"^An {kind} names object 1 of 1"):
         Scene(camera(), meshes, objects=("Cube",), **shown)
+
+
+def test_alike_is_what_holds_the_same():
+    def scene(dx=0.0, name="Cube", meshes=()):
+        matrix = np.eye(4)
+        matrix[0, 3] = dx
+        meshes = meshes or (Mesh(POINTS.copy(), FACES),)
+        return Scene(camera(), meshes, (Instance(0, 0, matrix),), objects=(name,))
+
+    one = scene()
+    assert alike(one, one) and alike(one, scene()) and alike(one, scene(meshes=one.meshes))
+    others = scene(1.0), scene(name="Cone"), scene(meshes=(Mesh(POINTS * 2, FACES),))
+    others += (scene(meshes=one.meshes * 2), replace(scene(), camera=camera(width=9)))
+    assert not any(alike(one, other) for other in others)

@@ -1,0 +1,99 @@
+"""What a 3D view can show, but for what Blender must draw: that is played in the window."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.blender.live.shows import SHOWS, Picture
+from reference_tracer.compare.maps import WRONG
+from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.coloring import Color
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+SHOW = {show.identifier: show for show in SHOWS}
+LITERAL = Settings("textbook_literal", "float32", samples=2)
+
+
+@pytest.fixture(scope="module")
+def scene(make):
+    """A closed mesh that fills most of the picture."""
+    solid = trimesh.creation.icosphere(3)
+    return make.scene(
+        make.camera(96, 64, half=0.3),
+        make.mesh(solid, trimesh.transformations.translation_matrix((0.1, 0.05, -4))),
+    )
+
+
+def shown(name, scene, settings):
+    """Return the picture that a show makes, each of whose steps must leave it whole."""
+    picture = Picture.empty(scene.camera)
+    shares, done = [], 0
+    for share in SHOW[name].steps(scene, settings, picture):
+        shares.append(share)
+        assert picture.rows_done.sum() >= done
+        done = picture.rows_done.sum()
+    assert picture.rows_done.all() and picture.color.shape == (64, 96, 4)
+    assert shares == sorted(shares) and 0 <= shares[0] and shares[-1] <= 1
+    return picture
+
+
+def counted(line):
+    """Return the numbers of a line, but for those in a word."""
+    return [int(n.replace(",", "")) for n in re.findall(r"(?<!\w)[\d,]+\b", line)]
+
+
+def test_the_picture_is_that_of_a_render(scene):
+    assert np.array_equal(shown("PICTURE", scene, LITERAL).color, render(scene, LITERAL).color)
+
+
+@pytest.mark.parametrize("color", Color)
+def test_a_colour_is_that_of_a_render(scene, color):
+    found = shown(color.name, scene, Settings())
+    assert np.array_equal(found.color, render(scene, Settings(color=color)).color)
+
+
+def test_the_literal_textbook_has_holes_within_a_closed_mesh(scene):
+    truth = render(scene)
+    literal = render(scene, Settings("textbook_literal", "float32"))
+    inside = truth.instance_index != NOTHING
+    holes = inside & (literal.triangle_index != truth.triangle_index)
+    assert 0.2 * inside.sum() < holes.sum() < 0.9 * inside.sum()
+    found = shown("WRONG", scene, LITERAL)
+    red = (found.color == (*WRONG, 1)).all(axis=-1)
+    assert np.array_equal(red, literal.wrong_against(truth)) and np.array_equal(red, holes)
+    assert counted(found.line) == [red.sum(), red.size]
+    assert found.line.startswith("float32 textbook, literal: ")
+
+
+def test_few_wrong_pixels_are_counted_as_they_are_not_with_their_rings(scene):
+    found = shown("WRONG", scene, Settings("moller_trumbore", "float32"))
+    again = render(scene, Settings("moller_trumbore", "float32"))
+    wrong, total = counted(found.line)
+    assert total == 96 * 64
+    assert wrong == again.wrong_against(render(scene)).sum() < 100
+
+
+@pytest.mark.parametrize("method", ["auto", "certified"])
+def test_nothing_is_wrong_of_what_is_proven(scene, method):
+    found = shown("WRONG", scene, Settings(method))
+    assert not (found.color == (*WRONG, 1)).all(axis=-1).any()
+    assert "none is wrong" in found.line
+
+
+def test_certainty_is_counted(scene):
+    frame = render(scene)
+    line = shown("CERTAINTY", scene, Settings()).line
+    counts = [int((frame.certainty == c).sum()) for c in Certainty]
+    assert counted(line) == [n for n in counts if n] and sum(counts) == 96 * 64
+    line = shown("CERTAINTY", scene, LITERAL).line
+    assert line == f"not certified {96 * 64:,}"
+
+
+def test_a_blend_stores_numbers_that_are_told_apart():
+    assert len({s.number for s in SHOWS}) == len(SHOWS) == len({s.identifier for s in SHOWS})
+    assert [s.number for s in SHOWS[:4]] == [0, 1, 2, 3]
