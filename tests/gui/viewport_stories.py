@@ -8,7 +8,7 @@ import addon_utils
 import bpy
 import numpy as np
 from mathutils import Euler
-from story import MODULE, OUT, module, noted, until, window
+from story import MODULE, OUT, data_blocks, module, noted, settings, until, window
 
 SWITCHES, MOVES = 20, 100  # every day; ten times as many in the long tests
 FILE = str(OUT / "rendered.blend")
@@ -381,5 +381,57 @@ def beside(seen, solid, region):
     }
 
 
+def viewport_shows():
+    """What each method sees of a view, and how it differs from what Blender draws."""
+    prepared()
+    stored, views = window().scene.reference_tracer, window().scene.view_settings
+    views.view_transform = "Standard"
+    yield from made_small()
+    yield from in_mode("RENDERED")
+    before, drawn = (settings(), data_blocks()), counted_drawings()
+    for number, (place, show, method) in enumerate(SHOWN):
+        stored.show, stored.method = show, method
+        if stored.has_precision:
+            stored.precision = "float32"
+        place()
+        yield from settled()
+        seen = screen(f"viewport_show_{number}_{show.lower()}")
+        red = (np.abs(seen - (255, 0, 0)) <= 1).all(axis=-1)  # Blender dithers
+        noted[f"{place.__name__} {show} {method}"] = {
+            "line": live()[0].shown.picture.line,
+            "red": int(red.sum()),
+            "said": live()[0].said,
+            "drawn": len(drawn),
+        }
+    yield 1.5
+    noted["drawn"] = len(drawn)  # one for each that was asked for: none is why another is
+    stored.property_unset("show")
+    after = settings(), data_blocks()
+    noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
+    noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
+
+
+def counted_drawings():
+    """Return a list that gets an item with each drawing that a view asks Blender for."""
+    ours = module("blender.live.like_for_like")
+    drawn, draw = [], ours.picture
+
+    def counting(*arguments):
+        drawn.append(1)
+        return draw(*arguments)
+
+    ours.picture = counting
+    return drawn
+
+
+SHOWN = (
+    (free, "WRONG", "textbook_literal"),
+    (free, "WRONG", "auto"),
+    (free, "DIFFERENCE", "auto"),
+    (parallel, "DIFFERENCE", "textbook_literal"),
+    (parallel, "CERTAINTY", "auto"),
+)
+
+
 SCENE = "suzanne"
-STORIES = (viewport_pixels, viewport_events, viewport_often, viewport_more_often)
+STORIES = (viewport_shows, viewport_pixels, viewport_events, viewport_often, viewport_more_often)

@@ -29,7 +29,7 @@ from ...tracer.vector import parts
 from . import like_for_like
 
 ROWS = 64  # entered together, in some milliseconds
-MOST_EXPLAINED = 20_000  # of the pixels that differ: in some seconds
+MOST_EXPLAINED = 5_000  # of the pixels that differ: in a second or two
 
 
 @dataclass(eq=False)
