@@ -1,8 +1,9 @@
-"""How near the nearest sure hit of every pixel is, so that what lies behind it need not be tested.
+"""The nearest sure hit of every pixel, and how near it is: what lies behind need not be tested.
 
-In come pixels with the nearness (`edge_functions.py`) that a hit of theirs surely has at least;
-out goes what a surface must reach to be seen: at a pixel, or anywhere in a cell of pixels. What
-reaches it is kept as a fragment.
+In come pixels with a surface that they surely hit, and the least and the most that its nearness
+(`edge_functions.py`) can be there; out goes what a surface must reach to be seen: at a pixel, or
+anywhere in a cell of pixels. Whose least is the greatest of a pixel is its winner. Every other that
+may reach that is a rival, and kept: so a winner without rivals at the end is what the pixel sees.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Camera, Region
+from ...hits import NOTHING
 from ...vector import Arrays, Index, gather
 from ..bounds import U
 
@@ -22,16 +24,14 @@ FINE, COARSE = 8, 64  # pixels along the side of a cell: the sizes of `farthest`
 
 @dataclass(frozen=True, eq=False)
 class Fragments(Arrays):
-    """c pairs of a pixel and a surface that may be its nearest, (c,) each.
+    """c pairs of a pixel and a surface that may be nearer than its winner, (c,) each.
 
-    `surface` counts the triangles of all chunks; `nearest` is the most that its nearness can be;
-    `sure` whether it is hit for sure.
+    `surface` counts the triangles of all chunks; `nearest` is the most that its nearness can be.
     """
 
     pixel: Index
     surface: Index
     nearest: NDArray[np.float64]
-    sure: NDArray[np.bool_]
 
 
 class ClipRange:
@@ -61,12 +61,20 @@ class DepthBuffer:
         self.region = region
         columns, rows = -(-region.width // COARSE), -(-region.height // COARSE)
         self.stride = columns * COARSE
-        self.nearness = np.full(rows * COARSE * self.stride, -np.inf)
+        self.nearness = np.full(rows * COARSE * self.stride, -np.inf)  # the least of the winner
+        self._most = self.nearness.copy()
+        self._surface = np.full(len(self.nearness), NOTHING, np.int64)
         grid = self.nearness.reshape(rows * COARSE, self.stride)
         grid[region.height :] = grid[:, region.width :] = np.inf  # no pixels, so never in the way
         self._fine = np.full((rows * COARSE // FINE, self.stride // FINE), -np.inf)
         self._coarse = np.full((rows, columns), -np.inf)
         self._stale = np.ones(rows, bool)  # whose cells are older than their pixels
+
+    @property
+    def winners(self) -> NDArray[np.int64]:
+        """The surface that wins each of the region's pixels, (n,); NOTHING where none is sure."""
+        r = self.region
+        return self._surface.reshape(-1, self.stride)[: r.height, : r.width].reshape(-1)
 
     def pixels(self, numbers: Index) -> Index:
         """Return the region's own numbers, in rows of its width, of pixels (n,)."""
@@ -82,19 +90,36 @@ class DepthBuffer:
         y, x = np.divmod(pixels, self.region.width)
         return y * self.stride + x
 
-    def enter(self, pixel: Index, nearness: NDArray[np.float64]) -> None:
-        """Enter that these pixels, which may occur more than once, see something as near or nearer.
+    def enter(
+        self, pixel: Index, surface: Index, least: NDArray[np.float64], most: NDArray[np.float64]
+    ) -> list[Fragments]:
+        """Enter surfaces that pixels, which may occur more than once, surely hit; returns rivals.
 
-        Of several writes to one place the last one stays: so those that are nearer come again, the
-        other way round, as many may be sorted. (`np.maximum.at` is slow before numpy 1.25.)
+        Of several writes to one place the last one stays: so those that find another there come
+        again, the other way round, as many may be sorted.
         """
-        while len(pixel):
-            nearer = np.flatnonzero(nearness > gather(self.nearness, pixel))[::-1]
-            pixel, nearness = gather(pixel, nearer), gather(nearness, nearer)
-            self.nearness[pixel] = nearness
+        rivals = []
+        while len(pixel) or not rivals:
+            before = gather(self.nearness, pixel)
+            nearer = least > before
+            if not nearer.all():
+                near = np.flatnonzero(~(nearer | (most < before)))
+                rivals.append(Fragments(*(gather(v, near) for v in (pixel, surface, most))))
+                nearer = np.flatnonzero(nearer)
+                pixel, surface, least, most = (
+                    gather(v, nearer) for v in (pixel, surface, least, most)
+                )
+            beaten = gather(self._most, pixel)
+            near = np.flatnonzero(~(beaten < least))
+            at = gather(pixel, near)
+            rivals.append(Fragments(at, gather(self._surface, at), gather(beaten, near)))
+            self.nearness[pixel], self._most[pixel], self._surface[pixel] = least, most, surface
             if len(pixel):
                 low, high = (int(v) // (COARSE * self.stride) for v in (pixel.min(), pixel.max()))
                 self._stale[low : high + 1] = True
+            again = np.flatnonzero(gather(self._surface, pixel) != surface)[::-1]
+            pixel, surface, least, most = (gather(v, again) for v in (pixel, surface, least, most))
+        return rivals
 
     def not_hidden(self, some: Fragments) -> Index:
         """Return which fragments are not surely behind something."""

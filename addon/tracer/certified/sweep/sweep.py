@@ -261,16 +261,15 @@ class Sweep:
     def _test(
         self, pixel: Index, surface: Index, least: NDArray, most: NDArray, sure: NDArray[np.bool_]
     ) -> Fragments:
-        """Enter the sure hits into the depth buffer; return what may be the nearest."""
+        """Enter the sure hits into the depth buffer; return their rivals, and what is not sure."""
         self._statistics.pairs_tested += len(pixel)
         sure = sure & self._clip.inside(least, most)
+        every = pixel, surface, least, most
+        if sure.all():
+            return Fragments.joined(self._depths.enter(*every))
         certain = np.flatnonzero(sure)
-        if len(certain) == len(sure):
-            self._depths.enter(pixel, least)
-            keep = ~(most < gather(self._depths.nearness, pixel))
-        else:
-            self._depths.enter(gather(pixel, certain), gather(least, certain))
-            keep = ~(most < gather(self._depths.nearness, pixel))
-            keep &= ~self._clip.outside(least, most)
-        keep = np.flatnonzero(keep)
-        return Fragments(*(gather(v, keep) for v in (pixel, surface, most, sure)))
+        rivals = self._depths.enter(*(gather(v, certain) for v in every))
+        open_ = ~(sure | (most < gather(self._depths.nearness, pixel)))
+        open_ = np.flatnonzero(open_ & ~self._clip.outside(least, most))
+        others = Fragments(*(gather(v, open_) for v in (pixel, surface, most)))
+        return Fragments.joined((*rivals, others))

@@ -1,7 +1,7 @@
 """What every pixel of a region sees, of all its fragments.
 
-In come the fragments that a sweep has found; out go `Hits`. A pixel with one fragment, which surely
-is hit, is decided. The rays of all others, and all that they may see, go to a `Contest`.
+In come the winners and their rivals that a sweep has found; out go `Hits`. A pixel whose winner has
+no rival is decided. The rays of all others, and all that they may see, go to a `Contest`.
 """
 
 from __future__ import annotations
@@ -53,33 +53,26 @@ class Verdict:
         instance, triangle = np.full((2, count), NOTHING, np.int32)
         certainty = np.full(count, Certainty.BOUND, np.uint8)
         yield "verdict"
-        # Of several fragments of a pixel, one is the last: the others see that they are not alone.
-        near, total = [], 0
-        last, surface = np.full(count, NOTHING, np.int32), np.empty(count, np.int64)
-        yield "verdict"
+        open_, pairs = np.zeros(count, bool), []
         # Each is let go of as soon as it is looked at.
         every = (fragments.pop(0) for _ in range(len(fragments)))
         for some in Fragments.together(every, _FRAGMENTS):
             some = some.take(self._depths.not_hidden(some))
             pixel = self._depths.pixels(some.pixel)
-            number = np.arange(total, total + len(pixel), dtype=np.int32)
-            last[pixel], surface[pixel] = number, some.surface
-            near.append((pixel, some.surface, some.sure, number))
-            total += len(pixel)
+            open_[pixel] = True
+            pairs.append((pixel, some.surface))
             yield "verdict"
-        open_ = np.zeros(count, bool)
-        for pixel, _, sure, number in near:
-            alone = gather(last, pixel) == number
-            open_[gather(pixel, np.flatnonzero(~(alone & sure)))] = True
-            yield "verdict"
+        winners = self._depths.winners
         for part in parts(count, PIXELS):
-            decided = part.start + np.flatnonzero((last[part] >= 0) & ~open_[part])
-            names = self._numbers.names_of(gather(surface, decided))
-            instance[decided], triangle[decided] = names
+            own, is_open = winners[part], open_[part]
+            decided = np.flatnonzero((own != NOTHING) & ~is_open)
+            names = self._numbers.names_of(gather(own, decided))
+            instance[part.start + decided], triangle[part.start + decided] = names
+            beside = np.flatnonzero((own != NOTHING) & is_open)
+            pairs.append((part.start + beside, gather(own, beside)))
             yield "verdict"
-        del last, surface
         out = LazyHits(instance, triangle, certainty)
-        yield from self._enter_open(out, open_, [near.pop(0)[:2] for _ in range(len(near))])
+        yield from self._enter_open(out, open_, pairs)
         given = self._scene, region, (instance, triangle), out.known
         out.measure = partial(measured, *given, dx=self._film.dx, dy=self._film.dy)
         return out
@@ -89,14 +82,12 @@ class Verdict:
     ) -> Steps[None]:
         """Enter the pixels that may see several surfaces, or none for sure: some at a time.
 
-        `pairs` are pixels and surfaces, of these pixels and of others; they are used up.
+        `pairs` are these pixels and their surfaces; they are used up.
         """
         every = np.flatnonzero(open_)
         self._statistics.culling["left"] += len(every)
         amount = np.zeros(len(open_), np.int32)
-        for k, (pixel, surface) in enumerate(pairs):
-            rest = np.flatnonzero(gather(open_, pixel))
-            pairs[k] = pixel, _ = gather(pixel, rest), gather(surface, rest)
+        for pixel, _ in pairs:
             np.add.at(amount, pixel, 1)
             yield "contest"
         ends = list(groups(amount[every] + _CANDIDATES // _RAYS, _CANDIDATES))

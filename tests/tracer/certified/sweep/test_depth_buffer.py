@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 from reference_tracer.scene import Region
 from reference_tracer.tracer.certified.sweep import depth_buffer
-from reference_tracer.tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
+from reference_tracer.tracer.certified.sweep.depth_buffer import (
+    COARSE,
+    FINE,
+    DepthBuffer,
+    Fragments,
+)
 
 REGIONS = [
     Region(*r)
@@ -25,6 +30,11 @@ def filled(region, rng) -> DepthBuffer:
     inside[:] = rng.normal(size=inside.shape)
     inside[rng.random(inside.shape) < 0.1] = -np.inf
     return depths
+
+
+def enter(depths, pixel, nearness) -> None:
+    """Enter what has just this nearness; a surface each."""
+    depths.enter(pixel, np.arange(len(pixel)), nearness, nearness)
 
 
 @every_region
@@ -64,17 +74,44 @@ def test_enter_is_a_maximum(rng, order, pixels):
     for _ in range(4):
         pixel = depths.places(rng.integers(0, pixels, 3000))
         nearness = ORDERS[order](rng, 3000)
-        depths.enter(pixel, nearness)
+        enter(depths, pixel, nearness)
         np.maximum.at(expected, pixel, nearness)
         assert np.array_equal(depths.nearness, expected)
-    depths.enter(pixel[:0], nearness[:0])
+    enter(depths, pixel[:0], nearness[:0])
     assert np.array_equal(depths.nearness, expected)
+
+
+@pytest.mark.parametrize("order", [o for o in ORDERS if o != "extreme"])
+@pytest.mark.parametrize("pixels", [1, 2, 40, 3000])
+@pytest.mark.parametrize("width", [0.0, 1e-3, 1.0])
+def test_winners_and_rivals_are_all_that_may_be_the_nearest(rng, order, pixels, width):
+    """As by definition: whose most is not less than the greatest least of its pixel."""
+    depths, every, rivals = DepthBuffer(Region(2, 3, 75, 70)), [], []
+    for first in range(0, 12_000, 3000):
+        pixel = depths.places(rng.integers(0, pixels, 3000))
+        least = ORDERS[order](rng, 3000)
+        most = least + width * rng.choice([0, 0.1, 1], 3000)
+        surface = np.arange(first, first + 3000)
+        every.append(np.stack((pixel, surface, most, least)))
+        rivals += depths.enter(pixel, surface, least, most)
+    pixel, surface, most, least = np.concatenate(every, axis=1)
+    pixel = pixel.astype(int)
+    expected = np.flatnonzero(most >= depths.nearness[pixel])
+    rivals = Fragments.joined(rivals)
+    rivals = rivals.take(depths.not_hidden(rivals))
+    winner = depths.winners[depths.pixels(pixel)]
+    assert (least[winner] == depths.nearness[pixel]).all()
+    assert set(winner.tolist()) | set(rivals.surface.tolist()) == set(expected.tolist())
+    assert np.array_equal(pixel[rivals.surface], rivals.pixel)
+    assert np.array_equal(most[rivals.surface], rivals.nearest)
+    assert not np.isin(rivals.surface, winner).any()  # so a winner without any is alone
+    assert len(rivals) > 0 or order not in ("equal", "few values")
 
 
 def test_what_is_not_a_number_is_not_entered(rng):
     depths = filled(Region(0, 0, 9, 9), rng)
     before = depths.nearness.copy()
-    depths.enter(np.arange(5), np.full(5, np.nan))
+    enter(depths, np.arange(5), np.full(5, np.nan))
     assert np.array_equal(depths.nearness, before)
 
 
@@ -105,7 +142,8 @@ def test_some_rows_are_refreshed_and_no_cell_is_too_near(region, rng):
     depths.refresh(0, region.height)
     for _ in range(5):
         count = region.width * region.height
-        depths.enter(depths.places(rng.integers(0, count, count)), rng.normal(size=count) + 2)
+        some = depths.places(rng.integers(0, count, count))
+        enter(depths, some, rng.normal(size=count) + 2)
         y0 = int(rng.integers(region.height))
         y1 = int(rng.integers(y0, region.height)) + 1
         depths.refresh(y0, y1)

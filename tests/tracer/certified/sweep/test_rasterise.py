@@ -10,6 +10,8 @@ from reference_tracer.tracer.certified.sweep.depth_buffer import FINE, DepthBuff
 from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
 from reference_tracer.tracer.certified.sweep.rasterise import LARGE_SHAPE, Boxes, rasterised, split
 
+from .test_depth_buffer import enter
+
 CASES = 40
 COUNT = 25  # triangles of each
 SIZES = (1, 3, 8, 9, 40, 200)  # pixels of boxes, at most
@@ -164,10 +166,10 @@ def test_cells_that_no_edge_lets_in_or_that_are_hidden_are_dropped():
     assert lows() == open_cells
     hidden = np.arange(64)[:, None] * depths.stride + np.arange(64, 128)
     hidden = hidden[hidden != (hole := 33 * depths.stride + 70)]
-    depths.enter(hidden, np.full(len(hidden), 1.0))  # nearer than the triangle
-    depths.enter(np.array([hole]), np.array([-1.0]))
+    enter(depths, hidden, np.full(len(hidden), 1.0))  # nearer than the triangle
+    enter(depths, np.array([hole]), np.array([-1.0]))
     depths.refresh(0, 128)
     assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64} | {(64, 32)}
-    depths.enter(np.array([hole]), np.array([1.0]))
+    enter(depths, np.array([hole]), np.array([1.0]))
     depths.refresh(0, 128)
     assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64}
