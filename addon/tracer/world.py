@@ -147,14 +147,14 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> NDArray[np.
 
 def refused(scene: Scene) -> int:
     """Return how many triangles have a corner that is not finite in world space."""
-    count = 0
-    for instance in scene.instances:
-        mesh = scene.meshes[instance.mesh]
-        m = instance.world_from_object
-        with np.errstate(over="ignore", invalid="ignore"):
-            largest = np.abs(mesh.bounds).max(axis=0)
-            if np.isfinite((np.abs(m[:3, :3]) * largest).sum(axis=1) + np.abs(m[:3, 3])).all():
-                continue
-            finite = np.isfinite(transform_points(m, mesh.vertices.T)).all(axis=0)
-        count += int((~finite[mesh.triangles]).any(axis=1).sum())
+    if not scene.instances:
+        return 0
+    reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
+    m, count = scene.instance_matrices, 0
+    with np.errstate(over="ignore", invalid="ignore"):
+        most = (np.abs(m[:3, :3]) * reach).sum(axis=1) + np.abs(m[:3, 3])
+        for k in np.flatnonzero(~np.isfinite(most).all(axis=0)).tolist():
+            mesh = scene.meshes[scene.instances[k].mesh]
+            finite = np.isfinite(transform_points(m[..., k], mesh.vertices.T)).all(axis=0)
+            count += int((~finite[mesh.triangles]).any(axis=1).sum())
     return count

@@ -82,6 +82,12 @@ class InstanceBoxes:
             np.where(clear, film.nearest(depth.min(axis=0), size), np.inf),
         )
 
+    @property
+    def area(self) -> NDArray[np.float64]:
+        """How many pixels the boxes have, (n,)."""
+        width, height = self.high - self.low.astype(np.float64) + 1
+        return width * height
+
     def in_region(self, region: Region) -> NDArray[np.bool_]:
         """Return which instances may be in view in a region, (n,)."""
         out = self.in_view.copy()

@@ -13,32 +13,40 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scene import Scene
-from ...vector import Index, Vectors, grouped, groups, transform_points
+from ....scene import Mesh, Scene
+from ...vector import Index, Vectors, gather, grouped, groups, transform_points
+from ...vector import parts as slices
 from .film import Film, Vertices
+from .small_triangles import SmallTriangles
 
 _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a core's cache
 
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
-    """Triangles first <= k < last of one instance, or all of several (`last` is None)."""
+    """Triangles first <= k < last of one instance, or all of several (`last` is None).
+
+    Where these are `dense`, only the triangles that may cover a pixel (`small_triangles.py`).
+    """
 
     instances: NDArray[np.int32]
     first: int = 0
     last: int | None = None
+    dense: bool = False
 
 
 @dataclass(frozen=True, eq=False)
 class Names:
     """How the scene calls a chunk's triangles.
 
-    Those `starts[i]` <= k < `starts[i + 1]` are `instances[i]`'s, from its triangle `first` on.
+    Those `starts[i]` <= k < `starts[i + 1]` are `instances[i]`'s, from its triangle `first` on;
+    or its triangles `own[k]`, where that is given.
     """
 
     instances: NDArray[np.int32]
     starts: NDArray[np.intp]
     first: int
+    own: NDArray[np.int32] | None = None
 
     @property
     def count(self) -> int:
@@ -50,6 +58,8 @@ class Names:
         which = np.zeros(len(triangle), np.intp)
         if len(self.instances) > 1:
             which = np.searchsorted(self.starts, triangle, side="right") - 1
+        if self.own is not None:
+            return self.instances[which], self.own[triangle]
         own = triangle - self.starts[which] + self.first
         return self.instances[which], own.astype(np.int32)
 
@@ -91,11 +101,15 @@ class Expanded:
 
 
 def chunks(
-    scene: Scene, in_view: NDArray[np.bool_], depth: NDArray[np.float64], limit: int
+    scene: Scene,
+    in_view: NDArray[np.bool_],
+    depth: NDArray[np.float64],
+    limit: int,
+    dense: NDArray[np.bool_],
 ) -> list[Chunk]:
     """Return the chunks of the instances in view, of at most `limit` triangles each.
 
-    `in_view` and `depth`, the least of each instance, are (n,).
+    `in_view`, `depth`, the least of each instance, and whether it is `dense`, are (n,).
     """
     counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
     order = np.flatnonzero(in_view & (counts > 0))
@@ -106,66 +120,88 @@ def chunks(
         count = int(counts[instance])
         for first in range(0, count, limit):
             out.append(Chunk(np.array([instance], np.int32), first, min(first + limit, count)))
-    rest = order[~large]
-    for start, end in groups(counts[rest], limit):
-        group = rest[start:end]
-        out.append(Chunk(group[np.argsort(scene.instance_meshes[group], kind="stable")]))
+    for is_dense in (False, True):
+        rest = order[~large & (dense[order] == is_dense)]
+        for start, end in groups(counts[rest], limit):
+            group = rest[start:end]
+            group = group[np.argsort(scene.instance_meshes[group], kind="stable")]
+            out.append(Chunk(group, dense=is_dense))
     nearest = [depth[chunk.instances].min() for chunk in out]
     return [out[k] for k in np.argsort(nearest, kind="stable")]
 
 
-def expand(scene: Scene, film: Film, chunk: Chunk) -> Expanded:
-    """Return a chunk's triangles, with their vertices on the film."""
-    if chunk.last is not None:
-        mesh = scene.meshes[scene.instances[chunk.instances[0]].mesh]
-        own, corners = _used(mesh.vertices, mesh.triangles[chunk.first : chunk.last])
-        parts = [(chunk.instances, own, corners)]
-    else:
-        of = scene.instance_meshes[chunk.instances]
-        parts = []
-        for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
-            mesh = scene.meshes[scene.instances[members[0]].mesh]
-            parts.append((members, mesh.vertices, mesh.triangles))
-    total = sum(len(members) * len(v) for members, v, _ in parts)
-    size = max(film.camera.width, film.camera.height)
-    vertices = Vertices.empty(total, np.int16 if size < 1 << 14 else np.int32)
-    corners = np.empty((3, sum(len(m) * len(t) for m, _, t in parts)), np.int32)
-    counts, at, triangle = [], 0, 0
-    with np.errstate(all="ignore"):  # what is not finite is dropped, or decided elsewhere
-        for members, own, triangles in parts:
-            matrices = scene.instance_matrices[..., members]
-            for first, world in _world(matrices, own):
-                film.enter(vertices, at + first, world)
-            copies = corners[:, triangle : triangle + len(members) * len(triangles)]
-            offsets = at + len(own) * np.arange(len(members), dtype=np.int32)
-            copies.reshape(3, len(members), len(triangles))[:] = (
-                triangles.T[:, None] + offsets[:, None]
-            )
-            counts += [len(triangles)] * len(members)
-            at, triangle = at + len(members) * len(own), triangle + copies.shape[1]
-    starts = np.concatenate(([0], np.cumsum(counts)))
-    return Expanded(vertices, corners, Names(chunk.instances, starts, chunk.first))
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Triangles of k instances of a mesh: `counts` (k,) of each.
 
-
-def _used(vertices: NDArray, triangles: Index) -> tuple[NDArray, Index]:
-    """Return those vertices that some triangles may use, and the triangles that count from them."""
-    low, high = int(triangles.min()), int(triangles.max())
-    if high - low < 3 * len(triangles):
-        return vertices[low : high + 1], triangles - low
-    used, number = np.unique(triangles, return_inverse=True)
-    return vertices[used], number.reshape(triangles.shape)
-
-
-def _world(matrices: NDArray[np.float64], vertices: NDArray) -> Iterator[tuple[int, Vectors]]:
-    """Yield the world positions of vertices (v, 3) in each of k instances, one after the other.
-
-    With the number of the first of them; some thousand at a time.
+    `corners` (3, m) count the vertices that are `used`, (v,): their numbers in the mesh, and that
+    of its vertices more for each instance before. `own` (m,): see `Names`.
     """
-    count, copies = len(vertices), matrices.shape[2]
-    together = max(1, _CHUNK // max(count, 1))
-    for copy in range(0, copies, together):
-        some = matrices[..., copy : copy + together, None]
-        for first in range(0, count, _CHUNK):
-            local = vertices[first : first + _CHUNK].T.astype(np.float64)
-            world = transform_points(some, local[:, None, :])
-            yield copy * count + first, world.reshape(3, -1)
+
+    instances: NDArray[np.int32]
+    mesh: Mesh
+    counts: Index
+    corners: Index
+    used: Index
+    own: Index | None = None
+
+    def world(self, scene: Scene) -> Iterator[tuple[int, Vectors]]:
+        """Yield the vertices' world positions, some thousand at a time, and the first's number."""
+        matrices, count = scene.instance_matrices[:3, :, self.instances], len(self.mesh.vertices)
+        for part in slices(len(self.used), _CHUNK):
+            own, vertex = matrices, self.used[part]
+            if len(self.instances) > 1:
+                copy = vertex // count
+                own, vertex = gather(matrices, copy), vertex - copy * count
+            yield part.start, transform_points(own, self.mesh.vertices.take(vertex, axis=0).T)
+
+
+def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Expanded:
+    """Return a chunk's triangles, with their vertices on the film."""
+    parts = list(_parts(scene, chunk, small))
+    size = max(film.camera.width, film.camera.height)
+    vertices = Vertices.empty(
+        sum(len(part.used) for part in parts), np.int16 if size < 1 << 14 else np.int32
+    )
+    at = 0
+    with np.errstate(all="ignore"):  # what is not finite is dropped, or decided elsewhere
+        for part in parts:
+            for first, world in part.world(scene):
+                film.enter(vertices, at + first, world)
+            part.corners[:] += at
+            at += len(part.used)
+    starts = np.concatenate(([0], np.cumsum(np.concatenate([part.counts for part in parts]))))
+    own = np.concatenate([part.own for part in parts]) if chunk.dense else None
+    corners = [part.corners for part in parts]
+    return Expanded(
+        vertices,
+        corners[0] if len(parts) == 1 else np.hstack(corners),
+        Names(chunk.instances, starts, chunk.first, own),
+    )
+
+
+def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part]:
+    """Yield a chunk's triangles, mesh by mesh."""
+    of = scene.instance_meshes[chunk.instances]
+    for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
+        mesh = scene.meshes[scene.instances[members[0]].mesh]
+        if chunk.dense:
+            yield _Part(members, mesh, *small.within(mesh, members))
+            continue
+        corners = mesh.triangles[chunk.first : chunk.last].T
+        used = np.arange(len(members) * len(mesh.vertices))
+        if chunk.last is not None:
+            used, corners = _used(corners)
+        counts = np.full(len(members), corners.shape[1])
+        starts = len(mesh.vertices) * np.arange(len(members), dtype=np.int32)
+        corners = (corners[:, None] + starts[:, None]).reshape(3, -1)
+        yield _Part(members, mesh, counts, corners, used)
+
+
+def _used(corners: Index) -> tuple[Index, Index]:
+    """Return which vertices some triangles may use, and the triangles' corners among them."""
+    low, high = int(corners.min()), int(corners.max())
+    if high - low < corners.size:
+        return np.arange(low, high + 1), corners - low
+    used, number = np.unique(corners, return_inverse=True)
+    return used, number.reshape(corners.shape).astype(np.int32)

@@ -25,6 +25,7 @@ from .depth_buffer import FINE, ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
 from .rasterise import LARGE_SHAPE, Boxes, Rasterised, rasterised, split
+from .small_triangles import SmallTriangles
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 15  # looked at together
@@ -100,7 +101,9 @@ class Sweep:
         if self._scene.instances:
             around = InstanceBoxes.of(self._scene, self._film)
             in_view = around.in_region(self._depths.region)
-            parts = chunks(self._scene, in_view, around.depth, limit)
+            region = self._depths.region
+            self._small = SmallTriangles(self._scene, self._film, region, around.area)
+            parts = chunks(self._scene, in_view, around.depth, limit, self._small.is_dense)
         for number, chunk in enumerate(parts):
             if self._fragments:
                 chunk = self._not_behind(chunk, around)
@@ -160,7 +163,7 @@ class Sweep:
         if not len(chunk.instances):
             return
         region = self._depths.region
-        expanded = expand(self._scene, self._film, chunk)
+        expanded = expand(self._scene, self._film, chunk, self._small)
         start = self._numbers.enter(expanded.names)
         yield "project"
         low, high, nearest = self.boxes(expanded)

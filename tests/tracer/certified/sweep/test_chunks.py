@@ -13,6 +13,7 @@ from reference_tracer.tracer.certified.sweep import chunks as module
 from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
 from reference_tracer.tracer.certified.sweep.chunks import Chunk, chunks, expand
 from reference_tracer.tracer.certified.sweep.film import Film
+from reference_tracer.tracer.certified.sweep.small_triangles import SmallTriangles
 from reference_tracer.tracer.world import Batch, refused, world_triangles
 
 from ...exact_film import ExactFilm
@@ -28,14 +29,21 @@ def all_chunks(scene: Scene, film: Film, limit: int) -> list[Chunk]:
     if not scene.instances:
         return []
     around = InstanceBoxes.of(scene, film)
-    return chunks(scene, around.in_region(film.camera.region), around.depth, limit)
+    in_view = around.in_region(film.camera.region)
+    return chunks(scene, in_view, around.depth, limit, small_of(scene, film).is_dense)
+
+
+def small_of(scene: Scene, film: Film) -> SmallTriangles:
+    """Here no instance is dense, so that every triangle is expanded."""
+    with np.errstate(all="ignore"):
+        return SmallTriangles(scene, film, film.camera.region, np.inf)
 
 
 def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     """Return the names of all chunks' triangles, in their order."""
     names = []
     for chunk in all_chunks(scene, film, limit):
-        expanded = expand(scene, film, chunk)
+        expanded = expand(scene, film, chunk, small_of(scene, film))
         count = expanded.corners.shape[1]
         assert count == expanded.names.count <= limit
         names += zip(*(v.tolist() for v in expanded.names.of(np.arange(count))), strict=True)
@@ -71,7 +79,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
         film = Film(scene.camera, *offsets(rng))
         for limit in LIMITS:
             for chunk in all_chunks(scene, film, limit):
-                expanded = expand(scene, film, chunk)
+                expanded = expand(scene, film, chunk, small_of(scene, film))
                 instance, triangle = expanded.names.of(np.arange(expanded.names.count))
                 for i in np.unique(instance).tolist():
                     own = np.flatnonzero(instance == i)
@@ -161,7 +169,7 @@ def test_a_part_of_a_mesh_takes_its_own_vertices(make, rng, spread):
     film = Film(scene.camera)
     at = project(film, vertices.T)
     for chunk in all_chunks(scene, film, 40):
-        expanded = expand(scene, film, chunk)
+        expanded = expand(scene, film, chunk, small_of(scene, film))
         own = triangles[chunk.first : chunk.last].T
         assert np.array_equal(expanded.vertices.p[expanded.corners], at.p[own])
         assert np.array_equal(expanded.vertices.w[expanded.corners], at.w[own])
