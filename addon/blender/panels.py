@@ -29,10 +29,9 @@ _NOT_OURS = {
     "RENDER_PT_freestyle",
     "RENDER_PT_stamp",
     "VIEWLAYER_PT_filter",
-    "VIEWLAYER_PT_layer_passes",
 }
-# Those of Workbench that say which colours are shown.
-_WORKBENCHS = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film"}
+# Those of other engines that say which colours and passes are shown.
+_OURS_TOO = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film", "VIEWLAYER_PT_layer_passes"}
 
 
 class Properties:
@@ -211,18 +210,10 @@ class OBJECT_PT_reference_tracer(bpy.types.Panel):
         self.layout.prop(context.object.reference_tracer, "infinite_plane")
 
 
-class VIEWLAYER_PT_reference_tracer(bpy.types.Panel):
-    bl_label = "Passes"
-    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "view_layer"
-
-    @classmethod
-    def poll(cls, context: Any) -> bool:
-        """Show for this engine."""
-        return context.engine == ENGINE
-
-    def draw(self, context: Any) -> None:
-        """Draw what is rendered beside the picture."""
-        self.layout.column().prop(context.view_layer.reference_tracer, "passes")
+def _draw_passes(panel: Any, context: Any) -> None:
+    """Draw, in Blender's own panel, what is rendered beside the picture."""
+    if context.engine == ENGINE:
+        panel.layout.column().prop(context.view_layer.reference_tracer, "passes")
 
 
 CLASSES = (
@@ -230,7 +221,6 @@ CLASSES = (
     *both(_Result, "_result"),
     *both(_Export, "_export"),
     OBJECT_PT_reference_tracer,
-    VIEWLAYER_PT_reference_tracer,
 )
 _register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
@@ -240,12 +230,14 @@ def register() -> None:
     _register()
     for panel in bpy.types.Panel.__subclasses__():
         name, shown_for = panel.__name__, getattr(panel, "COMPAT_ENGINES", ())
-        if name in _WORKBENCHS or ("BLENDER_RENDER" in shown_for and name not in _NOT_OURS):
+        if name in _OURS_TOO or ("BLENDER_RENDER" in shown_for and name not in _NOT_OURS):
             panel.COMPAT_ENGINES.add(ENGINE)
+    bpy.types.VIEWLAYER_PT_layer_passes.append(_draw_passes)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     for panel in bpy.types.Panel.__subclasses__():
         getattr(panel, "COMPAT_ENGINES", set()).discard(ENGINE)
+    bpy.types.VIEWLAYER_PT_layer_passes.remove(_draw_passes)
     _unregister()

@@ -118,6 +118,11 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         return Method(self.method).is_plain
 
 
+def _tell_the_compositor(layer: ReferenceTracerLayer, _: object) -> None:
+    for each in layer.id_data.view_layers:
+        each.update_render_passes()
+
+
 class ReferenceTracerLayer(bpy.types.PropertyGroup):
     """What is rendered of a view layer."""
 
@@ -126,7 +131,7 @@ class ReferenceTracerLayer(bpy.types.PropertyGroup):
         items=PASS_ITEMS,
         options={"ENUM_FLAG"},
         default={label for label, *_ in PASS_ITEMS},
-        update=lambda self, _: [v.update_render_passes() for v in self.id_data.view_layers],
+        update=_tell_the_compositor,
         description="What the compositor and files get beside the picture; fewer take less time",
     )
 

@@ -173,7 +173,7 @@ def test_the_passes_are_declared_to_the_compositor(solids, build):
 
 
 def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(
-    solids, build, rendered, monkeypatch
+    solids, build, rendered, monkeypatch, capfd
 ):
     """Each layer chooses for itself; a file that stores no choice has them all."""
     frame = rendered()["ViewLayer"]
@@ -182,6 +182,7 @@ def test_what_a_layer_has_not_chosen_is_neither_computed_nor_declared(
     chosen.reference_tracer.passes = {"Depth", "Certainty"}
     shown = {output.name for output in node.outputs if output.enabled}
     assert shown - {"Image", "Alpha"} == {"Depth", "Certainty"}
+    assert "Error" not in capfd.readouterr().err  # Blender prints what an update raises
     layers = rendered()
     assert set(layers["Other"]) == LABELS and set(layers) == {"ViewLayer", "Other"}
     assert set(layers["ViewLayer"]) == {"Combined", "Depth", "Certainty"}
