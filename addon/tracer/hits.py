@@ -75,7 +75,7 @@ class Ties(Mapping[int, frozenset[Name]]):
     @cache
     def none(cls) -> Ties:
         """Return no ties."""
-        return cls.of(*np.zeros((3, 0), np.int64))
+        return cls(*np.zeros((2, 0), np.int64), *np.zeros((3, 0), np.int32))
 
     @classmethod
     def of(cls, ray: NDArray, instance: NDArray, triangle: NDArray) -> Ties:
