@@ -51,6 +51,7 @@ class Comparison:
     pixels: dict[str, Any]  # see count_pixels
     metrics: dict[str, Any]  # see image_metrics
     methods: tuple[MethodRow, ...] = ()
+    textbook: Frame | None = None  # what the textbook makes of the scene, in float64
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # known faults, and whether they were found
     background: Background | None = None  # where the picture has one that the scene has not
@@ -245,9 +246,10 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     checking = _CHECKING if case.self_check else 0.0
     first, second = ((1 - checking) * share for share in (_TRACING, _METHODS))
     yield from scaled(tracing, 0.0, first)
-    rows = yield from scaled(list_methods(case.scene, case.settings, frame), first, second)
+    listing = list_methods(case.scene, case.settings, frame)
+    rows, textbook = yield from scaled(listing, first, second)
     found = yield from scaled(compare(case, frame), first + second, 1 - first - second)
-    return replace(found, methods=rows)
+    return replace(found, methods=rows, textbook=textbook)
 
 
 def compare(case: Case, frame: Frame) -> Work[Comparison]:

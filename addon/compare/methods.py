@@ -37,11 +37,13 @@ class MethodRow:
         return f"  {self.method} {self.precision}: {self.seconds:.2f} s{found}{open_}"
 
 
-def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[MethodRow, ...]]:
+def list_methods(
+    scene: Scene, settings: Settings, frame: Frame
+) -> Work[tuple[tuple[MethodRow, ...], Frame]]:
     """Trace a scene by the textbook and certified, too; yields the share of the work done.
 
     Returns a row of the certified tracer where that is possible, of the textbook in float64, and of
-    `frame`, which was traced with `settings`, if it is neither.
+    `frame`, which was traced with `settings`, if it is neither; and the textbook's frame.
     """
     own = Method(frame.statistics.method), settings.precision
     possible = [Method.TEXTBOOK] if broken_assumptions() else [Method.CERTIFIED, Method.TEXTBOOK]
@@ -53,10 +55,11 @@ def list_methods(scene: Scene, settings: Settings, frame: Frame) -> Work[tuple[M
         tracing = steps(scene, Settings(*key), frames[key])
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
     truth = frames[wanted[0]] if Method.CERTIFIED in possible else None
-    return tuple(
+    rows = tuple(
         _row(*key, settings.samples if key == own else 1, traced, truth)
         for key, traced in frames.items()
     )
+    return rows, frames[wanted[-1]]
 
 
 def _row(

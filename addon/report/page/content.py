@@ -16,7 +16,6 @@ from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import MissingLibraryError, data_uri, to_display
 from ...tracer.certified.certainty import Certainty
-from ...tracer.frame import Frame
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report
@@ -96,7 +95,7 @@ def _hex(linear: Sequence[float]) -> str:
     return f"#{r:02x}{g:02x}{b:02x}"
 
 
-def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, str]]:
+def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[str, str]]:
     s, source = comparison.frame.statistics, comparison.case.picture.source
     found = [
         ("traced", "Traced", f"by {_words(s.method).lower()}", comparison.frame.color),
@@ -105,7 +104,7 @@ def _pictures(comparison: Comparison, literal: Frame | None) -> list[dict[str, s
         else ("blender", "Blender", _words(source.name).lower(), comparison.picture),
     ]
     if literal is not None:
-        found.append(("literal", "Literal textbook", "s₁ + s₂ + s₃ = 1 as printed", literal.color))
+        found.append(("literal", "Literal textbook", "s₁ + s₂ + s₃ = 1 as printed", literal))
     return [
         {"id": i, "label": label, "note": note, "png": data_uri(to_display(color))}
         for i, label, note, color in found

@@ -7,14 +7,21 @@ asked for. What would take too long is left out, and a sentence says so.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ...compare.checks.probe import BLOCK, Probe, parts_of
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
 from ...methods import Method
 from ...study import extremes, tradeoff
 from ...study.trade import Trade
+from ...tracer import shading
 from ...tracer.frame import Frame
+from ...tracer.hits import NOTHING
+from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Precision, Settings
@@ -32,7 +39,7 @@ class Extras:
 
     trade: Trade | None = None
     extremes: Sequence[extremes.ExtremesRow] | None = None
-    literal: Frame | None = None  # the same scene by the textbook's test taken literally
+    literal: NDArray[np.float32] | None = None  # (h, w, 4) by the textbook's test as printed
     derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)  # by pixel (x, y)
     left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why
 
@@ -62,8 +69,8 @@ def extras(
     return Extras(trade, rows, literal, derivations, tuple(left_out))
 
 
-def _literal(comparison: Comparison, left_out: list[str]) -> Work[Frame | None]:
-    """Trace the scene by the textbook taken literally, unless that takes long."""
+def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.float32] | None]:
+    """Return the colours that the textbook taken literally sees, unless that takes long."""
     row = next((r for r in comparison.methods if r.method == Method.TEXTBOOK.value), None)
     if row and row.seconds > LITERAL_SECONDS:
         left_out.append(
@@ -71,10 +78,23 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[Frame | None]:
             f"it would take as long again (more than {LITERAL_SECONDS:.0f} s)."
         )
         return None
-    frame = Frame.empty(comparison.scene)
+    scene, textbook = comparison.scene, comparison.textbook
     settings = Settings(Method.TEXTBOOK_LITERAL, Precision.FLOAT64)
-    yield from steps(comparison.scene, settings, frame)
-    return frame
+    if textbook is None:
+        textbook = Frame.empty(scene)
+        yield from steps(scene, replace(settings, method=Method.TEXTBOOK), textbook)
+    # What it sees is a part of what the textbook sees: only where that is lost, it sees another.
+    s1, s2, s3 = np.moveaxis(textbook.barycentrics, -1, 0)
+    lost = (s1 + s2 + s3 != 1) & (textbook.triangle_index != NOTHING)
+    color = shading.colors(scene, textbook.hits()).reshape(*lost.shape, 4)
+    made = yield from plan(scene, settings, 0.0)
+    parts = parts_of(scene, lost, BLOCK)
+    for number, (tile, rows, wanted) in enumerate(parts):
+        done, share = number / len(parts), 1 / len(parts)
+        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, share)
+        hits = yield from scaled(probe.trace(), done + share, 0.0)
+        color[rows][wanted] = shading.colors(scene, hits)
+    return color
 
 
 def _derivations(
