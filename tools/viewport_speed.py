@@ -17,6 +17,7 @@ import json
 import statistics
 import sys
 import time
+import traceback
 from pathlib import Path
 
 import bpy
@@ -28,7 +29,7 @@ sys.path.insert(0, str(PROJECT))
 registration = importlib.import_module("addon.blender.registration")
 LiveView = importlib.import_module("addon.blender.live.view").LiveView
 
-MOVES = 10
+MOVES = 5
 FILES = {"suzanne": str(PROJECT / "sample_scenes" / "suzanne.blend"), "million": ""}
 calls = []  # (name, begun, seconds, those of the main thread, whether coarse, whole is drawn)
 
@@ -87,6 +88,7 @@ def in_scene(scene):
     found["solid"] = statistics.median(solid)
     begun = time.perf_counter()
     space.shading.type = "RENDERED"
+    print(scene, found, flush=True)
     found["first"] = yield from waited(begun)
     moves = []
     for number in range(MOVES):
@@ -130,7 +132,9 @@ def go():
     try:
         return next(going)
     except StopIteration:
-        print(json.dumps(results), flush=True)
+        print(json.dumps(results, indent=1), flush=True)
+    except Exception:
+        traceback.print_exc()
     bpy.ops.wm.quit_blender()
 
 
