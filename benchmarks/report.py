@@ -20,7 +20,8 @@ SCHEMA = "reference_tracer.bench/1"
 TABLE, JSON, PLOT = "bench.txt", "bench.json", "bench.png"
 
 _UNITS = {
-    "_s": "seconds, the median of the rounds, for a whole picture",
+    "_s": "CPU seconds, the median of the rounds, for a whole picture",
+    "cycles_s, workbench_s": "the same, in seconds that a user waits",
     "_rays": "rays that were traced; fewer than the picture has: its seconds are extrapolated",
     "_bytes": "bytes at the peak, beside the scene and the libraries",
     "_least, _most": "of the ratios of two times of one round",
