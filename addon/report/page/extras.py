@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...compare.checks.probe import BLOCK, Probe, parts_of
+from ...compare.checks.probe import BLOCK, Probe, blocks, parts_of
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
 from ...methods import Method
@@ -86,7 +86,10 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.flo
     # What it sees is a part of what the textbook sees: only where that is lost, it sees another.
     s1, s2, s3 = np.moveaxis(textbook.barycentrics, -1, 0)
     lost = (s1 + s2 + s3 != 1) & (textbook.triangle_index != NOTHING)
-    color = shading.colors(scene, textbook.hits()).reshape(*lost.shape, 4)
+    color = np.empty((*lost.shape, 4), np.float32)
+    for rows in blocks(lost.shape):
+        color[rows] = shading.colors(scene, textbook.hits(rows)).reshape(-1, *color.shape[1:])
+        yield 0.0
     made = yield from plan(scene, settings, 0.0)
     parts = parts_of(scene, lost, BLOCK)
     for number, (tile, rows, wanted) in enumerate(parts):

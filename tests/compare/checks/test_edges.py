@@ -12,8 +12,13 @@ import pytest
 import trimesh
 from reference_tracer.compare.bounds import SNAPPING
 from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.checks import clip, edges
 from reference_tracer.compare.checks import probe as probing
+from reference_tracer.compare.checks.probe import may_be_seen
+from reference_tracer.compare.picture import Picture
 from reference_tracer.scene import Mesh
+from reference_tracer.tracer.hits import NOTHING
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -155,6 +160,35 @@ def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
     for other in results[1:]:
         for name in ("cause", "figure", "allowed"):
             assert np.array_equal(getattr(other, name), getattr(results[0], name), equal_nan=True)
+
+
+@pytest.mark.parametrize("check", [edges, clip])
+def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, shifted, rng, check):
+    """Nobody's colours, and other owners or none that are known: the causes stay the same."""
+    frame = render(stripes)
+    moved = render(replace(stripes, camera=shifted(stripes.camera, 1 / 300, -1 / 300)))
+    color = moved.color.copy()
+    color[rng.random(color.shape[:2]) < 0.3] = (0.3, 0.9, 0.1, 1)
+    color[::3] = np.roll(color[::3], 1, axis=1)
+    owners = np.append(np.arange(len(stripes.instances)), NOTHING).astype(np.int32)
+    owner = owners[moved.instance_index]
+    owner[:, ::4] = len(owners)
+    asked = []
+
+    def counted(pixels, plan):
+        asked.append((pixels.open.sum(), (yield from may_be_seen(pixels, plan)).sum()))
+        return np.ones_like(pixels.open)
+
+    for known in ({}, {"owner": owner, "owners": owners, "names": ("a", "b", "c")}):
+        picture, found = Picture(color, **known), []
+        for asks in (may_be_seen, counted):
+            monkeypatch.setattr(check, "may_be_seen", asks)
+            found.append(result_of(find_causes(stripes, frame, picture)))
+        for name in ("cause", "figure", "allowed"):
+            first, second = (getattr(causes, name) for causes in found)
+            assert np.array_equal(first, second, equal_nan=True)
+        assert (found[0].cause == Cause.EDGE).sum() > 10
+    assert all(0 < few < 0.9 * many for many, few in asked), asked
 
 
 @pytest.mark.parametrize(
