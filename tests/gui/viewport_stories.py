@@ -373,11 +373,13 @@ def beside(seen, solid, region):
     steps = [own[y + j, x + i] for j, i in np.ndindex(3, 3)]
     nearest = np.abs(np.array(steps) - solid[y, x]).max(axis=-1).min(axis=0)
     shades = seen @ (1 << 16, 1 << 8, 1)
+    # Of the background there are two shades, one by passepartout, each dithered.
+    _, counts = np.unique((seen[~inside] // 8) @ (1 << 10, 1 << 5, 1), return_counts=True)
     return {
         "colors": len(np.unique(shades[inside])),
         "differ": len(y),
         "strange": int((nearest > 1).sum()),
-        "outside": len(np.unique(shades[~inside])),
+        "outside": float(np.sort(counts)[-4:].sum() / max(1, counts.sum())),
     }
 
 

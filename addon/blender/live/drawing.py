@@ -55,6 +55,11 @@ class Textures:
         self._missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
         self._bands: list[tuple[int, Any]] = []  # the first row of each
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether nothing is missing."""
+        return not self._missing
+
     def upload(self, until: float) -> bool:
         """Make textures of rows that are done, one at least; True if some are left.
 
@@ -68,14 +73,12 @@ class Textures:
         for number, rows in enumerate(done, start=1):
             data = self._picture.color[rows]
             buffer = gpu.types.Buffer("FLOAT", (data.size,), data.reshape(-1))
-            size = data.shape[1], data.shape[0]
-            self._bands.append(
-                (rows.start, gpu.types.GPUTexture(size, format="RGBA32F", data=buffer))
-            )
+            texture = gpu.types.GPUTexture(data.shape[1::-1], format="RGBA32F", data=buffer)
+            self._bands.append((rows.start, texture))
             self._missing.remove(rows)
             if time.perf_counter() > until:
                 return number < len(done)
-        if not self._missing:
+        if self.is_whole:
             self._picture = None  # its memory is free
         return False
 
@@ -87,12 +90,8 @@ class Textures:
         from gpu_extras.batch import batch_for_shader
 
         for row, texture in self._bands:
-            corners = (
-                (0, 0),
-                (texture.width, 0),
-                (0, texture.height),
-                (texture.width, texture.height),
-            )
+            w, h = texture.width, texture.height
+            corners = (0, 0), (w, 0), (0, h), (w, h)
             pos = [(x + i * width, y + (row + j) * height) for i, j in corners]
             batch = batch_for_shader(shader, "TRI_STRIP", {"pos": pos, "at": corners})
             shader.uniform_sampler("image", texture)

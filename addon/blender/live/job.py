@@ -40,6 +40,8 @@ class Job:
         self._work: Iterator[float] | None = wanted.show.steps(scene, wanted.settings, self.picture)
         self.seconds = 0.0
         self._textures: Textures | None = None
+        self._before: Textures | None = None  # of an older picture, until the newer's are whole
+        self.below: Job | None = None
         self._rows = 0
 
     @property
@@ -65,8 +67,18 @@ class Job:
         Of a region of another size it is stretched.
         """
         if not self._textures or self._textures.color is not self.picture.color:
-            self._textures = Textures(self.picture)
+            self._before, self._textures = self._textures, Textures(self.picture)
         is_left = self._textures.upload(until)
+        if self._textures.is_whole:
+            self.below = self._before = None
+        if self.below:
+            self.below.draw(shader, width, height, until)
         x, y = self.factor * width / self._size[0], self.factor * height / self._size[1]
-        self._textures.draw(shader, self._corner[0] * x, self._corner[1] * y, x, y)
+        for textures in filter(None, (self._before, self._textures)):
+            textures.draw(shader, self._corner[0] * x, self._corner[1] * y, x, y)
         return is_left
+
+    def replace(self, other: Job | None) -> None:
+        """Take another's place, which is drawn below until all of this one can be."""
+        is_drawn = other and other._textures and other._textures.is_whole
+        self.below = other if is_drawn else other and other.below

@@ -44,12 +44,12 @@ class LiveView:
         self._unread = self.said = ""  # why there is no scene; why what is wanted is not shown
         self._timer: Any = None
         self._shader: Any = None
-        self._drawn = 0.0  # when
+        self._drawn, self._is_drawn = 0.0, False  # when; whether all that is known
 
     @property
     def rests(self) -> bool:
         """Whether nothing is left to do: the whole picture is there, or why it cannot be."""
-        return not self._job and bool(self.shown or self.said)
+        return not self._job and self._is_drawn and bool(self.shown or self.said)
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
@@ -118,13 +118,14 @@ class LiveView:
             if job.factor > 1:  # the time falls with the pixels: from one to the other a quarter
                 share = job.seconds / SLOW * (job.factor / COARSE) ** 2
                 self._factor = COARSER if share > 1 else COARSE
-            self.shown, self._job = job, None
+            job.replace(self.shown)
+            self.shown, self._job, self._is_drawn = job, None, False
             self._give_up(_said(self._begin))
 
     def _give_up(self, error: str) -> None:
         """Show nothing but what went wrong, if something did."""
         if error:
-            self.said, self.shown, self._job = error, None, None
+            self.said, self.shown, self._job, self._is_drawn = error, None, None, False
 
     def _draw(self, engine: Any, context: Any, until: float) -> None:
         import gpu
@@ -134,7 +135,8 @@ class LiveView:
         self._shader = self._shader or pixel_shader()
         jobs = [job for job in (self.shown, self._job) if job]
         left = [job.draw(self._shader, region.width, region.height, until) for job in jobs]
-        if any(left):
+        self._is_drawn = not any(left)
+        if not self._is_drawn:
             engine.tag_redraw()
         if self.said:
             draw_words(self.said, region, context.preferences.system.ui_scale)
