@@ -43,6 +43,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     bl_label = "Reference Tracer"
     bl_use_preview = False
     bl_use_postprocess = True
+    bl_use_eevee_viewport = True  # else there is no mode Material Preview
 
     def update_render_passes(self, scene: Any, renderlayer: Any) -> None:
         """Declare the passes to the compositor."""

@@ -106,8 +106,11 @@ def draw_words(text: str, region: Any, scale: float) -> None:
     lines = textwrap.wrap(text, max(16, int(0.7 * region.width / (size * _LETTER))))
     blf.size(0, size)
     blf.color(0, 1, 1, 1, 1)
+    blf.enable(0, blf.SHADOW)
+    blf.shadow(0, 6, 0, 0, 0, 1)  # an outline: the background may be white, too
     for number, line in enumerate(lines):
         width, _ = blf.dimensions(0, line)
         y = region.height / 2 + (len(lines) / 2 - number) * 1.5 * size
         blf.position(0, (region.width - width) / 2, y, 0)
         blf.draw(0, line)
+    blf.disable(0, blf.SHADOW)

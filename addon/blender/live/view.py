@@ -25,7 +25,7 @@ from .kept import KeptScene
 
 AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
 COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels
-SLOW = 0.022  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
+SLOW = 0.025  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
 LINES = 2  # of what the picture lacks, in the view's corner
 SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
@@ -77,11 +77,11 @@ class LiveView:
 
     def tick(self, engine: Any) -> float | None:
         """Work for a while; returns when to go on, in seconds, None for not."""
-        shown, until = self.shown, time.perf_counter() + AT_ONCE
+        until = time.perf_counter() + AT_ONCE
         while self._job and time.perf_counter() < until:
             self._step()
         due = self._job and until > self._drawn + SHOW_EVERY
-        if self.shown is not shown or (due and self._job.has_grown()):
+        if not self._is_drawn or (due and self._job.has_grown()):
             engine.tag_redraw()
         return 0.0 if self._job else None
 
