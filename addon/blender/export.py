@@ -8,7 +8,7 @@ counted, and left out. Nothing of bpy is held in what is returned.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import bpy
 import numpy as np
@@ -63,7 +63,7 @@ def assemble(
     objects: dict[str, int] = {}
     instances: list[tuple[Instance, Shown]] = []
     planes: list[tuple[Plane, Shown]] = []
-    all_finite = np.isfinite(_matrices(shown)).all(axis=(1, 2))
+    all_finite = np.isfinite([s.matrix for s in shown]).reshape(-1, 16).all(axis=1)
     for item, out, finite in zip(shown, unseen, all_finite, strict=True):
         name, _, key, matrix, colors, _ = item
         entry = seen[name]
@@ -99,20 +99,13 @@ def assemble(
     return parts, [item for _, item in (*instances, *planes)]
 
 
-class _Met(NamedTuple):
-    """A mesh as it was first met, before it is known whether it is outside the view."""
-
-    name: str
-    vertices: NDArray[np.float32]
+# A mesh as it was first met, before it is known whether it is outside the view: name, vertices.
+_Met = tuple[str, NDArray[np.float32]]
 
 
 def _meet(obj: Any, name: str) -> _Met | None:
     with plain_mesh(obj) as mesh:
-        return _Met(name, read_vertices(mesh)) if len(mesh.polygons) else None
-
-
-def _matrices(shown: list[Shown]) -> NDArray[np.float64]:
-    return np.array([s.matrix for s in shown]).reshape(-1, 4, 4)
+        return (name, read_vertices(mesh)) if len(mesh.polygons) else None
 
 
 def _outside(camera: Camera, shown: list[Shown], met: dict[int, _Met | None]) -> NDArray[np.bool_]:
@@ -120,13 +113,13 @@ def _outside(camera: Camera, shown: list[Shown], met: dict[int, _Met | None]) ->
     boxes = {}
     for key, mesh in met.items():
         if mesh:
-            across = mesh.vertices.T.copy()  # one behind the other they are looked at much faster
+            across = mesh[1].T.copy()  # one behind the other they are looked at much faster
             boxes[key] = across.min(axis=1), across.max(axis=1)
     on_mesh = [n for n, s in enumerate(shown) if s.key is not None]
     out = np.zeros(len(shown), bool)
     if on_mesh:
         low, high = np.swapaxes([boxes[shown[n].key] for n in on_mesh], 0, 1)
-        out[on_mesh] = outside(camera, low, high, _matrices(shown)[on_mesh])
+        out[on_mesh] = outside(camera, low, high, np.array([shown[n].matrix for n in on_mesh]))
     return out
 
 
@@ -145,7 +138,7 @@ def _read(
         if key in wanted:
             wanted.remove(key)
             with plain_mesh(item.object) as mesh:
-                meshes[key] = export_mesh(mesh, met[key].vertices, met[key].name, with_colors)
+                meshes[key] = export_mesh(mesh, *met[key], with_colors)
             if not wanted:
                 break
     return meshes

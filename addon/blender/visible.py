@@ -58,9 +58,9 @@ class Shown(NamedTuple):
     is_instance: bool
 
 
-_CORNERS = 12  # bytes: three int32
-
 Met = TypeVar("Met")  # what is kept of a mesh
+
+_CORNERS = 12  # bytes: three int32
 
 
 def visible(
@@ -153,9 +153,8 @@ def _in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
     if holder.type not in unshown:
         return holder.visible_in_viewport_get(space)
     owner = holder.original
-    return owner.visible_get(view_layer=layer) and not (
-        space.local_view and not owner.local_view_get(space)
-    )
+    is_local = not space.local_view or owner.local_view_get(space)
+    return is_local and owner.visible_get(view_layer=layer)
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
@@ -191,7 +190,7 @@ def read_vertices(mesh: Any) -> NDArray[np.float32]:
 
 
 def export_mesh(
-    mesh: Any, vertices: NDArray[np.float32], name: str, with_colors: bool
+    mesh: Any, name: str, vertices: NDArray[np.float32], with_colors: bool
 ) -> tuple[Mesh, int]:
     """Return the loop triangles of an evaluated mesh with faces, and how many were left out.
 
@@ -219,8 +218,9 @@ def _loops(triangles: Any) -> NDArray[np.int32]:
     the other there, and as they should, they are copied at once.
     """
     n = len(triangles)
-    first, some = triangles[0].as_pointer(), (0, n // 2, n - 1)
-    if all(triangles[i].as_pointer() == first + _CORNERS * i for i in (*some, min(1, n - 1))):
+    some = {0, 1, n // 2, n - 1} if n > 1 else set()
+    first = triangles[0].as_pointer() if n > 1 else 0
+    if some and all(triangles[i].as_pointer() == first + _CORNERS * i for i in some):
         loops = np.frombuffer(ctypes.string_at(first, _CORNERS * n), np.int32).reshape(n, 3)
         if all(tuple(loops[i]) == tuple(triangles[i].loops) for i in some):
             return loops

@@ -94,7 +94,7 @@ class KeptScene:
             with plain_mesh(obj) as mesh:
                 if not len(mesh.polygons):
                     return None
-                read = export_mesh(mesh, read_vertices(mesh), name, with_colors)
+                read = export_mesh(mesh, name, read_vertices(mesh), with_colors)
             self.meshes_read += 1
             if key[0] and obj.mode == "OBJECT" and not obj.data.is_editmode:
                 kept[key] = read
