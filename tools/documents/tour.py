@@ -4,6 +4,7 @@ Does what docs/tutorial.md tells a reader to do, and takes a screenshot of each 
 """
 
 import json
+import math
 import subprocess
 import sys
 import traceback
@@ -15,9 +16,11 @@ import numpy as np
 sys.path.insert(0, "/project/tests/gui")  # what the tests in the window share
 
 from story import compared, data_blocks, invoke, press_compare, result, until, window
+from viewport_stories import settled
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
 ON_THE_CUBE = 1085, 600  # a pixel in the middle of a large triangle
+TURNS = 24  # pictures around Suzanne
 
 
 def screenshot(name, of=None):
@@ -54,6 +57,7 @@ def tour():
     yield from page()
     yield from look(shown)
     yield from inspect(shown)
+    yield from live(shown)
     yield from ray(shown)
 
 
@@ -138,6 +142,55 @@ def inspect(shown):
     screenshot("inspector", shown)
     subprocess.run(["xdotool", "key", "Escape"], check=True)
     yield 0.5
+
+
+def live(shown):
+    """In Rendered mode, by the textbook's test as printed."""
+    scene, view = window().scene, window().scene.view_settings
+    stored, before = scene.reference_tracer, view.view_transform
+    shown.type, view.view_transform = "VIEW_3D", "Standard"
+    shown.spaces.active.show_region_ui = False
+    shown.spaces.active.shading.type = "RENDERED"
+    stored.show, stored.method, stored.precision = "WRONG", "textbook_literal", "float32"
+    yield from settled()
+    screenshot("live")
+    shown.spaces.active.shading.type = "SOLID"
+    yield from orbit(shown)
+    for name in ("show", "method", "precision"):
+        stored.property_unset(name)
+    view.view_transform = before
+
+
+def orbit(shown):
+    """The same of Suzanne alone, seen from all sides: in a part of the area, for a while."""
+    from mathutils import Euler, Vector
+
+    (FOLDER / "orbit").mkdir()
+    with bpy.context.temp_override(window=window(), area=shown, region=main_region(shown)):
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.4)
+    yield 0.5
+    part = min((a for a in window().screen.areas if a.type == "VIEW_3D"), key=lambda a: a.width)
+    space, view = part.spaces.active, part.spaces.active.region_3d
+    suzanne = bpy.data.objects["Suzanne"]
+    window().view_layer.objects.active = suzanne
+    suzanne.select_set(True)
+    with bpy.context.temp_override(window=window(), area=part, region=main_region(part)):
+        bpy.ops.view3d.localview(frame_selected=False)
+    suzanne.select_set(False)
+    for name in ("header", "tool_header", "toolbar", "ui"):
+        setattr(space, f"show_region_{name}", False)
+    for name in ("floor", "axis_x", "axis_y", "cursor", "extras", "object_origins"):
+        setattr(space.overlay, f"show_{name}", False)
+    space.show_gizmo, space.shading.type = False, "RENDERED"
+    view.view_perspective, view.view_distance = "PERSP", 4
+    view.view_location = suzanne.location - Vector((0, 0, 0.5))  # the lower part is cut off
+    for turn in range(TURNS):
+        view.view_rotation = Euler((1.3, 0, 0.9 + 2 * math.pi * turn / TURNS)).to_quaternion()
+        yield from settled()
+        screenshot(f"orbit/{turn:02}", main_region(part))
+    with bpy.context.temp_override(window=window(), area=part, region=main_region(part)):
+        bpy.ops.screen.area_close()
+    yield 1
 
 
 def ray(shown):

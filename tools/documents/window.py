@@ -22,6 +22,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 OUT = PROJECT / "out" / "tutorial"
 WINDOW, WIDTH = 1600, 1000  # pixels across the whole window, and what they are made
 NAMES = "traced", "blender", "difference"
+FRAME = 120  # milliseconds
 AROUND, ZOOM, GAP = (8, 7), 19, 12  # pixels around the one that is enlarged, and how much
 
 
@@ -54,6 +55,7 @@ def write(folder: Path) -> None:
             height = picture.height * WIDTH // picture.width
             picture = picture.resize((WIDTH, height), Image.Resampling.LANCZOS)
         save(picture, folder / shot.name)
+    turning(sorted((OUT / "orbit").glob("*.png")), folder / "wrong_pixels.gif")
     x, y = found["metrics"]["largest_difference"]["pixel"]
     browser.save(OUT / "page.html", folder / "page.png", 1240, 960, f"#x={x}&y={y}", "pair")
 
@@ -61,6 +63,14 @@ def write(folder: Path) -> None:
 def save(picture: Image.Image, path: Path) -> None:
     """Write a small PNG."""
     picture.quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+
+
+def turning(shots: list[Path], path: Path) -> None:
+    """Write an animation of some shots: their upper part, which has the words in its corner."""
+    whole = [Image.open(shot).convert("RGB") for shot in shots]
+    size = whole[0].width, whole[0].width
+    frames = [p.crop((0, 0, *size)).quantize(32, dither=Image.Dither.NONE) for p in whole]
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=FRAME, loop=0)
 
 
 def near(folder: Path) -> Image.Image:
