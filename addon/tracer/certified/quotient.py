@@ -75,9 +75,8 @@ class Quotients:
         apart = rays.directions if self._one_origin else rays.origins - self._origin
         self._unit = power_above(np.abs(apart).max(axis=1))
         # n in halves; then of T and D, as far as all rays share them, two floats and e of each.
-        self._table = np.empty(
-            (10 if self._one_origin else 12 if self._one_direction else 10, count)
-        )
+        folded = self._one_direction and not self._one_origin
+        self._table = np.empty((12 if folded else 10, count))
 
     @classmethod
     def of(cls, rays: Rays, corners: NDArray[np.float64], planes: Sequence = ()) -> Quotients:
@@ -124,16 +123,16 @@ class Quotients:
         normal, rest = table[:6], table[6:]
         if self._one_origin:
             under = _dot(rays.directions, 0.0, self._unit, normal)
-            return _quotient(*rest[:3], *under, rest[3])
+            return _quotient(rest[:3], (*under, rest[3]))
         if self._one_direction:
             exact, small = _dot(*two_sum(rays.origins, -self._origin), self._unit, normal)
             high, low = two_sum(rest[0], -exact)
-            return _quotient(high, low + (rest[1] - small), *rest[2:])
+            return _quotient((high, low + (rest[1] - small), rest[2]), rest[3:])
         arm, low = two_sum(rest[1:], -rays.origins)
         reach, along = power_above(arm), power_above(rays.directions)
         over = _dot(arm, low, reach, normal.copy())
         under = _dot(rays.directions, 0.0, along, normal)
-        return _quotient(*over, _error(reach, rest[0]), *under, _error(along, rest[0]))
+        return _quotient((*over, _error(reach, rest[0])), (*under, _error(along, rest[0])))
 
 
 def _dot(v: Vectors, rest: Vectors | float, unit: Floats, normal: NDArray[np.float64]) -> Pair:
@@ -170,15 +169,9 @@ def _cross(u: Pair, v: Pair) -> tuple[Pair, Floats]:
     return two_sum(cross(uh, vh), small), units[0] * units[1]
 
 
-def _quotient(
-    high: Floats,
-    low: Floats,
-    high_error: Floats,
-    under: Floats,
-    rest: Floats,
-    under_error: Floats,
-) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return T / D as a float64, and whether no other is as near; T and D of two floats, and e."""
+def _quotient(numerator: Sequence, denominator: Sequence) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return T / D as a float64, and whether no other is as near; T and D are T1, T2, e_T, ..."""
+    (high, low, high_error), (under, rest, under_error) = numerator, denominator
     inverse = under + rest
     np.divide(1.0, inverse, out=inverse)
     first = high + low

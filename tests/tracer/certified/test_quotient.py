@@ -80,6 +80,33 @@ def test_where_almost_all_digits_cancel(rng, kind, shared):
     assert (t[possible] != expected).any()  # what is not sure may be wrong
 
 
+@pytest.mark.parametrize("shared", ["origin", "direction"])
+@pytest.mark.parametrize("kind", ["flat", "far", "wide", "tiny"])
+def test_almost_all_that_a_camera_sees_is_sure(rng, kind, shared):
+    """One power of two serves all its rays; fractions judge some of them, of any scale."""
+    count, unsure = 20_000, {"flat": 1e-3, "far": 2e-3, "wide": 1e-2, "tiny": 2e-3}[kind]
+    wide = {"flat": 0.5, "wide": 40.0}.get(kind, 1.0)
+    aside = np.stack((*rng.uniform(-wide, wide, (2, count)), np.zeros(count)))
+    forward = np.array([[0.0], [0], [1]])
+    size = 1e-4 if kind == "tiny" else 1.0
+    c = rng.normal(size=(3, 3, count)) * size
+    c[:, 2] *= 0.1 if kind == "flat" else 0.5
+    turn = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    c += 3 * (aside + forward) if shared == "origin" else aside + 3 * forward
+    o, d = (0 * forward, aside + forward) if shared == "origin" else (aside, forward)
+    o, d, c = turn @ o, turn @ d, turn @ c
+    if kind == "far":  # as a scene at 100 km, to float32
+        o, c = o + 1e5, (c + 1e5).astype(np.float32).astype(float)
+    factor = 2.0 ** rng.integers(-250, 250)
+    rays, c = Rays(o * factor, d), c * factor
+    t, sure = found_t(rays, np.arange(count), c)
+    some = rng.permutation(count)[:100]
+    both = (np.broadcast_to(v, (3, count))[:, some] for v in (rays.origins, rays.directions))
+    _, depth, towards = functions(*both, c[..., some])
+    assert_right(t[some], sure[some], truth(depth, towards))
+    assert 1 - sure.mean() < unsure
+
+
 @pytest.mark.parametrize("shared", ["nothing", "origin", "direction"])
 def test_rays_in_parts_are_the_same(rng, shared):
     o, d, c = triangles(rng)
