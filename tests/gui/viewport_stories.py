@@ -388,6 +388,7 @@ def viewport_shows():
     prepared()
     stored, views = window().scene.reference_tracer, window().scene.view_settings
     views.view_transform = "Standard"
+    space().shading.background_type = "VIEWPORT"  # which Blender draws in its solid shading alone
     yield from made_small()
     yield from in_mode("RENDERED")
     before, drawn = (settings(), data_blocks()), counted_drawings()

@@ -58,7 +58,7 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
         try:
             with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
                 depsgraph = bpy.context.evaluated_depsgraph_get()
-                _, manifest = export(depsgraph)
+                exported, manifest = export(depsgraph)
                 certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
             certificate.check()
             snapping = snapping_of(_VIEWPORT)
@@ -67,6 +67,7 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
                 pixels = picture(tmp, layer, _VIEWPORT, scene.camera, True)
         finally:
             bpy.data.cameras.remove(looking)  # and the object with it
+    traced = replace(traced, background=exported.background)
     source = Source(_VIEWPORT.name, bpy.app.version_string)
     return Case(traced, manifest, settings, Picture(pixels, source, snapping=snapping), certificate)
 

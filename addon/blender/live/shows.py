@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from ...compare.cause import Cause
 from ...compare.causes import explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
-from ...compare.metrics import boundary, count_pixels
 from ...scene import Camera, Scene
 from ...tracer.certified.certainty import Certainty
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
+from ...tracer.hits import NOTHING
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Settings
@@ -88,11 +88,10 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
         return
     truth = Frame.empty(scene)
     yield from scaled(steps(scene, Settings("certified"), truth), 0.0, 0.4)
-
-    def rows(frame: Frame, r: slice) -> NDArray:
-        return wrong_map(frame.color[r], frame.wrong_against(truth)[r])
-
-    frame = yield from scaled(_traced(scene, settings, shown, rows), 0.4, 0.6)
+    work = _traced(
+        scene, settings, shown, lambda f, r: wrong_map(f.color[r], f.wrong_against(truth)[r])
+    )
+    frame = yield from scaled(work, 0.4, 0.6)
     wrong = frame.wrong_against(truth)
     shown.color = ringed(shown.color, wrong)
     name = f"{settings.precision} {settings.method.words}"
@@ -101,11 +100,9 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
 
 def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace, and show how each pixel was decided."""
-
-    def rows(frame: Frame, r: slice) -> NDArray:
-        return certainty_map(frame.color[r], frame.certainty[r])
-
-    frame = yield from _traced(scene, settings, shown, rows)
+    frame = yield from _traced(
+        scene, settings, shown, lambda f, r: certainty_map(f.color[r], f.certainty[r])
+    )
     shown.color = ringed(shown.color, frame.certainty > Certainty.BOUND)
     counts = ((c, int((frame.certainty == c).sum())) for c in Certainty)
     shown.line = ", ".join(f"{c.name.lower().replace('_', ' ')} {n:,}" for c, n in counts if n)
@@ -123,24 +120,23 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
         yield 0.5
     case = like_for_like.case_of(shown.space, scene, settings)
     yield 0.6
+    frame = replace(frame, scene=case.scene)
     if scene.planes:  # which may have other colours there
         frame = Frame.empty(case.scene)
         yield from scaled(steps(case.scene, settings, frame), 0.6, 0.1)
+    frame.color[frame.instance_index == NOTHING] = case.scene.background
     causes = (yield from scaled(explain(case, frame, MOST_EXPLAINED), 0.7, 0.2)).causes
     color = np.empty_like(shown.color)
     for rows in parts(len(color), ROWS):
         color[rows] = cause_map(frame.color[rows], causes.cause[rows])
         yield 0.9
     shown.color = ringed(color, causes.cause != Cause.AGREE)
-    pixels = count_pixels(causes, boundary(frame))
-    differ = pixels["differ"] + causes.passed_over
-    found = [f"{n:,} {Cause[c.upper()].label}" for c, n in pixels["by_cause"].items() if n]
+    counts = {c: int((causes.cause == c).sum()) for c in Cause}
+    found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c is not Cause.AGREE]
     found += [f"{causes.passed_over:,} not looked at"] if causes.passed_over else []
-    inside = pixels["interior"]["differ"]
-    shown.line = (
-        f"{differ:,} of {pixels['total']:,} pixels differ from Blender's viewport"
-        f"{': ' if found else ''}{', '.join(found)}; {inside:,} away from edges"
-    )
+    differ = sum(n for c, n in counts.items() if c.differs) + causes.passed_over
+    of = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
+    shown.line = f"{of}: {', '.join(found)}" if found else of
 
 
 def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Work[Frame]:
