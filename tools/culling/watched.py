@@ -91,6 +91,12 @@ class Watched(sweep.Sweep):
             self.looks.append(Look(boxes, nearest, found, self.seen))
         return found
 
+    def are_small(
+        self, expanded: Expanded, low: NDArray, high: NDArray, some: NDArray
+    ) -> NDArray[np.bool_]:
+        """All triangles go the way that can be drawn, which finds the same."""
+        return np.zeros(len(some), bool)
+
     def pairs(self, found: EdgeFunctions, boxes: Boxes, shape: NDArray) -> Iterator[Rasterised]:
         _, of_y, of_x = found.coefficients[:, :3]
         self.bounds.append(found.edge_error / np.hypot(of_x, of_y).min(axis=0))

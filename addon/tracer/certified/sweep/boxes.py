@@ -23,8 +23,9 @@ from .depth_buffer import DepthBuffer
 from .film import Film, Vertices
 
 BINS = 256  # of nearness, into which triangles are sorted
-_GROWTH = 1.3  # of depth bins
-_FIRST = 0.7  # of the first bin, of the surface that is in front: a box is more than its triangle
+_GROWTH = 1.2  # of depth bins
+_FIRST = 0.5  # of the first bin, of the surface that is in front: a box is more than its triangle
+_SAMPLE = 1 << 14  # triangles, about, that are asked how deep the scene is
 _MARGIN = 1.0  # pixels around the region that count as in view, and around a box as its own
 _TOGETHER = 1 << 15  # triangles at a time
 
@@ -136,7 +137,7 @@ def boxes_of(
         some = corners[:, part].astype(np.intp)
         box = reduce(np.minimum, [gather(packed, c).view(kind) for c in some]).reshape(-1, 4).T
         np.maximum(box[:2], 0, out=low[:, part])
-        np.minimum(-box[2:], ends, out=high[:, part])
+        np.minimum(np.negative(box[2:], out=high[:, part]), ends, out=high[:, part])
         nearest[part] = largest(*(gather(vertices.nearest, c) for c in some))
     if not vertices.ahead.all() or not vertices.finite.all():
         _mend(scene, film, expanded, low, high)
@@ -156,29 +157,33 @@ def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index)
         low[:, part], high[:, part] = (x0, y0), (x1 - 1, y1 - 1)
 
 
-def by_depth(
-    seen: Index, nearest: NDArray[np.float64], low: Index, high: Index
-) -> tuple[list[Index], int, int]:
+def by_depth(seen: Index, nearest: NDArray[np.float64], low: Index, high: Index) -> list[Index]:
     """Split the triangles that are seen into depth bins, from the front to the back.
 
     The first holds somewhat fewer pixels of boxes than the union of all boxes has: about what one
     surface would have that covers it all. Every other is larger than the one before, as the more
     there is in front, the less is left to be hidden. So there are as many bins as the logarithm of
     the surfaces behind one another, and what a refreshed depth buffer may save is worth its price.
-    Returns the rows y0 <= y < y1 of that union, too.
+    All that is estimated, from some thousand triangles.
     """
-    (x0, y0), (x1, y1) = low.take(seen, axis=1), high.take(seen, axis=1)
-    nearest = nearest.take(seen)
-    bottom, top = int(y0.min()), int(y1.max()) + 1
+    step = 1 + len(seen) // _SAMPLE
+    some = seen[::step]
+    (x0, y0), (x1, y1) = low.take(some, axis=1), high.take(some, axis=1)
     area = np.multiply(x1 - x0 + 1, y1 - y0 + 1, dtype=np.float32)
-    union = (int(x1.max()) + 1 - int(x0.min())) * (top - bottom)
-    union *= _FIRST
-    if area.sum(dtype=np.float64) < 2 * union or BINS < 3:
-        return [seen], bottom, top
-    first, last = nearest.min(), nearest.max()
+    union = _FIRST * (int(x1.max()) + 1 - int(x0.min())) * (int(y1.max()) + 1 - int(y0.min()))
+    if step * area.sum(dtype=np.float64) < 2 * union or BINS < 3:
+        return [seen]
+    near = nearest.take(some)
+    first, last = near.min(), near.max()
     scale = (BINS - 1) / (last - first) if last > first else 0.0
-    depth = ((last - nearest) * scale).astype(np.uint8)
-    before = np.cumsum(np.bincount(depth, area, BINS)) / union
-    own = (np.log1p(before * (_GROWTH - 1)) / np.log(_GROWTH)).astype(np.uint8)
-    bins = grouped(own[depth], int(own[-1]) + 1)
-    return [seen.take(part) for part in bins if len(part)], bottom, top
+
+    def depth(nearness: NDArray[np.float64]) -> NDArray[np.uint8]:
+        return np.clip((last - nearness) * scale, 0, BINS - 1).astype(np.uint8)
+
+    before = np.cumsum(np.bincount(depth(near), area, BINS)) * (step / union)
+    of_depth = (np.log1p(before * (_GROWTH - 1)) / np.log(_GROWTH)).astype(np.uint8)
+    own = np.empty(len(seen), np.uint8)
+    for part in parts(len(seen), _TOGETHER):
+        own[part] = of_depth.take(depth(gather(nearest, seen[part])))
+    bins = grouped(own, int(of_depth[-1]) + 1)
+    return [seen.take(part) for part in bins if len(part)]

@@ -68,7 +68,8 @@ class DepthBuffer:
         grid[region.height :] = grid[:, region.width :] = np.inf  # no pixels, so never in the way
         self._fine = np.full((rows * COARSE // FINE, self.stride // FINE), -np.inf)
         self._coarse = np.full((rows, columns), -np.inf)
-        self._stale = np.ones(rows, bool)  # whose cells are older than their pixels
+        self._around = self._fine.copy()  # of each cell with those to its right and above it
+        self._stale = np.ones((rows * COARSE, columns), bool)  # which of each row are newer
 
     @property
     def winners(self) -> NDArray[np.int64]:
@@ -114,9 +115,7 @@ class DepthBuffer:
             at = gather(pixel, near)
             rivals.append(Fragments(at, gather(self._surface, at), gather(beaten, near)))
             self.nearness[pixel], self._most[pixel], self._surface[pixel] = least, most, surface
-            if len(pixel):
-                low, high = (int(v) // (COARSE * self.stride) for v in (pixel.min(), pixel.max()))
-                self._stale[low : high + 1] = True
+            self._stale.ravel()[pixel // COARSE] = True
             again = np.flatnonzero(gather(self._surface, pixel) != surface)[::-1]
             pixel, surface, least, most = (gather(v, again) for v in (pixel, surface, least, most))
         return rivals
@@ -125,36 +124,48 @@ class DepthBuffer:
         """Return which fragments are not surely behind something."""
         return np.flatnonzero(~(some.nearest < gather(self.nearness, some.pixel)))
 
-    def refresh(self, y0: int, y1: int) -> None:
-        """Bring the cells of rows y0 <= y < y1 up to date."""
+    def refresh(self) -> None:
+        """Bring the cells up to date."""
         per = COARSE // FINE
-        rows = self.nearness.reshape(-1, per, FINE, self.stride)
-        for row in range(y0 // COARSE, -(-y1 // COARSE)):
-            if self._stale[row]:
-                fine = rows[row].min(axis=1).reshape(per, -1, FINE).min(axis=2)
-                self._fine[row * per : (row + 1) * per] = fine
-                self._coarse[row] = fine.reshape(per, -1, per).min(axis=2).min(axis=0)
-                self._stale[row] = False
+        rows, columns = self._coarse.shape
+        stale = self._stale.reshape(rows, COARSE, columns).any(axis=1)
+        pixels = self.nearness.reshape(rows, per, FINE, columns, COARSE)
+        fine = self._fine.reshape(rows, per, columns, per)
+        for row in np.flatnonzero(stale.any(axis=1)):
+            own = np.flatnonzero(stale[row])
+            some = slice(own[0], own[-1] + 1)
+            cells = pixels[row, :, :, some].min(axis=1).reshape(per, -1, per, FINE).min(axis=3)
+            fine[row, :, some] = cells
+            self._coarse[row, some] = cells.min(axis=(0, 2))
+        self._stale[:] = False
+        self._around[:] = self._fine
+        np.minimum(self._around[:-1], self._fine[1:], out=self._around[:-1])
+        np.minimum(self._around[:, :-1], self._around[:, 1:], out=self._around[:, :-1])
 
     def farthest(self, x: Index, y: Index, size: int) -> NDArray[np.float64]:
         """Return the least nearness in the cells of FINE or COARSE pixels with these numbers."""
         cells = self._fine if size == FINE else self._coarse
         return gather(cells.ravel(), y.astype(np.intp) * cells.shape[1] + x)
 
-    def farthest_in(self, x0: Index, x1: Index, y0: Index, y1: Index) -> NDArray[np.float64]:
-        """Return the least nearness in the cells around boxes of at most FINE pixels a side.
+    def farthest_in(self, low: Index, high: Index) -> NDArray[np.float64]:
+        """Return at most the least nearness in boxes of pixels from `low` to `high`, (2, b) each.
 
-        Lowest and highest x and y, both included.
+        Both included. Of boxes that are larger than two cells of FINE pixels it says nothing: -inf.
         """
-        columns = self._fine.shape[1]
-        x0, x1, y0, y1 = (v // FINE for v in (x0, x1, y0, y1))
-        cell = y0.astype(np.intp) * columns + x0
-        right, up = x1 - x0, (y1 - y0).astype(np.intp) * columns
-        cells = self._fine.ravel()
-        out = gather(cells, cell)
-        for other in (cell + right, cell + up, cell + right + up):
-            np.minimum(out, gather(cells, other), out=out)
+        out, size = self._farthest_from(*low), np.maximum(*(high - low))
+        larger = np.flatnonzero(size >= FINE)
+        if len(larger):
+            size, (x, y), farthest = (gather(v, larger) for v in (size, low, out))
+            right, up = np.minimum((x + FINE, y + FINE), gather(high, larger))
+            for other in ((right, y), (x, up), (right, up)):
+                np.minimum(farthest, self._farthest_from(*other), out=farthest)
+            out[larger] = np.where(size < 2 * FINE, farthest, -np.inf)
         return out
+
+    def _farthest_from(self, x: Index, y: Index) -> NDArray[np.float64]:
+        """Return at most the least nearness in boxes of FINE pixels a side that begin here."""
+        cell = (y // FINE).astype(np.intp) * self._around.shape[1] + x // FINE
+        return gather(self._around.ravel(), cell)
 
     def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
         """Return the least nearness in the cells around one box of any size."""

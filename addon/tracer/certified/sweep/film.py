@@ -25,6 +25,8 @@ from ...vector import Floats, Vectors, largest
 _EPS = 2.0**-52
 # Added to a vertex's size: its share in the bounds is far above what gradual underflow may lose.
 _TINY = 2.0**-960
+DELTA = 2.0**-25  # pixels: a film position is `certain` where it is off by no more
+_HUGE = 2.0**900  # metres: of what is smaller, and certain, nothing over- or underflows
 _OFF = 2  # pixels beyond the picture where boxes end
 
 
@@ -35,25 +37,29 @@ class Vertices:
     `box` (v, 4) holds, negated where it is an upper end, the pixels whose centres a triangle with
     this vertex may cover: lowest x, lowest y, -highest x, -highest y. The minimum over its corners
     is a triangle's own. It holds only where `ahead`: where the vertex surely is before the eye.
+    `x`, `y` is the film position; it is off by at most DELTA where `certain`, which are ahead.
     `nearest` is the most that the nearness (`edge_functions.py`) of what is seen there can be.
     """
 
     p: Floats
     q: Floats
     w: Floats
+    x: Floats
+    y: Floats
     depth: Floats
     size: Floats
     nearest: Floats
     box: NDArray[np.integer]
     ahead: NDArray[np.bool_]
+    certain: NDArray[np.bool_]
     finite: NDArray[np.bool_]
 
     @classmethod
     def empty(cls, count: int, dtype: np.dtype | type) -> Vertices:
         """Return room for vertices."""
-        floats = (np.empty(count) for _ in range(6))
+        floats = (np.empty(count) for _ in range(8))
         box = np.empty((count, 4), dtype)
-        return cls(*floats, box, np.empty(count, bool), np.empty(count, bool))
+        return cls(*floats, box, *(np.empty(count, bool) for _ in range(3)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +135,22 @@ class Film:
         before = np.maximum(depth - self.weight * size, self.camera.clip_start)
         return (1 + 2.0**-48 + 2 * self.ray_error) / before
 
+    def certain_nearness(self, depth: Floats) -> Floats:
+        """Return the nearness of vertices that are `certain`."""
+        return -depth if self.camera.projection.is_parallel else 1 / depth
+
+    def certain_error(self, nearness: Floats) -> Floats | float:
+        """Return by how much that of a ray may be another, of vertices as near as this or less.
+
+        Where a vertex is certain, `weight` size / w is at most DELTA / 4 pixels of the picture's
+        size, and for parallel rays the slope of `place` times size at most DELTA / 2.
+        """
+        if self.camera.projection.is_parallel:
+            constant, slope = self.depth_error
+            return constant + slope * (DELTA / self.place[1])
+        far = max(self.camera.width, self.camera.height)
+        return (DELTA / far + 2 * self.ray_error + 2.0**-50) * nearness
+
     def enter(self, vertices: Vertices, first: int, world: Vectors) -> None:
         """Project world points (3, n) into the n of these vertices from `first` on."""
         part = slice(first, first + world.shape[1])
@@ -149,15 +171,23 @@ class Film:
         constant, slope = self.place
         margin = constant + slope * size
         vertices.ahead[part] = w > 2.0**10 * self.weight * size
-        x, y = x / w, y / w
-        margin += 2 * max(camera.width, camera.height) * self.weight * size
-        margin = 1.01 * (margin / w) + 0.5
+        x, y = np.divide(x, w, out=vertices.x[part]), np.divide(y, w, out=vertices.y[part])
+        far = 2 * max(camera.width, camera.height)
+        margin += far * self.weight * size
+        margin = 1.01 * (margin / w)
+        # Half of DELTA is for the rounding of the division.
+        certain = np.less_equal(margin, 0.5 * DELTA, out=vertices.certain[part])
+        certain &= vertices.ahead[part] & (largest(np.abs(x), np.abs(y)) <= far) & (size < _HUGE)
+        margin += 0.5
         vertices.nearest[part] = self.nearest(depth, size)
         for axis, (at, end) in enumerate(((x, camera.width), (y, camera.height))):
             vertices.ahead[part] &= np.isfinite(at)
-            vertices.box[part, axis] = np.clip(np.ceil(at - margin), -_OFF, end + _OFF)
-            highest = np.floor(at + margin) - 1
-            vertices.box[part, 2 + axis] = np.clip(-highest, -end - _OFF, _OFF)
+            lowest = at - margin
+            np.clip(np.ceil(lowest, out=lowest), -_OFF, end + _OFF, out=lowest)
+            vertices.box[part, axis] = lowest
+            highest = np.floor(np.add(at, margin, out=lowest), out=lowest)
+            np.clip(np.subtract(1, highest, out=lowest), -end - _OFF, _OFF, out=lowest)
+            vertices.box[part, 2 + axis] = lowest
 
     @property
     def _spread(self) -> float:

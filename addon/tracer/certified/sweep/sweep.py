@@ -17,18 +17,20 @@ from ....scene import Plane, Region, Scene
 from ...camera import camera_rays, film_positions
 from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, scaled, timed
-from ...vector import Index, gather
+from ...vector import Index, gather, parts
 from ..bounds import plane_fractions
 from .boxes import InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
-from .depth_buffer import FINE, ROUNDING, ClipRange, DepthBuffer, Fragments
+from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
 from .rasterise import LARGE_SHAPE, Boxes, Rasterised, rasterised, split
+from .small_boxes import SmallPairs, are_small, small_pairs
 from .small_triangles import SmallTriangles
 from .verdict import Verdict
 
-_TRIANGLES = 1 << 15  # looked at together
+_TRIANGLES = 1 << 17  # looked at together
+_SET_UP = 1 << 15  # of those that are not small, at a time
 _FRAGMENTS = 1 << 10  # for which there is always room
 _PIXELS = 1 << 15  # of a plane, at a time
 _PAIRS = 1 << 16  # that the depth buffer is asked about together
@@ -97,19 +99,19 @@ class Sweep:
         for _ in timed(self.enter_planes(), stages):
             yield 0.0
             self._make_room(room, 0.0)
-        parts: list[Chunk] = []
+        every: list[Chunk] = []
         if self._scene.instances:
             around = InstanceBoxes.of(self._scene, self._film)
             in_view = around.in_region(self._depths.region)
             region = self._depths.region
             self._small = SmallTriangles(self._scene, self._film, region, around.area)
-            parts = chunks(self._scene, in_view, around.depth, limit, self._small.is_dense)
-        for number, chunk in enumerate(parts):
+            every = chunks(self._scene, in_view, around.depth, limit, self._small.is_dense)
+        for number, chunk in enumerate(every):
             if self._fragments:
                 chunk = self._not_behind(chunk, around)
             for _ in timed(self.enter(chunk), stages):
-                yield 0.6 * number / len(parts)
-                self._make_room(room, 0.6 * number / len(parts))
+                yield 0.6 * number / len(every)
+                self._make_room(room, 0.6 * number / len(every))
         verdict = Verdict(self._scene, self._film, self._depths, self._numbers, self._statistics)
         return (yield from timed(verdict.steps(self._fragments), stages, 0.6))
 
@@ -130,7 +132,7 @@ class Sweep:
 
     def _not_behind(self, chunk: Chunk, around: InstanceBoxes) -> Chunk:
         """Return a chunk without the instances that what is nearer hides."""
-        self._depths.refresh(0, self._depths.region.height)
+        self._depths.refresh()
         hidden = around.hidden(chunk.instances, self._depths)
         return replace(chunk, instances=chunk.instances[~hidden])
 
@@ -162,7 +164,7 @@ class Sweep:
         """Sweep the triangles of a chunk, in small steps; yields which stage of work each was."""
         if not len(chunk.instances):
             return
-        region = self._depths.region
+        region, culling = self._depths.region, self._statistics.culling
         expanded = expand(self._scene, self._film, chunk, self._small)
         start = self._numbers.enter(expanded.names)
         yield "project"
@@ -177,37 +179,60 @@ class Sweep:
         if not len(seen):
             return
         yield "boxes"
-        parts, y0, y1 = by_depth(seen, nearest, part_low, part_high)
+        bins = by_depth(seen, nearest, part_low, part_high)
         yield "bins"
-        for number, depth_bin in enumerate(parts):
+        for number, depth_bin in enumerate(bins):
             if number or self._fragments:
-                self._depths.refresh(y0, y1)
-            for first in range(0, len(depth_bin), _TRIANGLES):
-                some = depth_bin[first : first + _TRIANGLES]
+                self._depths.refresh()
+            for part in parts(len(depth_bin), _TRIANGLES):
+                some = depth_bin[part]
                 boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
-                open_ = self.not_hidden(boxes, gather(nearest, some))
-                if not len(open_):
-                    continue
-                # Sorted by shape, so that what is evaluated together lies together.
-                shape = boxes.take(open_).shape
-                order = np.argsort(shape, kind="stable")
-                open_, shape = open_.take(order), shape.take(order)
-                some = some.take(open_)
-                origin = gather(low, some)
-                width, height = gather(high, some) - origin
-                found = set_up(
-                    self._film,
-                    expanded.vertices,
-                    gather(expanded.corners, some),
-                    gather(nearest, some),
-                    origin,
-                    np.maximum(width, height) + 1.0,
-                )
-                boxes = Boxes(None, gather(boxes.low, open_), gather(boxes.high, open_))
+                some = gather(some, self.not_hidden(boxes, gather(nearest, some)))
+                small = self.are_small(expanded, low, high, some)
                 yield "set-up"
-                for pairs in self.pairs(found, boxes, shape):
-                    self._keep(self.of_pairs(found, pairs, start + some))
+                own, left = (
+                    gather(some, np.flatnonzero(small)),
+                    [gather(some, np.flatnonzero(~small))],
+                )
+                found = small_pairs(
+                    self._film, expanded, low, high, own, self._depths, culling, left
+                )
+                for pairs in SmallPairs.together(found, _PAIRS):
+                    self._keep(self.of_small(pairs, start))
                     yield "pixels"
+                rest = np.concatenate(left)
+                culling["reached"] += len(some) - len(rest)
+                for part in parts(len(rest), _SET_UP):
+                    # Sorted by shape, so that what is evaluated together lies together.
+                    some = rest[part]
+                    shape = Boxes(None, gather(part_low, some), gather(part_high, some)).shape
+                    order = np.argsort(shape, kind="stable")
+                    some, shape = gather(some, order), gather(shape, order)
+                    origin = gather(low, some)
+                    width, height = gather(high, some) - origin
+                    found = set_up(
+                        self._film,
+                        expanded.vertices,
+                        gather(expanded.corners, some),
+                        gather(nearest, some),
+                        origin,
+                        np.maximum(width, height) + 1.0,
+                    )
+                    boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
+                    yield "set-up"
+                    for pairs in self.pairs(found, boxes, shape):
+                        self._keep(self.of_pairs(found, pairs, start + some))
+                        yield "pixels"
+
+    def are_small(
+        self, expanded: Expanded, low: Index, high: Index, some: Index
+    ) -> NDArray[np.bool_]:
+        """Return which of some triangles go the way of `small_boxes.py`."""
+        return are_small(self._film, expanded, low, high, some)
+
+    def of_small(self, pairs: SmallPairs, start: int) -> Fragments:
+        """Return the fragments of small pairs; their sure hits enter the depth buffer."""
+        return self._test(pairs.pixel, start + pairs.owner, pairs.least, pairs.most, pairs.sure)
 
     def boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
         """Return the boxes of a chunk's triangles, as `boxes_of`."""
@@ -216,11 +241,7 @@ class Sweep:
     def not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
         self._statistics.culling["boxed"] += len(nearest)
-        farthest = np.full(len(nearest), -np.inf)
-        small = np.flatnonzero((boxes.high - boxes.low).max(axis=0) < FINE)
-        (x0, y0), (x1, y1) = gather(boxes.low, small), gather(boxes.high, small)
-        farthest[small] = self._depths.farthest_in(x0, x1, y0, y1)
-        return np.flatnonzero(~(nearest < farthest))
+        return np.flatnonzero(~(nearest < self._depths.farthest_in(boxes.low, boxes.high)))
 
     def pairs(
         self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]

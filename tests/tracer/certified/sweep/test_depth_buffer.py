@@ -124,7 +124,7 @@ def test_cells_hold_plain_minima(region, sizes, rng, monkeypatch):
     depths = filled(region, rng)
     for size in sizes:  # nothing is known before it is refreshed
         assert np.isneginf(depths.farthest(np.zeros(1, int), np.zeros(1, int), size)).all()
-    depths.refresh(0, region.height)
+    depths.refresh()
     inside = grid(depths)[: region.height, : region.width]  # padding is never the least
     for size in {fine, coarse}:
         y, x = np.indices((-(-region.height // size), -(-region.width // size))).reshape(2, -1)
@@ -136,40 +136,40 @@ def test_cells_hold_plain_minima(region, sizes, rng, monkeypatch):
 
 
 @every_region
-def test_some_rows_are_refreshed_and_no_cell_is_too_near(region, rng):
-    """Cells of rows that were not refreshed have an older, farther minimum: that is safe."""
+def test_what_is_entered_is_refreshed_and_no_cell_is_too_near(region, rng):
+    """Cells that were not refreshed have an older, farther minimum: that is safe."""
     depths = filled(region, rng)
-    depths.refresh(0, region.height)
+    depths.refresh()
+    y, x = np.indices((-(-region.height // FINE), -(-region.width // FINE))).reshape(2, -1)
     for _ in range(5):
-        count = region.width * region.height
-        some = depths.places(rng.integers(0, count, count))
-        enter(depths, some, rng.normal(size=count) + 2)
-        y0 = int(rng.integers(region.height))
-        y1 = int(rng.integers(y0, region.height)) + 1
-        depths.refresh(y0, y1)
+        count = int(rng.integers(1, region.width * region.height + 1))
+        pixel = rng.integers(0, region.width * region.height, count)
+        enter(depths, depths.places(pixel), rng.normal(size=count) + 2)
         inside = grid(depths)[: region.height, : region.width]
-        for y in range(-(-region.height // FINE)):
-            for x in range(-(-region.width // FINE)):
-                least = inside[y * FINE : (y + 1) * FINE, x * FINE : (x + 1) * FINE].min()
-                found = depths.farthest(np.array([x]), np.array([y]), FINE)[0]
-                assert found <= least
-                if y0 // FINE <= y <= (y1 - 1) // FINE:
-                    assert found == least
+        ends = (slice(v * FINE, v * FINE + FINE) for v in np.stack((y, x), axis=1).ravel().tolist())
+        least = [inside[rows, columns].min() for rows, columns in zip(ends, ends, strict=True)]
+        assert (depths.farthest(x, y, FINE) <= least).all()
+        depths.refresh()
+        assert np.array_equal(depths.farthest(x, y, FINE), least)
 
 
 @every_region
 @pytest.mark.parametrize("dtype", [np.int16, np.int32])
-def test_farthest_around_small_boxes(region, dtype, rng):
-    """As near as the least pixel of the cells that a box touches, so never nearer than its own."""
+def test_farthest_in_boxes(region, dtype, rng):
+    """Never nearer than a pixel of the box; as near as the least in the cells that it may touch."""
     depths = filled(region, rng)
-    depths.refresh(0, region.height)
+    depths.refresh()
     inside = grid(depths)[: region.height, : region.width]
-    x0, y0 = (rng.integers(0, n, 500).astype(dtype) for n in (region.width, region.height))
-    x1 = np.minimum(x0 + rng.integers(0, FINE, 500), region.width - 1).astype(dtype)
-    y1 = np.minimum(y0 + rng.integers(0, FINE, 500), region.height - 1).astype(dtype)
-    found = depths.farthest_in(x0, x1, y0, y1)
-    for k in range(500):
-        cells = [v // FINE * FINE for v in (x0[k], y0[k])]
-        ends = [v // FINE * FINE + FINE for v in (x1[k], y1[k])]
-        assert found[k] == inside[cells[1] : ends[1], cells[0] : ends[0]].min()
-        assert found[k] <= inside[y0[k] : y1[k] + 1, x0[k] : x1[k] + 1].min()
+    ends = np.array([[region.width - 1], [region.height - 1]])
+    low = np.stack([rng.integers(0, n, 500) for n in (region.width, region.height)])
+    high = np.minimum(low + rng.integers(0, 2 * FINE + 2, (2, 500)), ends)
+    found = depths.farthest_in(low.astype(dtype), high.astype(dtype))
+    for k, ((x0, x1), (y0, y1)) in enumerate(np.stack((low, high), axis=2).swapaxes(0, 1).tolist()):
+        size = max(x1 - x0, y1 - y0)
+        assert found[k] <= inside[y0 : y1 + 1, x0 : x1 + 1].min()
+        if size >= 2 * FINE:
+            assert found[k] == -np.inf
+        else:
+            far = 2 if size < FINE else 3
+            rows, columns = (slice(v // FINE * FINE, (v // FINE + far) * FINE) for v in (y0, x0))
+            assert found[k] >= inside[rows, columns].min()

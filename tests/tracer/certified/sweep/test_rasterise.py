@@ -59,7 +59,7 @@ def cases():
             level = rng.normal(size=some.shape) + 10.0 ** rng.integers(0, 8)
             inside = depths.nearness.reshape(-1, depths.stride)[:height, :width]
             inside[:] = np.where(some, level, inside)
-            depths.refresh(0, height)
+            depths.refresh()
         yield seed, found, boxes, depths
 
 
@@ -168,8 +168,8 @@ def test_cells_that_no_edge_lets_in_or_that_are_hidden_are_dropped():
     hidden = hidden[hidden != (hole := 33 * depths.stride + 70)]
     enter(depths, hidden, np.full(len(hidden), 1.0))  # nearer than the triangle
     enter(depths, np.array([hole]), np.array([-1.0]))
-    depths.refresh(0, 128)
+    depths.refresh()
     assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64} | {(64, 32)}
     enter(depths, np.array([hole]), np.array([1.0]))
-    depths.refresh(0, 128)
+    depths.refresh()
     assert lows() == {(x, y) for x, y in open_cells if x < 64 or y >= 64}
