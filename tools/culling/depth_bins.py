@@ -11,7 +11,7 @@ from reference_tracer.report import plots
 from .scenes import ahead, scene, sheet, sphere
 from .watched import Look, Watched, watch
 
-COLORS = "#0072b2", "#d98e00", "#009e73", "#c2477f", "#7a3d9a", "#8c510a"
+COLORS = "#0072b2", "#d98e00", "#009e73", "#c2477f", "#7a3d9a", "#8c510a", "#3a9ad9", "#5f7a00"
 HIDDEN, BEFORE = "#a9a9a9", "#dedede"
 WIDTH, HEIGHT = 192, 128
 SPHERES = (  # x, y, depth
