@@ -149,10 +149,9 @@ class _Part:
         """Yield the vertices' world positions, some thousand at a time, and the first's number."""
         matrices, count = scene.instance_matrices[:3, :, self.instances], len(self.mesh.vertices)
         for part in slices(len(self.used), _CHUNK):
-            own, vertex = matrices, self.used[part]
-            if len(self.instances) > 1:
-                copy = vertex // count
-                own, vertex = gather(matrices, copy), vertex - copy * count
+            copy = self.used[part] // count
+            vertex = self.used[part] - copy * count
+            own = matrices[..., copy[:1]] if copy[0] == copy[-1] else gather(matrices, copy)
             yield part.start, transform_points(own, self.mesh.vertices.take(vertex, axis=0).T)
 
 
