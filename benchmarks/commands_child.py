@@ -26,7 +26,8 @@ def make(suzanne: str, folder: str) -> None:
     open_scene(scenes.build(mesh, 1920, 1080, "perspective"))
     bpy.ops.wm.save_as_mainfile(filepath=str(out / "cube.blend"))
     bpy.ops.wm.open_mainfile(filepath=suzanne)
-    bpy.context.scene.display.shading.show_xray = True
+    shading = bpy.context.scene.display.shading
+    shading.show_xray, shading.light = True, "FLAT"  # in another light, colours would be excused
     bpy.ops.wm.save_as_mainfile(filepath=str(out / "xray.blend"))
     vertices, triangles = meshes.icosphere(8)
     trimesh.Trimesh(vertices, triangles, process=False).export(out / "mesh.ply")
