@@ -198,7 +198,7 @@ def _png_of(path: Path, file: Any) -> StoredPicture | None:
     order += [channels - 1] * (channels % 2 == 0)
     color = np.ones((*stored.shape[:2], 4), np.float32)
     for row, own in zip(color, stored[::-1], strict=True):
-        row[:, : len(order)] = decoded(own[:, order] / most)
+        row[:, : len(order)] = by_runs(lambda some: decoded(some / most), own[:, order])
     return StoredPicture(color, 255 if kind == _PALETTE else 2**depth - 1, len(order) == 3)
 
 
