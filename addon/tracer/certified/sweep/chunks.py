@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Mesh, Scene
+from ...progress import Steps
 from ...vector import Index, Vectors, gather, grouped, groups, transform_points
 from ...vector import parts as slices
 from .film import Film, Vertices
@@ -155,20 +156,23 @@ class _Part:
             yield part.start, transform_points(own, self.mesh.vertices.take(vertex, axis=0).T)
 
 
-def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Expanded:
-    """Return a chunk's triangles, with their vertices on the film."""
+def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Steps[Expanded]:
+    """Return a chunk's triangles, with their vertices on the film, in small steps.
+
+    What is not finite there is dropped, or decided elsewhere.
+    """
     parts = list(_parts(scene, chunk, small))
     size = max(film.camera.width, film.camera.height)
     vertices = Vertices.empty(
         sum(len(part.used) for part in parts), np.int16 if size < 1 << 14 else np.int32
     )
     at = 0
-    with np.errstate(all="ignore"):  # what is not finite is dropped, or decided elsewhere
-        for part in parts:
-            for first, world in part.world(scene):
-                film.enter(vertices, at + first, world)
-            part.corners[:] += at
-            at += len(part.used)
+    for part in parts:
+        for first, world in part.world(scene):
+            film.enter(vertices, at + first, world)
+            yield "project"
+        part.corners[:] += at
+        at += len(part.used)
     starts = np.concatenate(([0], np.cumsum(np.concatenate([part.counts for part in parts]))))
     own = np.concatenate([part.own for part in parts]) if chunk.dense else None
     corners = [part.corners for part in parts]

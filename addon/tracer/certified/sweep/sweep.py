@@ -165,7 +165,7 @@ class Sweep:
         if not len(chunk.instances):
             return
         region, culling = self._depths.region, self._statistics.culling
-        expanded = expand(self._scene, self._film, chunk, self._small)
+        expanded = yield from expand(self._scene, self._film, chunk, self._small)
         start = self._numbers.enter(expanded.names)
         yield "project"
         low, high, nearest = self.boxes(expanded)

@@ -11,9 +11,10 @@ from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.certified.sweep import chunks as module
 from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
-from reference_tracer.tracer.certified.sweep.chunks import Chunk, chunks, expand
+from reference_tracer.tracer.certified.sweep.chunks import Chunk, Expanded, chunks, expand
 from reference_tracer.tracer.certified.sweep.film import Film
 from reference_tracer.tracer.certified.sweep.small_triangles import SmallTriangles
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import Batch, refused, world_triangles
 
 from ...exact_film import ExactFilm
@@ -23,6 +24,11 @@ from .test_film import project
 
 FLOATS = ("p", "q", "w", "depth", "size", "nearest", "ahead", "finite")
 LIMITS = (1, 2, 5, 13, 10**9)
+
+
+def expanded_of(scene: Scene, film: Film, chunk: Chunk) -> Expanded:
+    with np.errstate(all="ignore"):
+        return result_of(expand(scene, film, chunk, small_of(scene, film)))
 
 
 def all_chunks(scene: Scene, film: Film, limit: int) -> list[Chunk]:
@@ -43,7 +49,7 @@ def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     """Return the names of all chunks' triangles, in their order."""
     names = []
     for chunk in all_chunks(scene, film, limit):
-        expanded = expand(scene, film, chunk, small_of(scene, film))
+        expanded = expanded_of(scene, film, chunk)
         count = expanded.corners.shape[1]
         assert count == expanded.names.count <= limit
         names += zip(*(v.tolist() for v in expanded.names.of(np.arange(count))), strict=True)
@@ -79,7 +85,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
         film = Film(scene.camera, *offsets(rng))
         for limit in LIMITS:
             for chunk in all_chunks(scene, film, limit):
-                expanded = expand(scene, film, chunk, small_of(scene, film))
+                expanded = expanded_of(scene, film, chunk)
                 instance, triangle = expanded.names.of(np.arange(expanded.names.count))
                 for i in np.unique(instance).tolist():
                     own = np.flatnonzero(instance == i)
@@ -169,7 +175,7 @@ def test_a_part_of_a_mesh_takes_its_own_vertices(make, rng, spread):
     film = Film(scene.camera)
     at = project(film, vertices.T)
     for chunk in all_chunks(scene, film, 40):
-        expanded = expand(scene, film, chunk, small_of(scene, film))
+        expanded = expanded_of(scene, film, chunk)
         own = triangles[chunk.first : chunk.last].T
         assert np.array_equal(expanded.vertices.p[expanded.corners], at.p[own])
         assert np.array_equal(expanded.vertices.w[expanded.corners], at.w[own])

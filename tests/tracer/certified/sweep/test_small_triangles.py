@@ -11,6 +11,7 @@ from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes, boxes_o
 from reference_tracer.tracer.certified.sweep.chunks import Chunk, expand
 from reference_tracer.tracer.certified.sweep.film import Film
 from reference_tracer.tracer.certified.sweep.small_triangles import SmallTriangles
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -46,7 +47,8 @@ def test_what_is_left_out_has_no_pixel_in_its_box(make, monkeypatch):
         for k in np.flatnonzero(small.is_dense).tolist():
             chunk = Chunk(np.array([k], np.int32))
             with np.errstate(all="ignore"):
-                low, high, _ = boxes_of(scene, film, expand(scene, film, chunk, small))
+                expanded = result_of(expand(scene, film, chunk, small))
+                low, high, _ = boxes_of(scene, film, expanded)
             first, last = [[region.x0], [region.y0]], [[region.x1 - 1], [region.y1 - 1]]
             inside = (np.maximum(low, first) <= np.minimum(high, last)).all()
             counts, _, used, triangle = small.within(meshes[k], np.array([k]))
