@@ -50,8 +50,8 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     window, area = _place(space)
     shown, layer = area.spaces.active, window.view_layer.name
     with temporary_scene(window.scene, layer, _VIEWPORT) as tmp:
-        hidden = [o for o in drawn(tmp, layer) if not o.visible_in_viewport_get(shown)]
-        leave_out(tmp, layer, hidden)
+        evaluated = ((o, o.evaluated_get(window.view_layer.depsgraph)) for o in drawn(tmp, layer))
+        leave_out(tmp, layer, [o for o, e in evaluated if not e.visible_in_viewport_get(shown)])
         use_view_shading(tmp, shown.shading)
         prepare_scene(tmp, True)
         looking = add_camera(tmp, _from_before(scene)).data
