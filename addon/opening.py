@@ -41,8 +41,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
         size = choice.width or default[0], choice.height or default[1]
         check_size(*size)  # before a large file is read
         camera = choice.placed(*size) if choice.eye else None
-        with _hidden("scipy", "networkx"):
-            import trimesh  # noqa: F401
+        import_trimesh()
         meshes = load_meshes(path, choice.up)
         try:
             return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
@@ -58,16 +57,12 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     return scene, settings
 
 
-@contextmanager
-def _hidden(*libraries: str) -> Iterator[None]:
-    """Let an import do without libraries that it would take where they are.
-
-    trimesh's needs half a second for some of which nothing is asked here.
-    """
-    hidden = [name for name in libraries if name not in sys.modules]
+def import_trimesh() -> None:
+    """Import trimesh without libraries that take half a second, for nothing that is asked here."""
+    hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
     sys.modules.update(dict.fromkeys(hidden))
     try:
-        yield
+        import trimesh  # noqa: F401
     finally:
         for name in hidden:
             del sys.modules[name]

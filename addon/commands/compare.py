@@ -18,7 +18,7 @@ from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
 from ..diagnosis import diagnosed
 from ..manifest import Manifest, ObjectEntry
-from ..opening import load, open_blend
+from ..opening import import_trimesh, load, open_blend
 from ..parser import EXIT_CODES_HELP, Parser
 from ..report import comparison as comparison_report
 from ..report import folders, page
@@ -60,6 +60,7 @@ def add(parser: Parser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare; the exit code is the verdict's."""
+    import_trimesh()  # which diagnoses the meshes
     return _with_blender(options) if options.against is None else _against(options)
 
 
