@@ -130,7 +130,8 @@ def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
         rounds.insert(0, ([], None))
     share = WHOLE / (len(rounds) * len(every))
     for k, (some, color) in enumerate(rounds):
-        shade = color and partial(color.of, scene, frame.depths())
+        depths = frame.depths() if k else (0.0, 0.0)
+        shade = color and partial(color.of, scene, depths)
         for number, band in enumerate(every, start=k * len(every)):
             work = _band(tracer, band, some, shade, frame, is_traced=k > 0)
             yield from scaled(work, number * share, share)

@@ -33,7 +33,7 @@ _TRIANGLES = 1 << 17  # looked at together
 _SET_UP = 1 << 15  # of those that are not small, at a time
 _FRAGMENTS = 1 << 10  # for which there is always room
 _PIXELS = 1 << 15  # of a plane, at a time
-_PAIRS = 1 << 16  # that the depth buffer is asked about together
+_PAIRS = 1 << 15  # that the depth buffer is asked about together
 _BYTES_PER_TRIANGLE = 128  # of a chunk, with its vertices
 _BYTES_PER_FRAGMENT = 48  # until its pixel is decided
 
