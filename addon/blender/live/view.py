@@ -54,7 +54,8 @@ class LiveView:
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
         before = None
-        if self.shown and self.shown.wanted.show.is_drawn:  # it may itself be why Blender asks
+        if self._wanted and self._wanted.show.is_drawn and not self._unread:
+            # Its drawing, which comes and goes, may be all that has changed.
             before = self._kept.scene(self.camera)
         self._unread = _said(self._kept.update, depsgraph, context.space_data)
         if self._unread or not (before and alike(before, self._kept.scene(self.camera))):
