@@ -151,11 +151,9 @@ def _find_pairs(subject: Subject, chosen: NDArray) -> Work[None]:
     region = scene.camera.region
     wanted = np.zeros(region.width * region.height, bool)
     wanted[chosen] = True
-    number = np.cumsum(wanted) - 1
     made = yield from plan(scene, Settings(Method.CERTIFIED), reach=0.0)
-    for share, some in candidates(made, region, wanted):
-        if some is not None and len(some.pixel):
-            own = Pairs(number[some.pixel], some.row, some.triangles)
+    for share, own in candidates(made, region, wanted):
+        if own is not None and len(own.pixel):
             clip = scene.camera.clip_start, scene.camera.clip_end
             truth = known(*arrays(subject.rays, own.pixel, own.corners), *clip)
             subject.pairs.append((own, truth))
