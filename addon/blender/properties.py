@@ -130,9 +130,8 @@ class ReferenceTracerLayer(bpy.types.PropertyGroup):
         name="Passes",
         items=PASS_ITEMS,
         options={"ENUM_FLAG"},
-        default={label for label, *_ in PASS_ITEMS},
         update=_tell_the_compositor,
-        description="What the compositor and files get beside the picture; fewer take less time",
+        description="What the compositor and files get beside the picture: each takes time",
     )
 
 
