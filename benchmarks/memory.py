@@ -93,11 +93,12 @@ def _of_a_fork(pictures: tuple[Scene, Scene], job: Job, longest: float) -> int |
         return int(said) if said else None
     try:
         work, settings = render if job.whole else trace, Settings(job.method, job.precision)
-        work(pictures[0], settings)  # pages of libraries come in once they are used
+        _ = work(pictures[0], settings).t  # pages of libraries come in once they are used
         before = _peak()
         result = work(pictures[1], settings)
+        t = result.t  # with the barycentrics, which are found with it, when they are asked for
         os.write(writes, str(_peak() - before).encode())
-        del result
+        del result, t
     finally:
         os._exit(0)  # nothing of the parent's is to be cleaned up here
 
