@@ -8,14 +8,16 @@ __version__ = "0.1.0"
 
 
 def register() -> None:
-    """Register the render engine, operators, panels and properties (inside Blender)."""
-    from .blender import registration
+    """Register the render engine, operators, panels, properties and commands (inside Blender)."""
+    from .blender import commands, registration
 
     registration.register()
+    commands.register()
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
-    from .blender import registration
+    from .blender import commands, registration
 
+    commands.unregister()
     registration.unregister()

@@ -74,7 +74,8 @@ def choice_from(options: argparse.Namespace, path: Path | None = None) -> Choice
         why = f"is for a .blend or a mesh: '{path}' has its own camera, and what that one sees"
         refuse(options, names, why)
     chosen = {name: getattr(options, name, None) for name in names}
-    return Choice(**chosen, default_size=options.default_size)
+    opened = getattr(options, "opened", False)
+    return Choice(**chosen, default_size=options.default_size, opened=opened)
 
 
 def refuse_camera(options: argparse.Namespace, suffix: str | None) -> None:

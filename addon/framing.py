@@ -116,6 +116,7 @@ class Choice:
     height: int | None = None
     up: str | None = None  # which axis of a mesh's file is
     default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
+    opened: bool = False  # the file is open, in the Blender that runs this
 
     def placed(self, width: int, height: int, tall: float = 1.0) -> Camera:
         """Return the camera at `eye`, for a picture as of :func:`framing`.

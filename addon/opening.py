@@ -32,8 +32,10 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     SceneError, OSError
         If there is no such scene, or it cannot be read.
     """
-    check_is_file(path)
     suffix = path.suffix.lower()
+    if suffix == ".blend":
+        return _exported(path, choice)
+    check_is_file(path)
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
@@ -47,8 +49,10 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
             return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
         except SceneError as error:
             raise SceneError(f"'{path}': {error}") from error
-    if suffix != ".blend":
-        raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+
+
+def _exported(path: Path, choice: Choice) -> tuple[Scene, Settings]:
     with open_blend(path, choice) as blender:
         from .blender.compare import export_open_file
 
@@ -72,13 +76,16 @@ def import_trimesh() -> None:
 def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
     """Open a .blend in this process, with the add-on registered, at what is chosen; gives bpy.
 
+    One that is open in Blender already is taken as it is.
+
     Raises
     ------
     SceneError
         If there is no such file, it cannot be opened, it does not have what is chosen, or Blender
         is not there as a module.
     """
-    check_is_file(path)
+    if not choice.opened:
+        check_is_file(path)
     with running.held():
         try:
             import bpy
@@ -90,21 +97,29 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
         from .blender import registration
         from .blender.choice import chosen
 
-        registration.register()
+        if not choice.opened:
+            registration.register()
     try:
-        with running.held():
-            try:
-                bpy.ops.wm.open_mainfile(
-                    filepath=str(path.resolve()), load_ui=False, use_scripts=False
-                )
-            except RuntimeError as error:
-                reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
-                raise SceneError(f"'{path}' cannot be opened: {reason}") from error
-        saved, own = (".".join(map(str, v.version[:2])) for v in (bpy.data, bpy.app))
-        if bpy.data.version[:2] > bpy.app.version[:2]:
-            do = f"this is {own}: open it with {saved} or newer"
-            raise SceneError(f"'{path}' was saved by Blender {saved}; {do}")
+        if not choice.opened:
+            _open(bpy, path)
+        elif not bpy.data.filepath:
+            say = "no file is open (is its name right?): name a .blend before --command"
+            raise SceneError(say)
         with chosen(choice):
             yield bpy
     finally:
-        registration.unregister()
+        if not choice.opened:
+            registration.unregister()
+
+
+def _open(bpy: Any, path: Path) -> None:
+    with running.held():
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+        except RuntimeError as error:
+            reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
+            raise SceneError(f"'{path}' cannot be opened: {reason}") from error
+    saved, own = (".".join(map(str, v.version[:2])) for v in (bpy.data, bpy.app))
+    if bpy.data.version[:2] > bpy.app.version[:2]:
+        do = f"this is {own}: open it with {saved} or newer"
+        raise SceneError(f"'{path}' was saved by Blender {saved}; {do}")

@@ -6,6 +6,7 @@ Little is imported here: `reftrace --help` takes no longer than Python itself.
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import NoReturn
 
 AGREE, WARNINGS, DIFFERENCES, SIZES_DIFFER, INPUT_ERROR = range(5)
@@ -24,6 +25,8 @@ EXIT_CODES_HELP = f"""exit codes:
 
 class Parser(argparse.ArgumentParser):
     """An argument parser that ends with INPUT_ERROR, as 2 means differences here."""
+
+    opened: Path | None = None  # the scene of the command, where it is open in Blender
 
     def __init__(self, *args: object, **options: object) -> None:
         """Name the exit codes below the help, and keep their lines."""

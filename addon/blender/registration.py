@@ -7,7 +7,6 @@ from typing import Any
 import bpy
 
 from . import (
-    commands,
     engine,
     explain,
     inspector,
@@ -20,7 +19,7 @@ from . import (
 )
 from .long_work import LongWork
 
-MODULES = properties, engine, operators, studies, explain, inspector, panels, study_panels, commands
+MODULES = properties, engine, operators, studies, explain, inspector, panels, study_panels
 
 
 @bpy.app.handlers.persistent

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from ..images import MissingLibraryError
+from ..commands.parts import write_study
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
 from ..scene import SceneError
 from ..study import tradeoff
-from ..study.extremes import ExtremesRow, measure
+from ..study.extremes import measure
 from ..study.scenarios.sweeps import ALL, MAPS
-from ..study.trade import Trade
 from ..tracer.progress import Work
 from . import results, scenario_scene
 from .compare import export_open_file
@@ -28,37 +26,6 @@ STUDIES = [
     *SWEEPS,
     *((m.name, m.title, m.explanation) for m in MAPS),
 ]
-
-
-def trade(context: Any, width: int | None = None, samples: int = tradeoff.SAMPLES) -> Work[Trade]:
-    """Export the context's scene at once; return the work of measuring its trade.
-
-    The scene is exported as a render has it, in a window too: the numbers are those of `reftrace`.
-
-    Raises
-    ------
-    SceneError
-        If the scene cannot be traced.
-    """
-    scene, manifest, _ = export_open_file(context)
-    return tradeoff.measure(scene, width, samples, manifest.scene)
-
-
-def extremes(scenario: str = EVERY, rays: int | None = None) -> Work[list[ExtremesRow]]:
-    """Return the work of tracing every scenario, or all of one name, by every method.
-
-    A map has a scenario for each of its rows.
-    """
-    return measure([s for s in ALL if scenario in (EVERY, s.name)], rays)
-
-
-def write(report: Any, folder: Path | None, found: Any) -> None:
-    """Write a study as its module of `report` does, if to a folder; without Matplotlib no plot."""
-    try:
-        if folder:
-            report.write(folder, found)
-    except MissingLibraryError as error:
-        say(str(error))
 
 
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
@@ -86,13 +53,14 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
     )
 
     def begin(self, context: Any) -> Work[Any]:
-        """Export the scene at once; return the work of measuring."""
+        """Export the scene at once, as a render has it; return the work of measuring."""
         self._folder = self.folder()
-        return trade(context, self.width, self.samples)
+        scene, manifest, _ = export_open_file(context)
+        return tradeoff.measure(scene, self.width, self.samples, manifest.scene)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Show the table, the plot and the advice."""
-        write(trade_report, self._folder, result)
+        write_study(self._folder, lambda: trade_report.write(self._folder, result))
         lines = results.keep_trade(context, result).lines
         print(trade_report.table(result), *lines[1:], sep="\n")
         return _told(lines)
@@ -116,13 +84,14 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
     )
 
     def begin(self, context: Any) -> Work[Any]:
-        """Return the work."""
+        """Return the work; a map has a scenario of its name for each of its rows."""
         self._folder = self.folder()
-        return extremes(self.scenario, self.rays or None)
+        scenarios = [s for s in ALL if self.scenario in (EVERY, s.name)]
+        return measure(scenarios, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Show the breaking points and the maps."""
-        write(extremes_report, self._folder, result)
+        write_study(self._folder, lambda: extremes_report.write(self._folder, result))
         lines = results.keep_extremes(context, result).lines
         print(extremes_report.breaking_table(result), *lines, sep="\n")
         return _told(lines)

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from .. import images
 from ..arguments import add_judge, add_page, add_settings, settings_from
 from ..camera_options import add_camera, choice_from
+from ..compare import engines
 from ..compare.case import Case
 from ..compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ..compare.picture import Picture, Source
@@ -21,6 +23,7 @@ from ..manifest import Manifest, ObjectEntry
 from ..opening import import_trimesh, load, open_blend
 from ..parser import EXIT_CODES_HELP, Parser
 from ..report import comparison as comparison_report
+from ..report import engines as engines_report
 from ..report import folders, page
 from ..running import progress_bar
 from ..scene import Camera, Scene, SceneError
@@ -84,11 +87,32 @@ def _with_blender(options: argparse.Namespace) -> int:
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
             "with --against"
         )
-    with open_blend(options.scene, choice_from(options)):
-        from ..blender.commands import compare_open_file
+    with open_blend(options.scene, choice_from(options)) as blender, progress_bar() as progress:
+        return _compare_open_file(options, blender.context, progress)
 
-        with progress_bar() as progress:
-            return compare_open_file(options, progress)
+
+def _compare_open_file(options: argparse.Namespace, context: Any, progress: Callable) -> int:
+    from ..blender import animation
+    from ..blender.compare import compare_all, compare_to_folder
+
+    chosen = {
+        "settings": settings_from(options, context.scene.reference_tracer.settings()),
+        "as_is": options.as_is or None,
+        "identity": options.identity,
+        "self_check": options.self_check,
+    }
+    judge = options.judge.upper() if options.judge else None
+    if options.frames:
+        return animation.compare_open_file(options, progress, judge=judge, **chosen)
+    if options.judge == "all":
+        rows = result_of(compare_all(context, options.out, **chosen), progress)
+        verdict = engines.worst(rows)
+        print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
+        pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
+        return _told(options, verdict, *pages)
+    for_page = {"trade": options.trade, "extremes": options.extremes}
+    work = compare_to_folder(context, options.out, **for_page, judge=judge, **chosen)
+    return _told_comparison(options, result_of(work, progress))
 
 
 def _against(options: argparse.Namespace) -> int:
@@ -100,9 +124,19 @@ def _against(options: argparse.Namespace) -> int:
         finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
     comparison_report.write(options.out, comparison, extras)
-    print(*comparison.manifest.lines(), *comparison.lines(), f"written to {options.out}", sep="\n")
-    print(f"open {Path(options.out) / page.NAME} in a browser")
-    return EXIT_CODES[comparison.verdict]
+    return _told_comparison(options, comparison)
+
+
+def _told_comparison(options: argparse.Namespace, comparison: Comparison) -> int:
+    print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
+    return _told(options, comparison.verdict, Path(options.out) / page.NAME)
+
+
+def _told(options: argparse.Namespace, verdict: str, *pages: Path) -> int:
+    """Say where the results are; return the verdict's exit code."""
+    print(f"written to {options.out}")
+    print("open", *pages, "in a browser")
+    return EXIT_CODES[verdict]
 
 
 def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:

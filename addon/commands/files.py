@@ -27,12 +27,7 @@ _PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
 
 def add_trace(parser: Parser) -> None:
     """Add the command's options."""
-    command(
-        parser,
-        trace,
-        "reftrace trace mesh.ply --out mesh.png --width 800",
-        SOURCES,
-    )
+    command(parser, trace, "reftrace trace mesh.ply --out mesh.png --width 800", SOURCES)
     parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
     parser.set_defaults(endings={"out": (".png", ".exr")})
     add_settings(parser)
@@ -69,12 +64,7 @@ def trace(options: argparse.Namespace) -> int:
 
 def add_export(parser: Parser) -> None:
     """Add the command's options."""
-    command(
-        parser,
-        export,
-        "reftrace export scene.blend --out scene.npz",
-        "scene.blend",
-    )
+    command(parser, export, "reftrace export scene.blend --out scene.npz", "scene.blend")
     parser.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
     parser.set_defaults(endings={"out": (".npz",)})
     add_camera(parser)

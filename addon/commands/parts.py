@@ -25,8 +25,8 @@ def command(
     """Let a command's parser run it, which checks its options first.
 
     `run` does the work, and returns the exit code; `around` gives what lasts as long as that does.
-    The example and the exit codes are for its help. `source` says what its SCENE may be; without
-    it, the command takes none.
+    The example and the exit codes are for its help. `source` says what its SCENE may be, where none
+    is open; without it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
@@ -34,16 +34,20 @@ def command(
         with around(options):
             return run(options)
 
-    parser.epilog = f"example:\n  {example}\n\n{codes}"
     parser.set_defaults(run=checked)
-    if source:
+    parser.epilog = codes if parser.opened else f"example:\n  {example}\n\n{codes}"
+    if source and parser.opened:
+        parser.set_defaults(scene=parser.opened, opened=True)
+    elif source:
         parser.add_argument("scene", type=Path, metavar="SCENE", help=source)
 
 
-def write_study(directory: str, write: Callable[[], None]) -> None:
-    """Write a study; where pictures need a library that is not there, say so and do without."""
+def write_study(directory: str | Path | None, write: Callable[[], None]) -> None:
+    """Write a study, if to a folder; where pictures need a missing library, do without them."""
+    if not directory:
+        return
     try:
         write()
     except MissingLibraryError as error:
-        print(f"reftrace: {error}", file=sys.stderr)
+        print(f"Reference Tracer: {error}", file=sys.stderr)
     print(f"written to {directory}")

@@ -19,12 +19,7 @@ from .parts import command, write_study
 
 def add_trade(parser: Parser) -> None:
     """Add the command's options."""
-    command(
-        parser,
-        trade,
-        "reftrace trade sample_scenes/suzanne.blend --out out/",
-        SOURCES,
-    )
+    command(parser, trade, "reftrace trade sample_scenes/suzanne.blend --out out/", SOURCES)
     parser.add_argument("--out", metavar="DIR", help="folder for the table, JSON and plot")
     parser.add_argument(
         "--samples", type=int, metavar="N", help="measure up to N x N rays a pixel (default 4)"
@@ -44,18 +39,13 @@ def trade(options: argparse.Namespace) -> int:
             work = tradeoff.measure(scene, options.width, samples, options.scene.name)
             found = result_of(work, progress)
         print(report.table(found))
-        if options.out:
-            write_study(options.out, lambda: report.write(options.out, found))
+        write_study(options.out, lambda: report.write(options.out, found))
     return 0
 
 
 def add_extremes(parser: Parser) -> None:
     """Add the command's options."""
-    command(
-        parser,
-        extremes,
-        "reftrace extremes --out out/",
-    )
+    command(parser, extremes, "reftrace extremes --out out/")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     parser.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
 

@@ -196,8 +196,19 @@ def test_what_the_scene_stores_holds_without_options(saved, out):
 
 
 def test_a_folder_beside_the_file(saved, tmp_path):
+    """The file may be one of Blender's backups."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend1"))
     assert commands.run(["compare", "--out", "//beside"]) == 0
     assert (tmp_path / "beside" / "comparison.json").is_file()
+    assert commands.run(["explain", "--pixel", "0", "0", "--out", "//beside/pixel.md"]) == 0
+    assert (tmp_path / "beside" / "pixel.md").is_file()
+
+
+def test_another_picture_than_blenders(saved, out, capsys):
+    assert commands.run(["compare", "--out", str(out)]) == 0
+    picture = ["--against", str(out / "traced.png")]
+    assert commands.run(["compare", "--out", str(out / "again"), *picture]) == 0
+    assert verdict(out / "again")["blender"]["file"] == "traced.png"
 
 
 def test_the_operator_and_the_command_find_the_same(saved, out, tmp_path):
