@@ -41,7 +41,6 @@ def add(parser: Parser) -> None:
         "reftrace compare scene.blend --out out/\n"
         "  reftrace compare scene.npz --against student.png --out out/",
         "scene.blend; with --against also scene.npz or a mesh",
-        _failure_written,
         EXIT_CODES_HELP,
     )
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
@@ -63,8 +62,9 @@ def add(parser: Parser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Compare; the exit code is the verdict's."""
-    import_trimesh()  # which diagnoses the meshes
-    return _with_blender(options) if options.against is None else _against(options)
+    with _failure_written(options):
+        import_trimesh()  # which diagnoses the meshes
+        return _with_blender(options) if options.against is None else _against(options)
 
 
 @contextmanager

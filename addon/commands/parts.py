@@ -5,9 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Any
 
 from ..arguments import check_options
 from ..images import MissingLibraryError
@@ -19,20 +17,17 @@ def command(
     run: Callable[[argparse.Namespace], int],
     example: str,
     source: str | None = None,
-    around: Callable[[argparse.Namespace], AbstractContextManager[Any]] = nullcontext,
     codes: str = DONE_HELP,
 ) -> None:
     """Let a command's parser run it, which checks its options first.
 
-    `run` does the work, and returns the exit code; `around` gives what lasts as long as that does.
-    The example and the exit codes are for its help. `source` says what its SCENE may be, where none
-    is open; without it, the command takes none.
+    `run` does the work, and returns the exit code. The example and the exit codes are for its help.
+    `source` says what its SCENE may be, where none is open; without it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
         check_options(options)
-        with around(options):
-            return run(options)
+        return run(options)
 
     parser.set_defaults(run=checked)
     parser.epilog = codes if parser.opened else f"example:\n  {example}\n\n{codes}"
