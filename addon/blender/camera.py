@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..compare.certificate import CameraCertificate, certify, known_points
 from ..projections import PROJECTIONS, Projection
-from ..scene import Camera, Region, SceneError, ViewWindow
+from ..scene import Camera, Region, SceneError, ViewWindow, check_size
 
 
 def border_region(
@@ -119,11 +119,7 @@ def export_camera(scene: Any) -> Camera:
     projection = projection_of(obj, scene)
     data, render = obj.data, scene.render
     width, height = resolution(render)
-    if width < 1 or height < 1:
-        raise SceneError(
-            f"The picture of scene '{scene.name}' has {width} x {height} pixels: raise the "
-            "resolution or its percentage."
-        )
+    check_size(width, height)
     region = None
     if render.use_border:
         names = ("border_min_x", "border_max_x", "border_min_y", "border_max_y")
