@@ -24,12 +24,7 @@ NARROW = 0.37  # of a table's width: a short name
 
 _LETTER = 6.5  # mean width in pixels at a scale of 1: what Blender's own font has
 # Blender's own panels that this engine has no use for.
-_NOT_OURS = {
-    "RENDER_PT_simplify",
-    "RENDER_PT_freestyle",
-    "RENDER_PT_stamp",
-    "VIEWLAYER_PT_filter",
-}
+_NOT_OURS = {f"RENDER_PT_{n}" for n in ("simplify", "freestyle", "stamp")} | {"VIEWLAYER_PT_filter"}
 # Those of other engines that say which colours and passes are shown.
 _OURS_TOO = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film", "VIEWLAYER_PT_layer_passes"}
 
@@ -100,19 +95,15 @@ class _Main:
         layout.use_property_split = True
         layout.use_property_decorate = False
         column = layout.column()
-        column.prop(stored, "method")
-        row = column.row()
-        row.enabled = stored.has_precision
-        row.prop(stored, "precision")
-        column.prop(stored, "samples")
-        column.prop(stored, "color")
+        for name in ("method", "precision", "samples", "color"):
+            row = column.row()
+            row.enabled = name != "precision" or stored.has_precision
+            row.prop(stored, name)
         column.separator()
         column.prop(stored, "show")
         column = layout.column()
-        column.prop(stored, "judge")
-        column.prop(stored, "shading")
-        column.prop(stored, "identity")
-        column.prop(stored, "self_check")
+        for name in ("judge", "shading", "identity", "self_check"):
+            column.prop(stored, name)
         layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
         if found := results.latest(EngineRow, context.scene):
             rows = [("Engine", "Differ", "Wrong", "Open")]
@@ -216,12 +207,8 @@ def _draw_passes(panel: Any, context: Any) -> None:
         panel.layout.column().prop(context.view_layer.reference_tracer, "passes")
 
 
-CLASSES = (
-    *both(_Main),
-    *both(_Result, "_result"),
-    *both(_Export, "_export"),
-    OBJECT_PT_reference_tracer,
-)
+_PANELS = *both(_Main), *both(_Result, "_result"), *both(_Export, "_export")
+CLASSES = *_PANELS, OBJECT_PT_reference_tracer
 _register, _unregister = bpy.utils.register_classes_factory(CLASSES)
 
 
