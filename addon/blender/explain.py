@@ -8,7 +8,6 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
-from ..arguments import words
 from ..compare.comparison import Comparison
 from ..explain import document, reproducer
 from ..explain.candidates import LIMIT
@@ -21,6 +20,7 @@ from . import ray_objects, results
 from .camera import export_camera
 from .engine import export_for_judge
 from .judges import JUDGES, judge_named
+from .long_work import failed
 from .temporary import temporary_scene
 from .viewport import prepare_scene
 
@@ -104,10 +104,10 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
             found = derive_here(context, self.x, self.y, self.source, self.limit)
             if writer:
                 _write(self.filepath, writer(found))
-        except (SceneError, OSError, MemoryError, RuntimeError) as error:
-            self.report({"ERROR"}, words(error))
-            return {"CANCELLED"}
-        said = results.keep_derivation(context.scene, found, answer_sentence(found)).lines[0]
+        except Exception as error:
+            return failed(self, error)
+        said = answer_sentence(found)
+        results.keep(Derivation, found, [said], context.scene.name)
         results.show_text(context, TEXT, document.document_markdown(found))
         if self.draw_ray:
             ray_objects.draw(context.scene, found)
@@ -195,9 +195,8 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
             is_json = Path(self.filepath).suffix.lower() == ".json"
             text = reproducer.text(found.pixel) if is_json else writer(found)
             _write(self.filepath, text)
-        except (SceneError, OSError) as error:
-            self.report({"ERROR"}, words(error))
-            return {"CANCELLED"}
+        except Exception as error:
+            return failed(self, error)
         self.report({"INFO"}, f"Saved {self.filepath}")
         return {"FINISHED"}
 

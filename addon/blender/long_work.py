@@ -69,7 +69,7 @@ class LongWork:
         try:
             return self._end(context, result_of(self.begin(context)))
         except Exception as error:
-            return self._fail(error)
+            return failed(self, error)
 
     def invoke(self, context: Any, event: Any) -> set[str]:
         """Begin, and go on while the interface stays alive."""
@@ -78,7 +78,7 @@ class LongWork:
         try:
             LongWork._work = self.begin(context)
         except Exception as error:
-            return self._fail(error)
+            return failed(self, error)
         manager = context.window_manager
         LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
@@ -104,10 +104,10 @@ class LongWork:
             try:
                 return self._end(context, stop.value)
             except Exception as error:
-                return self._fail(error)
+                return failed(self, error)
         except Exception as error:
             self._clean_up(context)
-            return self._fail(error)
+            return failed(self, error)
         self._show_progress(context, share)
         return {"PASS_THROUGH"}  # the timers of others are theirs
 
@@ -149,11 +149,13 @@ class LongWork:
         self.report({level}, text)
         return {"FINISHED"}
 
-    def _fail(self, error: Exception) -> set[str]:
-        if not isinstance(error, EXPECTED):
-            traceback.print_exc()
-        self.report({"ERROR"}, words(error))
-        return {"CANCELLED"}
+
+def failed(operator: Any, error: Exception) -> set[str]:
+    """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
+    if not isinstance(error, EXPECTED):
+        traceback.print_exception(error)
+    operator.report({"ERROR"}, words(error))
+    return {"CANCELLED"}
 
 
 def camera_missing(operator: Any, context: Any) -> bool:

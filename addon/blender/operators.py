@@ -11,10 +11,12 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty
 
-from ..arguments import EXPECTED, words
 from ..compare import engines
-from ..compare.animation import FrameRow
+from ..compare.animation import FrameRow, worst_first
 from ..compare.comparison import Comparison
+from ..compare.engines import EngineRow
+from ..report import animation as frames_report
+from ..report import engines as engines_report
 from ..report import page
 from ..scene import SceneError
 from ..study.extremes import BreakingPoint
@@ -24,7 +26,7 @@ from . import animation, results
 from .choice import frame_all
 from .compare import compare_all, compare_to_folder, compared, gather_case
 from .judges import JUDGES
-from .long_work import LongWork, say
+from .long_work import LongWork, failed, say
 from .results import redraw
 
 *_FIRST, _LAST = ("the viewport" if j.needs_window else j.label for j in JUDGES.values())
@@ -68,7 +70,8 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         """Show the table."""
-        say(*results.keep_engines(context, result).lines)
+        lines = engines_report.lines(result)
+        say(*results.keep(EngineRow, tuple(result), lines, context.scene.name).lines)
         verdict = engines.worst(result)
         text = ", ".join(f"{row.engine}: {row.verdict}" for row in result)
         return "INFO" if verdict == "agree" else "WARNING", text[0].upper() + text[1:]
@@ -91,7 +94,9 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         frames = animation.frames_of(context.scene)
 
         def told(rows: list[FrameRow]) -> None:
-            found = results.keep_frames(context, folder, frames, rows)
+            content = folder / frames_report.PAGE, worst_first(rows)
+            lines = frames_report.lines(frames, rows)
+            found = results.keep(FrameRow, content, lines, context.scene.name)
             self.left = ", ".join(found.lines[-2:])
             redraw(context)
 
@@ -133,25 +138,18 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         """Return the work of finding out what the page shows besides."""
         self._folder = self.folder() or Path(_session_folder())
         self._comparison = results.latest(Comparison, context.scene).content
-        trade = results.latest(Trade, context.scene)
-        extremes = results.latest(BreakingPoint, context.scene)
-        return _extras(
-            self._comparison, trade and trade.content, (extremes and extremes.rows) or None
-        )
+        return page.extras(self._comparison)
 
     def finish(self, context: Any, result: page.Extras) -> tuple[str, str]:
-        """Write the page, and open it."""
+        """Write the page, with the studies that there are, and open it."""
         path = self._folder / page.NAME
-        page.write(path, self._comparison, result)
+        trade = results.latest(Trade, context.scene)
+        extremes = results.latest(BreakingPoint, context.scene)
+        more = {"trade": trade and trade.content, "extremes": (extremes and extremes.rows) or None}
+        page.write(path, self._comparison, replace(result, **more))
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
         return "INFO", f"The page is {path}"
-
-
-def _extras(comparison: Comparison, trade: Any, extremes: Any) -> Work[page.Extras]:
-    """Find out what is not measured yet, and add what is."""
-    found = yield from page.extras(comparison)
-    return replace(found, trade=trade, extremes=extremes)
 
 
 @cache
@@ -173,9 +171,8 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
         """Add it."""
         try:
             camera = frame_all(context.scene, context.view_layer)
-        except EXPECTED as error:
-            self.report({"ERROR"}, words(error))
-            return {"CANCELLED"}
+        except Exception as error:
+            return failed(self, error)
         camera.name = camera.data.name = "Camera"
         return {"FINISHED"}
 

@@ -9,21 +9,15 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
 import numpy as np
 from numpy.typing import NDArray
 
-from ..compare.animation import FrameRow, worst_first
 from ..compare.comparison import Comparison
-from ..compare.engines import EngineRow
-from ..explain.derivation import Derivation
 from ..images import MissingLibraryError
 from ..methods import Method
-from ..report import animation as frames_report
-from ..report import engines as engines_report
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
 from ..report.comparison import difference_picture
@@ -55,24 +49,13 @@ def keep_comparison(context: Any, comparison: Comparison) -> Result:
     show(BLENDER, comparison.picture)
     shown = show(DIFFERENCE, difference_picture(comparison))
     show_in_editor(context, shown)
-    return _keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
-
-
-def keep_engines(context: Any, rows: Sequence[EngineRow]) -> Result:
-    """Remember the table of several engines."""
-    return _keep(EngineRow, tuple(rows), engines_report.lines(rows), context.scene.name)
-
-
-def keep_frames(context: Any, folder: Path, frames: range, rows: Sequence[FrameRow]) -> Result:
-    """Remember the frames of an animation, the worst first, and where their page is."""
-    content = folder / frames_report.PAGE, worst_first(rows)
-    return _keep(FrameRow, content, frames_report.lines(frames, rows), context.scene.name)
+    return keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
 
 
 def keep_trade(context: Any, trade: Trade) -> Result:
     """Remember a trade, and show its plot if there can be one."""
     why = _show_plots(context, lambda: [(TRADE, trade_report.plot_picture(trade))], "trade")
-    return _keep(Trade, trade, [trade.advice, *why], trade.scene)
+    return keep(Trade, trade, [trade.advice, *why], trade.scene)
 
 
 def keep_extremes(context: Any, rows: Sequence[ExtremesRow]) -> Result:
@@ -82,7 +65,7 @@ def keep_extremes(context: Any, rows: Sequence[ExtremesRow]) -> Result:
         return ((plot_name(n), p) for n, p in extremes_report.pictures(rows))
 
     lines = [_extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
-    return _keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
+    return keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
 
 
 def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
@@ -104,11 +87,6 @@ def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
     return sentence + "."
 
 
-def keep_derivation(scene: Any, derivation: Derivation, sentence: str) -> Result:
-    """Remember the derivation of a pixel of a scene."""
-    return _keep(Derivation, derivation, [sentence], scene.name)
-
-
 def _show_plots(
     context: Any, plots: Callable[[], Iterable[tuple[str, NDArray[np.uint8]]]], command: str
 ) -> list[str]:
@@ -128,13 +106,14 @@ def _show_plots(
         ]
 
 
-def _keep(
+def keep(
     kind: type,
     content: Any,
     lines: Iterable[str],
     scene: str | None = None,
     rows: Sequence[ExtremesRow] = (),
 ) -> Result:
+    """Remember a result of a kind, for :func:`latest`."""
     _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, tuple(rows))
     return _latest[kind]
 

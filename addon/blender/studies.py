@@ -10,14 +10,13 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 from ..commands.parts import write_study
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
-from ..scene import SceneError
 from ..study import tradeoff
 from ..study.extremes import measure
 from ..study.scenarios.sweeps import ALL, MAPS
 from ..tracer.progress import Work
 from . import results, scenario_scene
 from .compare import export_open_file
-from .long_work import LongWork, say
+from .long_work import LongWork, failed, say
 from .properties import SWEEPS
 
 EVERY = "ALL"  # in place of a scenario's name
@@ -122,9 +121,8 @@ class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
         """Build the scene, and go there."""
         try:
             scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
-        except SceneError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        except Exception as error:
+            return failed(self, error)
         changed = scene[scenario_scene.CHANGED].split("\n")
         say(f"{scene.name}:", *changed)
         self.report({"INFO"}, f"{scene.name}: {changed[0]}")
