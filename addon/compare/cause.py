@@ -1,13 +1,15 @@
 """The causes: one record each, with all that is said, drawn and counted of it.
 
-A new cause is a member of `Cause` and a check in `checks/`. The counts, the texts, the JSON, the
-page's legend, the panel and the difference picture read the record.
+A new cause is a member of `Cause`, its record in `cause.toml` and a check in `checks/`. The counts,
+the texts, the JSON, the page's legend, the panel and the difference picture read the record.
 """
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import dataclass, field
 from enum import IntEnum
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -16,119 +18,46 @@ from numpy.typing import NDArray
 Color = tuple[float, float, float]
 
 
-@dataclass(frozen=True)
+@dataclass
 class Record:
-    """What there is to say of a cause."""
+    """What there is to say of a cause: an entry of `cause.toml`, which says what is what."""
 
-    number: int  # stored in `frame.npz`: it stays
     label: str
-    # With the fields {figure} and {allowed}, as `str.format` has them; {name} is what a figure that
-    # is an index counts.
     sentence: str
-    unit: str = ""  # of the figure
-    # Linear RGB in the difference picture; colour-blind readers tell them apart, too. None: the
-    # pixel agrees.
+    unit: str = ""
     color: Color | None = None
-    explains: bool = False  # the pixel differs, and this is why
-    warns: bool = False  # the verdict is no better than 'warnings' where a pixel has it
-    rounding: bool = False  # Blender's own float32 arithmetic accounts for the pixel
-    see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
+    explains: bool = False
+    warns: bool = False
+    rounding: bool = False
+    see_through: bool = False
+
+    def __post_init__(self) -> None:
+        self.color = self.color and tuple(self.color)
+
+
+_LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 
 
 class Cause(IntEnum):
-    """What is said of a pixel, in the order of the legend; its attributes are its `Record`'s."""
+    """What is said of a pixel, in the order of the legend; its attributes are its `Record`'s.
 
-    AGREE = Record(0, "agree", "both show the same")
-    EDGE = Record(
-        1,
-        "edge",
-        "{figure:.3g} px from the centre the tracer sees what Blender shows (float32 and its "
-        "rasteriser may be off by {allowed:.3g} px)",
-        "px",
-        (1.0, 0.3, 0.0),
-        explains=True,
-        rounding=True,
-    )
-    DEPTH_TIE = Record(
-        2,
-        "depth tie",
-        "what Blender shows lies {figure:.3g} m behind what the tracer sees (a depth buffer tells "
-        "{allowed:.3g} m apart there)",
-        "m",
-        (0.0, 0.7, 1.0),
-        explains=True,
-        rounding=True,
-    )
-    CLIP_PLANE = Record(
-        7,
-        "clip plane",
-        "a surface lies {figure:.3g} m from a clip plane, and float32 clips to within "
-        "{allowed:.3g} m",
-        "m",
-        (1.0, 1.0, 0.4),
-        explains=True,
-        rounding=True,
-    )
-    ANTI_ALIASING = Record(
-        8,
-        "anti-aliasing",
-        "the colour is a mix of what the tracer sees within {figure:.3g} px (the filter reaches "
-        "{allowed:.3g} px)",
-        "px",
-        (0.7, 0.4, 0.2),
-        explains=True,
-        warns=True,
-    )
-    COLOR = Record(
-        9,
-        "colour only",
-        "the same object in another shade: {figure:.3g} is left after the transform that the "
-        "comparison names (allowed: {allowed:.3g})",
-        "of 1",
-        (0.4, 0.7, 0.7),
-        explains=True,
-        warns=True,
-        see_through=True,
-    )
-    NOT_MODELLED = Record(
-        3,
-        "not modelled",
-        "{name} changes the pixel",
-        "index",
-        (0.3, 0.08, 0.9),
-        explains=True,
-        warns=True,
-    )
-    HIDDEN = Record(
-        10,
-        "hidden for one side",
-        "only one side shows {name}",
-        "index",
-        (0.08, 0.2, 0.08),
-        explains=True,
-        warns=True,
-    )
-    NOT_DECIDABLE = Record(
-        4,
-        "not decidable",
-        "float32 may move Blender's surfaces by {figure:.3g} px there (decidable up to "
-        "{allowed:.3g} px)",
-        "px",
-        (0.25, 0.3, 0.6),
-        warns=True,
-        see_through=True,
-    )
-    UNEXPLAINED = Record(
-        5, "unexplained", "no check accounts for the difference", color=(1.0, 0.0, 0.0)
-    )
-    NOT_TRACED = Record(6, "not traced", "the picture was cancelled before", color=(0.0, 0.0, 0.0))
+    The numbers are stored in `frame.npz`: they stay.
+    """
 
-    def __new__(cls, record: Record) -> Cause:
-        """Make the member whose number, and whose attributes, are the record's."""
-        cause = int.__new__(cls, record.number)
-        cause._value_ = record.number
-        cause.__dict__.update(vars(record))
-        return cause
+    AGREE = 0
+    EDGE = 1
+    DEPTH_TIE = 2
+    CLIP_PLANE = 7
+    ANTI_ALIASING = 8
+    COLOR = 9
+    NOT_MODELLED = 3
+    HIDDEN = 10
+    NOT_DECIDABLE = 4
+    UNEXPLAINED = 5
+    NOT_TRACED = 6
+
+    def __init__(self, _: int) -> None:
+        self.__dict__.update(vars(Record(**_LISTED[self.key])))
 
     @property
     def key(self) -> str:

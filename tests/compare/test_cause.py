@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 from reference_tracer.compare import causes
-from reference_tracer.compare.cause import Cause, Record
+from reference_tracer.compare.cause import _LISTED, Cause, Record
 from reference_tracer.compare.comparison import compare
 from reference_tracer.report.comparison import difference_picture
 from reference_tracer.report.page.content import _hex, content
@@ -17,7 +17,6 @@ from reference_tracer.tracer.render import render
 from .cases import case_of
 
 COMET = Record(
-    42,
     "comet",
     "a comet passed {figure:.0f} km away (seen up to {allowed:.0f} km)",
     "km",
@@ -29,9 +28,10 @@ COMET = Record(
 
 @pytest.fixture
 def comet(monkeypatch):
-    """Add a cause as a line in its class and one among the checks would."""
-    member = Cause._new_member_(Cause, COMET)
-    member._name_ = "COMET"
+    """Add a cause as a line in its class, its record and one among the checks would."""
+    member = int.__new__(Cause, 42)
+    member._name_, member._value_ = "COMET", 42
+    vars(member).update(vars(COMET))
     monkeypatch.setattr(Cause, "_member_names_", [*Cause._member_names_, "COMET"])
     monkeypatch.setitem(Cause._member_map_, "COMET", member)
     monkeypatch.setitem(Cause._value2member_map_, 42, member)
@@ -56,7 +56,8 @@ def test_a_new_cause_is_everywhere_by_its_record_and_its_check(room, comet):
     assert pixels["examples"]["comet"][0] == [4, 3]
     assert "  comet: 10, as at (4, 3)" in "\n".join(found.lines())
     held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
-    assert held == {key: getattr(COMET, key) for key in ("number", "label", "sentence", "unit")}
+    told = {key: getattr(COMET, key) for key in ("label", "sentence", "unit")}
+    assert held == {"number": 42} | told
     assert np.array_equal(
         difference_picture(found)[3:5, 4:9, :3], np.full((2, 5, 3), COMET.color, "f4")
     )
@@ -67,6 +68,7 @@ def test_a_new_cause_is_everywhere_by_its_record_and_its_check(room, comet):
 
 
 def test_records_are_told_apart():
+    assert [c.key for c in Cause] == list(_LISTED)  # a record each, in the order of the legend
     assert len(Cause) == len({c.label for c in Cause}) == len({c.color for c in Cause})
     assert [c.key for c in sorted(Cause)][:3] == ["agree", "edge", "depth_tie"]  # in frame.npz
     for cause in Cause:
