@@ -98,10 +98,9 @@ def draw_pixels(axes: Axes) -> None:
     [(low, high)] = swept.found_boxes
     for (x0, y0), (x1, y1) in zip(low.T, high.T, strict=True):
         image[y0 : y1 + 1, x0 : x1 + 1] = to_rgb(MISSED)
-    for kept in (k for tested in swept.tested for k in tested.kept):
-        pixel = swept.numbers(kept)
-        image.reshape(-1, 3)[pixel[kept.sure]] = to_rgb(SURE)
-        image.reshape(-1, 3)[pixel[~kept.sure]] = to_rgb(DOUBT)
+    image[swept.seen] = to_rgb(SURE)
+    for rivals in (k for tested in swept.tested for k in tested.rivals):
+        image.reshape(-1, 3)[swept.numbers(rivals)] = to_rgb(DOUBT)
     pixel_axes(axes, "3  Pixels of two triangles", width, height, 1)
     show(axes, image)
     outline(axes, film[np.array([(0, 1, 2), (0, 2, 3)])], plots.INK, 2)

@@ -40,12 +40,12 @@ class Look:
 
 @dataclass(frozen=True, eq=False)
 class Tested:
-    """EdgeFunctions that were evaluated together, what hid them, and the pairs that were kept."""
+    """EdgeFunctions that were evaluated together, what hid them, and the rivals that were kept."""
 
     found: EdgeFunctions
     boxes: Boxes
     depths: DepthBuffer
-    kept: list[Fragments] = field(default_factory=list)
+    rivals: list[Fragments] = field(default_factory=list)
 
 
 class Watched(sweep.Sweep):
@@ -74,9 +74,9 @@ class Watched(sweep.Sweep):
         grid = self._depths.nearness.reshape(-1, self._depths.stride)
         return grid[: region.height, : region.width] > -np.inf
 
-    def numbers(self, kept: Fragments) -> NDArray[np.integer]:
+    def numbers(self, rivals: Fragments) -> NDArray[np.integer]:
         """Which pixels pairs are of, row by row from the lowest."""
-        return self._depths.pixels(kept.pixel)
+        return self._depths.pixels(rivals.pixel)
 
     def boxes(self, expanded: Expanded) -> tuple[NDArray, NDArray, NDArray]:
         low, high, nearest = super().boxes(expanded)
@@ -107,10 +107,10 @@ class Watched(sweep.Sweep):
         return super().pairs(found, boxes, shape)
 
     def of_pairs(self, found: EdgeFunctions, pairs: Rasterised, surface: NDArray) -> Fragments:
-        kept = super().of_pairs(found, pairs, surface)
+        rivals = super().of_pairs(found, pairs, surface)
         if self._closely:
-            self.tested[-1].kept.append(kept)
-        return kept
+            self.tested[-1].rivals.append(rivals)
+        return rivals
 
 
 def watch(scene: Scene) -> Watched:
