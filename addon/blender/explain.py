@@ -18,8 +18,9 @@ from ..report import folders
 from ..scene import Scene, SceneError
 from . import ray_objects, results
 from .camera import export_camera
+from .compare import export_open_file
 from .engine import export_for_judge
-from .judges import JUDGES, judge_named
+from .judges import judge_named
 from .long_work import failed
 from .temporary import temporary_scene
 from .viewport import prepare_scene
@@ -51,18 +52,18 @@ def derive_here(
     if source == "COMPARISON" and latest:
         scene = latest.content.scene
     else:
-        scene = exported(context, source == "RENDER")
+        scene = export_open_file(context)[0] if source == "RENDER" else _compared(context)
     file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
     return derive(scene, x, y, limit, file)
 
 
-def exported(context: Any, as_rendered: bool = False) -> Scene:
-    """Export the context's scene as a comparison does, or as a render."""
+def _compared(context: Any) -> Scene:
+    """Export the context's scene as a comparison does."""
     scene, layer, stored = context.scene, context.view_layer.name, context.scene.reference_tracer
     export_camera(scene)  # first, as its errors name the user's scene and say what to do
-    judge = JUDGES["workbench"] if as_rendered else judge_named(stored.judge, bpy.app.background)
+    judge = judge_named(stored.judge, bpy.app.background)
     with temporary_scene(scene, layer, judge) as tmp:
-        prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE" and not as_rendered)
+        prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
         return export_for_judge(tmp, layer, judge)[0]
 
 
@@ -98,7 +99,6 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
     )
 
     def execute(self, context: Any) -> set[str]:
-        """Derive, show, and write if asked to."""
         try:
             writer = _writer(self.filepath)
             found = derive_here(context, self.x, self.y, self.source, self.limit)
@@ -130,12 +130,7 @@ def _write(filepath: str, text: str) -> None:
 class _OfLatest:
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Allow where a pixel was explained."""
         return results.latest(Derivation, context.scene) is not None
-
-    def found(self, context: Any) -> Derivation:
-        """Return its derivation."""
-        return results.latest(Derivation, context.scene).content
 
 
 class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
@@ -148,8 +143,8 @@ class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
     bl_options = {"UNDO"}
 
     def execute(self, context: Any) -> set[str]:
-        """Draw."""
-        collection = ray_objects.draw(context.scene, self.found(context))
+        found = results.latest(Derivation, context.scene).content
+        collection = ray_objects.draw(context.scene, found)
         self.report({"INFO"}, f"{len(collection.objects)} objects in '{collection.name}'")
         return {"FINISHED"}
 
@@ -162,11 +157,9 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Allow where there are some."""
         return ray_objects.are_drawn()
 
     def execute(self, context: Any) -> set[str]:
-        """Remove."""
         self.report({"INFO"}, f"{ray_objects.remove()} objects removed")
         return {"FINISHED"}
 
@@ -183,13 +176,11 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
     filter_glob: StringProperty(default="*.html;*.md;*.json", options={"HIDDEN"})  # type: ignore[valid-type]
 
     def invoke(self, context: Any, event: Any) -> set[str]:
-        """Ask for the file."""
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Any) -> set[str]:
-        """Write it."""
-        found = self.found(context)
+        found = results.latest(Derivation, context.scene).content
         try:
             writer = _writer(self.filepath)
             is_json = Path(self.filepath).suffix.lower() == ".json"

@@ -50,7 +50,6 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
         return {"CANCELLED"}
 
     def invoke(self, context: Any, event: Any) -> set[str]:
-        """Begin."""
         if bpy.app.background:
             return self.execute(context)
         type(self).running = True

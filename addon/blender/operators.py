@@ -49,7 +49,6 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
         return compared(gather_case(context))
 
     def finish(self, context: Any, result: Comparison) -> tuple[str, str]:
-        """Show the pictures and the numbers."""
         lines = results.keep_comparison(context, result).lines
         say(*result.manifest.lines(), *lines)
         return "INFO" if result.verdict == "agree" else "WARNING", lines[0]
@@ -69,7 +68,6 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
         return compare_all(context, self.directory)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        """Show the table."""
         lines = engines_report.lines(result)
         say(*results.keep(EngineRow, tuple(result), lines, context.scene.name).lines)
         verdict = engines.worst(result)
@@ -87,7 +85,6 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
     needs_camera = alone = True
 
     def begin(self, context: Any) -> Work[Any]:
-        """Return the work of all frames."""
         if context.screen and context.screen.is_animation_playing:
             raise SceneError("The animation is playing: stop it, then compare it.")
         folder = self.folder() or Path(_session_folder()) / "animation"
@@ -103,7 +100,6 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         return animation.compare_frames(str(folder), frames, told)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        """Show the table."""
         say(*results.latest(FrameRow, context.scene).lines)
         return "INFO" if self.left.endswith(": agree") else "WARNING", self.left.capitalize()
 
@@ -135,7 +131,6 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         return True
 
     def begin(self, context: Any) -> Work[page.Extras]:
-        """Return the work of finding out what the page shows besides."""
         self._folder = self.folder() or Path(_session_folder())
         self._comparison = results.latest(Comparison, context.scene).content
         return page.extras(self._comparison)
@@ -168,7 +163,6 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: Any) -> set[str]:
-        """Add it."""
         try:
             camera = frame_all(context.scene, context.view_layer)
         except Exception as error:

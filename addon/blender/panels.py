@@ -132,11 +132,9 @@ class _Result:
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Show only where there is one."""
         return results.latest(Comparison, context.scene) is not None
 
     def draw(self, context: Any) -> None:
-        """Draw the numbers."""
         comparison = results.latest(Comparison, context.scene).content
         pixels, measured = comparison.pixels, comparison.metrics
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
@@ -192,11 +190,9 @@ class OBJECT_PT_reference_tracer(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        """Show on every object."""
         return context.object is not None
 
     def draw(self, context: Any) -> None:
-        """Draw what the object is to the tracer."""
         self.layout.use_property_split = True
         self.layout.prop(context.object.reference_tracer, "infinite_plane")
 

@@ -58,7 +58,6 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         return tradeoff.measure(scene, self.width, self.samples, manifest.scene)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        """Show the table, the plot and the advice."""
         write_study(self._folder, lambda: trade_report.write(self._folder, result))
         lines = results.keep_trade(context, result).lines
         print(trade_report.table(result), *lines[1:], sep="\n")
@@ -89,7 +88,6 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         return measure(scenarios, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        """Show the breaking points and the maps."""
         write_study(self._folder, lambda: extremes_report.write(self._folder, result))
         lines = results.keep_extremes(context, result).lines
         print(extremes_report.breaking_table(result), *lines, sep="\n")
@@ -118,7 +116,6 @@ class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
     )
 
     def execute(self, context: Any) -> set[str]:
-        """Build the scene, and go there."""
         try:
             scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
         except Exception as error:
