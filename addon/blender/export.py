@@ -1,12 +1,13 @@
 """An evaluated Blender scene -> `scene.Scene` and its `Manifest`.
 
 The depsgraph says what is visible and evaluated, for the viewport or for a render as its mode has
-it. Triangles are read of the meshes that a ray can meet: what lies wholly outside the view is
-counted, and left out. Nothing of bpy is held in what is returned.
+it. What lies wholly outside the view is counted, and left out. Nothing of bpy is held in what is
+returned.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any
 
@@ -15,13 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..manifest import OUTSIDE, Manifest, ObjectEntry
-from ..scene import Camera, Instance, Mesh, Plane, Scene
+from ..scene import Camera, Instance, Plane, Scene
 from .camera import export_camera
 from .colors import background
 from .planes import outside
 from .temporary import user_scene
 from .unmodelled import of_scene
-from .visible import Seen, Shown, export_mesh, plain_mesh, read_vertices, visible
+from .visible import Read, Seen, Shown, read_mesh, visible
 
 NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
 
@@ -37,11 +38,9 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
         If the scene has no camera that can be traced.
     """
     scene = depsgraph.scene_eval
-    camera, shading = export_camera(scene), scene.display.shading
-    seen, shown, met = visible(depsgraph, shading, _meet)
-    unseen = _outside(camera, shown, met)
-    meshes = _read(depsgraph, shown, unseen, met)
-    parts, surfaces = assemble(seen, shown, unseen, meshes)
+    camera = export_camera(scene)
+    seen, shown, meshes = visible(depsgraph, scene.display.shading, read_mesh)
+    parts, surfaces = assemble(seen, shown, meshes, _outside(camera, shown, meshes))
     manifest = _manifest(depsgraph, camera.name, seen, meshes)
     whole = Scene(camera=camera, background=background(scene), **parts)
     return whole, replace(manifest, owners=tuple(s.owner for s in surfaces))
@@ -50,13 +49,13 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
 def assemble(
     seen: dict[str, Seen],
     shown: list[Shown],
-    unseen: NDArray[np.bool_],
-    meshes: dict[int, tuple[Mesh, int]],
+    meshes: dict[int, Read],
+    unseen: Collection[int] = (),
 ) -> tuple[dict[str, tuple], list[Shown]]:
     """Return the parts of a `Scene` but its camera and background, and what its surfaces show.
 
-    The meshes are by address, with the triangles left out; what is `unseen`, (k,), needs none.
-    What each object shows is counted in `seen`.
+    What is `unseen`, by its number in `shown`, is left out. What each object shows is counted in
+    `seen`.
     """
     numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
     # Numbered in the order in which they come, in the view or not: it stays when the camera moves.
@@ -64,8 +63,8 @@ def assemble(
     instances: list[tuple[Instance, Shown]] = []
     planes: list[tuple[Plane, Shown]] = []
     all_finite = np.isfinite([s.matrix for s in shown]).reshape(-1, 16).all(axis=1)
-    for item, out, finite in zip(shown, unseen, all_finite, strict=True):
-        name, _, key, matrix, colors, _ = item
+    for n, (item, finite) in enumerate(zip(shown, all_finite, strict=True)):
+        name, _, key, matrix, colors = item
         entry = seen[name]
         if key is None:
             if finite and matrix[:3, :2].any(axis=0).all():
@@ -75,7 +74,7 @@ def assemble(
             else:
                 entry.left_out += 1
             continue
-        if out:
+        if n in unseen:
             objects.setdefault(name, len(objects))
             entry.outside += 1
             continue
@@ -99,49 +98,14 @@ def assemble(
     return parts, [item for _, item in (*instances, *planes)]
 
 
-# A mesh as it was first met, before it is known whether it is outside the view: name, vertices.
-_Met = tuple[str, NDArray[np.float32]]
-
-
-def _meet(obj: Any, name: str) -> _Met | None:
-    with plain_mesh(obj) as mesh:
-        return (name, read_vertices(mesh)) if len(mesh.polygons) else None
-
-
-def _outside(camera: Camera, shown: list[Shown], met: dict[int, _Met | None]) -> NDArray[np.bool_]:
+def _outside(camera: Camera, shown: list[Shown], meshes: dict[int, Read]) -> set[int]:
     """Return which appearances no ray of the camera can meet; an infinite plane is none."""
-    boxes = {}
-    for key, mesh in met.items():
-        if mesh:
-            across = mesh[1].T.copy()  # one behind the other they are looked at much faster
-            boxes[key] = across.min(axis=1), across.max(axis=1)
-    on_mesh = [n for n, s in enumerate(shown) if s.key is not None]
-    out = np.zeros(len(shown), bool)
-    if on_mesh:
-        low, high = np.swapaxes([boxes[shown[n].key] for n in on_mesh], 0, 1)
-        out[on_mesh] = outside(camera, low, high, np.array([shown[n].matrix for n in on_mesh]))
-    return out
-
-
-def _read(
-    depsgraph: Any, shown: list[Shown], unseen: NDArray[np.bool_], met: dict[int, _Met | None]
-) -> dict[int, tuple[Mesh, int]]:
-    """Return the meshes that are not wholly unseen, by address, and the triangles left out."""
-    wanted = {s.key for s, out in zip(shown, unseen, strict=True) if not out} - {None}
-    with_colors = depsgraph.scene_eval.display.shading.color_type == "VERTEX"
-    meshes: dict[int, tuple[Mesh, int]] = {}
-    # Asked for again, as an instance's data is only sure to be there while it is handed out.
-    for item in depsgraph.object_instances if wanted else ():
-        if item.object.type != "MESH":
-            continue
-        key = item.object.data.as_pointer()
-        if key in wanted:
-            wanted.remove(key)
-            with plain_mesh(item.object) as mesh:
-                meshes[key] = export_mesh(mesh, *met[key], with_colors)
-            if not wanted:
-                break
-    return meshes
+    whole = [n for n, s in enumerate(shown) if s.key is not None and not meshes[s.key][1]]
+    if not whole:
+        return set()
+    low, high = np.swapaxes([meshes[shown[n].key][0].bounds for n in whole], 0, 1)
+    out = outside(camera, low, high, np.array([shown[n].matrix for n in whole]))
+    return set(np.array(whole)[out].tolist())
 
 
 def _plane(index: int, matrix: np.ndarray, color: NDArray[np.float32]) -> Plane:

@@ -15,7 +15,7 @@ import ctypes
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -55,29 +55,27 @@ class Shown(NamedTuple):
     key: int | None
     matrix: NDArray[np.float64]
     colors: NDArray[np.float32]
-    is_instance: bool
 
 
-Met = TypeVar("Met")  # what is kept of a mesh
+Read = tuple[Mesh, int]  # with the triangles left out
 
 _CORNERS = 12  # bytes: three int32
 
 
 def visible(
-    depsgraph: Any, shading: Any, meet: Callable[[Any, str], Met | None], space: Any = None
-) -> tuple[dict[str, Seen], list[Shown], dict[int, Met | None]]:
+    depsgraph: Any, shading: Any, read: Callable[[Any, str, bool], Read | None], space: Any = None
+) -> tuple[dict[str, Seen], list[Shown], dict[int, Read | None]]:
     """Return by name what is visible, every appearance of it, and the meshes by address.
 
-    `meet` is called with the evaluated object and the name by which a mesh is first met; it
-    returns what to keep of it, None where it has no face. The shading is a `View3DShading`. Of a
-    `space`, a `SpaceView3D`, what is shown in that view alone decides: local view, local
-    collections, types of objects.
+    The shading is a `View3DShading`; each mesh is read once, by :func:`read_mesh` or what knows it
+    already. Of a `space`, a `SpaceView3D`, what is shown in that view alone decides: local view,
+    local collections, types of objects.
     """
     viewport, layer = depsgraph.mode == "VIEWPORT", depsgraph.view_layer
     judge, color_type = judge_of(depsgraph.scene), shading.color_type
     seen: dict[str, Seen] = {}
     shown: list[Shown] = []
-    met: dict[int, Met | None] = {}
+    meshes: dict[int, Read | None] = {}
     # Instances of one mesh by one object look the same, but for the colour that each may inherit.
     modelled: set[tuple] = set()  # as a whole
     all_colors: dict[tuple, NDArray[np.float32]] = {}
@@ -120,9 +118,9 @@ def visible(
         elif not mesh or (viewport and unfilled(obj, holder)):
             continue
         else:
-            if key not in met:
-                met[key] = meet(obj, name)
-            if met[key] is None:
+            if key not in meshes:
+                meshes[key] = read(obj, name, color_type == "VERTEX")
+            if meshes[key] is None:
                 continue
         if look not in all_colors:
             materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
@@ -132,9 +130,8 @@ def visible(
             if color_type == "MATERIAL" and not entry.is_plane:
                 entry.empty_slots = max(entry.empty_slots, materials.count(None))
         matrix = np.array(item.matrix_world, dtype=np.float64)
-        colors = all_colors[look]
-        shown.append(Shown(name, owner.name_full, key, matrix, colors, item.is_instance))
-    return seen, shown, met
+        shown.append(Shown(name, owner.name_full, key, matrix, all_colors[look]))
+    return seen, shown, meshes
 
 
 def types_left_out(space: Any) -> set[str]:
@@ -169,39 +166,21 @@ def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
     features[key] = found
 
 
-@contextmanager
-def plain_mesh(obj: Any) -> Iterator[Any]:
-    """Give an evaluated object's mesh with all of its faces and attributes.
-
-    In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
-    """
-    if not obj.data.is_editmode:
-        yield obj.data
-        return
-    try:
-        yield obj.to_mesh()
-    finally:
-        obj.to_mesh_clear()
-
-
-def read_vertices(mesh: Any) -> NDArray[np.float32]:
-    """Return the vertices of an evaluated `bpy.types.Mesh` that has some, (v, 3) object space."""
-    return _read(mesh.attributes["position"].data, "vector", 3, np.float32)
-
-
-def export_mesh(
-    mesh: Any, name: str, vertices: NDArray[np.float32], with_colors: bool
-) -> tuple[Mesh, int]:
-    """Return the loop triangles of an evaluated mesh with faces, and how many were left out.
+def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
+    """Return the loop triangles of an evaluated object's mesh, and how many were left out.
 
     They are numbered as `mesh.loop_triangles`, but for those that touch a vertex that is not
-    finite, which are left out. The vertices (v, 3) are its own, as :func:`read_vertices` gives
-    them; `with_colors` says whether its active colour attribute is what will be shown.
+    finite, which are left out; None if there is no face. `with_colors` says whether the active
+    colour attribute is what will be shown.
     """
-    loops = _loops(mesh.loop_triangles)
-    triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
-    slots = _slots(mesh)
-    colors = _corner_colors(mesh, triangles, loops) if with_colors else None
+    with _plain(obj) as mesh:
+        if not len(mesh.polygons):
+            return None
+        loops = _loops(mesh.loop_triangles)
+        triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
+        slots = _slots(mesh)
+        colors = _corner_colors(mesh, triangles, loops) if with_colors else None
+        vertices = _read(mesh.attributes["position"].data, "vector", 3, np.float32)
     vertices, keep = drop_non_finite(vertices, triangles)
     left_out = len(keep) - int(keep.sum())
     if left_out:
@@ -209,6 +188,18 @@ def export_mesh(
         slots = None if slots is None else slots[keep]
         colors = None if colors is None else colors[keep]
     return Mesh(vertices, triangles, slots, colors, name), left_out
+
+
+@contextmanager
+def _plain(obj: Any) -> Iterator[Any]:
+    """Give an evaluated object's mesh with all of its faces and attributes.
+
+    In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
+    """
+    try:
+        yield obj.to_mesh() if obj.data.is_editmode else obj.data
+    finally:
+        obj.to_mesh_clear()
 
 
 def _loops(triangles: Any) -> NDArray[np.int32]:
