@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable
+import traceback
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -192,3 +193,15 @@ def words(error: BaseException) -> str:
     if isinstance(error, MemoryError) and not isinstance(error, PictureTooLargeError):
         return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"
     return text or type(error).__name__
+
+
+def failure(work: Callable[..., object], *arguments: object) -> str:
+    """Do some work; returns what went wrong, if something did, in words."""
+    try:
+        work(*arguments)
+    except (*EXPECTED, ValueError) as error:
+        return words(error)
+    except Exception as error:  # whatever it is, the user must hear of it
+        traceback.print_exc()
+        return f"Reference Tracer failed: {type(error).__name__}: {error}"
+    return ""

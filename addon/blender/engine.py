@@ -8,14 +8,13 @@ leave Blender writing an empty picture and exiting with 0.
 from __future__ import annotations
 
 import time
-import traceback
 from collections.abc import Sequence
 from typing import Any
 
 import bpy
 import numpy as np
 
-from ..arguments import EXPECTED, words
+from ..arguments import failure
 from ..compare.certificate import CameraCertificate
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
@@ -52,16 +51,9 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: Any) -> None:
         """Render one view layer of one frame."""
-        try:
-            if _captured is not None and is_temporary(depsgraph.scene):
-                _captured.append(export_certified(depsgraph))
-                return
-            self._trace(depsgraph)
-        except (*EXPECTED, ValueError) as error:
-            self.report({"ERROR"}, words(error))
-        except Exception as error:  # whatever it is, Blender must hear of it
-            traceback.print_exc()
-            self.report({"ERROR"}, f"Reference Tracer failed: {type(error).__name__}: {error}")
+        captures = _captured is not None and is_temporary(depsgraph.scene)
+        if error := failure(_capture if captures else self._trace, depsgraph):
+            self.report({"ERROR"}, error)
 
     def view_update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed for a 3D view in Rendered mode; each has its own engine."""
@@ -146,6 +138,10 @@ def export_certified(depsgraph: Any) -> Certified:
     """Return what :func:`export.export` does, and how well its camera is Blender's own."""
     scene, manifest = export(depsgraph)
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
+
+
+def _capture(depsgraph: Any) -> None:
+    _captured.append(export_certified(depsgraph))
 
 
 def export_for_render(scene: Any) -> Certified:

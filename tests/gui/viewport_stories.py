@@ -95,7 +95,7 @@ def viewport_events():
         found["same"] = int((np.abs(screen("after") - before) > 1).any(axis=-1).sum())
     yield from in_mode("SOLID")
     gc.collect()
-    noted["left"] = [len(live()), len(alive("job.Job")), len(alive("drawing.Textures"))]
+    noted["left"] = [len(live()), len(alive("view.Job")), len(alive("drawing.Textures"))]
 
 
 def moved(found):

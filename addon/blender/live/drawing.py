@@ -10,8 +10,11 @@ import textwrap
 import time
 from typing import Any
 
+import numpy as np
+
 from .shows import Picture
 
+Place = tuple[float, float, float, float]  # left, bottom; a pixel's width, height: of the region's
 BAND = 1 << 17  # pixels of a texture: it is made in some 2 ms
 _LETTER = 0.55  # mean width of Blender's font, in its size
 _SIZE = 14  # of words, points
@@ -44,14 +47,37 @@ def pixel_shader() -> Any:
     return gpu.shader.create_from_info(info)
 
 
+class Layers:
+    """Pictures on the graphics card, one over the other; what lies below a whole one goes."""
+
+    def __init__(self) -> None:
+        self._textures: list[Textures] = []
+        self._shader: Any = None
+
+    def add(self, picture: Picture, place: Place) -> None:
+        """Have a picture drawn over the others, if it is not."""
+        if not any(t.color is picture.color for t in self._textures):
+            self._textures.append(Textures(picture, place))
+
+    def draw(self, width: int, height: int, until: float) -> bool:
+        """Draw what is done over a region, in pixels; True if something could not be by a time."""
+        self._shader = self._shader or pixel_shader()
+        left = [textures.upload(until) for textures in self._textures]
+        whole = [n for n, textures in enumerate(self._textures) if textures.is_whole]
+        del self._textures[: max(whole, default=0)]
+        for textures in self._textures:
+            textures.draw(self._shader, width, height)
+        return any(left)
+
+
 class Textures:
     """What of a picture is on the graphics card: bands of rows, from the lowest."""
 
-    def __init__(self, picture: Picture) -> None:
+    def __init__(self, picture: Picture, place: Place) -> None:
         height, width = picture.color.shape[:2]
         step = max(1, BAND // width)
-        self._picture: Picture | None = picture
-        self.color = picture.color  # of which they are
+        self.color = picture.color
+        self._rows_done, self._place = picture.rows_done, place
         self._missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
         self._bands: list[tuple[int, Any]] = []  # the first row of each
 
@@ -67,32 +93,26 @@ class Textures:
         """
         import gpu
 
-        if self._picture is None:
-            return False
-        done = [rows for rows in self._missing if self._picture.rows_done[rows].all()]
+        done = [rows for rows in self._missing if self._rows_done[rows].all()]
         for number, rows in enumerate(done, start=1):
-            data = self._picture.color[rows]
+            data = self.color[rows]
             buffer = gpu.types.Buffer("FLOAT", (data.size,), data.reshape(-1))
             texture = gpu.types.GPUTexture(data.shape[1::-1], format="RGBA32F", data=buffer)
             self._bands.append((rows.start, texture))
             self._missing.remove(rows)
             if time.perf_counter() > until:
                 return number < len(done)
-        if self.is_whole:
-            self._picture = None  # its memory is free
         return False
 
-    def draw(self, shader: Any, x: float, y: float, width: float, height: float) -> None:
-        """Draw what is there, its lower left corner at (x, y), and its pixels of this size.
-
-        All are pixels of the region.
-        """
+    def draw(self, shader: Any, width: int, height: int) -> None:
+        """Draw what is there over a region of this size."""
         from gpu_extras.batch import batch_for_shader
 
+        left, bottom, across, up = np.multiply(self._place, (width, height) * 2)
         for row, texture in self._bands:
             w, h = texture.width, texture.height
             corners = (0, 0), (w, 0), (0, h), (w, h)
-            pos = [(x + i * width, y + (row + j) * height) for i, j in corners]
+            pos = [(left + i * across, bottom + (row + j) * up) for i, j in corners]
             batch = batch_for_shader(shader, "TRI_STRIP", {"pos": pos, "at": corners})
             shader.uniform_sampler("image", texture)
             batch.draw(shader)

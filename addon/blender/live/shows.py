@@ -61,7 +61,6 @@ class Show(NamedTuple):
     description: str
     number: int  # what a .blend stores: one that was given away is never given to another
     steps: Callable[[Scene, Settings, Picture], Iterator[float]]
-    is_drawn: bool = False  # whether Blender draws for it, in a scene that comes and goes
 
 
 Rows = Callable[[Frame, slice], NDArray]  # what is shown of rows of a frame, linear RGBA
@@ -169,7 +168,6 @@ SHOWS = (
         "differ have the colour of their cause, as in a comparison",
         2,
         difference,
-        is_drawn=True,
     ),
     Show(
         "CERTAINTY",

@@ -8,19 +8,18 @@ kept: Blender frees the engine whose view this is, and all that is here goes wit
 from __future__ import annotations
 
 import time
-import traceback
 import weakref
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 
-from ...arguments import EXPECTED, words
-from ...scene import Camera, alike
+from ...arguments import failure
+from ...scene import Camera
+from ...tracer.settings import Settings
 from . import shows
-from .camera import camera_of
-from .drawing import draw_words, pixel_shader
-from .job import Job, Wanted
+from .camera import camera_of, coarser
+from .drawing import Layers, draw_words
 from .kept import KeptScene
 
 AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
@@ -30,12 +29,47 @@ LINES = 2  # of what the picture lacks, in the view's corner
 SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
 
+class Wanted(NamedTuple):
+    """What a view is to show; two that are equal look the same."""
+
+    camera: str  # all that it has
+    version: int  # of the scene
+    settings: Settings
+    show: shows.Show
+    space: int  # the address of the view's
+
+
+class Job:
+    """A picture in the making, whose pixels are `factor` times as wide and high as the view's."""
+
+    def __init__(self, wanted: Wanted, kept: KeptScene, camera: Camera, factor: int) -> None:
+        self.wanted, self.factor, self.seconds = wanted, factor, 0.0
+        scene = kept.scene(camera if factor == 1 else coarser(camera, factor))
+        width, height = factor / camera.width, factor / camera.height
+        corner = scene.camera.region
+        self.place = corner.x0 * width, corner.y0 * height, width, height
+        self.picture = shows.Picture.empty(scene.camera, wanted.space, factor > 1)
+        self._work = wanted.show.steps(scene, wanted.settings, self.picture)
+
+    def step(self) -> None:
+        """Do one step of the work; the last one frees what it holds."""
+        began = time.perf_counter()
+        if self._work and next(self._work, None) is None:
+            self._work = None
+        self.seconds += time.perf_counter() - began
+
+    @property
+    def is_done(self) -> bool:
+        """Whether there is nothing left to do."""
+        return self._work is None
+
+
 class LiveView:
     """The state of a 3D view."""
 
     def __init__(self) -> None:
         self._kept = KeptScene()
-        self._version = 0
+        self._layers = Layers()
         self._wanted: Wanted | None = None
         self.camera: Camera | None = None  # of what is wanted
         self.shown: Job | None = None  # the best one that is done
@@ -43,7 +77,6 @@ class LiveView:
         self._factor = COARSE
         self._unread = self.said = ""  # why there is no scene; why what is wanted is not shown
         self._timer: Any = None
-        self._shader: Any = None
         self._drawn, self._is_drawn = 0.0, False  # when; whether all that is known
 
     @property
@@ -53,20 +86,14 @@ class LiveView:
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
-        before = None
-        if self._wanted and self._wanted.show.is_drawn and not self._unread:
-            # Its drawing, which comes and goes, may be all that has changed.
-            before = self._kept.scene(self.camera)
-        self._unread = _said(self._kept.update, depsgraph, context.space_data)
-        if self._unread or not (before and alike(before, self._kept.scene(self.camera))):
-            self._version += 1
+        self._unread = failure(self._kept.update, depsgraph, context.space_data)
 
     def draw(self, engine: Any, context: Any, depsgraph: Any) -> None:
         """Draw the view, as well as it is known at once."""
         if self._kept.outdated(context.space_data):
             self.update(context, depsgraph)
         until = time.perf_counter() + SLOW
-        if error := self._unread or _said(self._aim, context):
+        if error := self._unread or failure(self._aim, context):
             self._give_up(error)
             self._wanted = None  # whatever is wanted next is to be tried
         while self._job and self._job.factor > 1 and time.perf_counter() < until:
@@ -81,8 +108,7 @@ class LiveView:
         until = time.perf_counter() + AT_ONCE
         while self._job and time.perf_counter() < until:
             self._step()
-        due = self._job and until > self._drawn + SHOW_EVERY
-        if not self._is_drawn or (due and self._job.has_grown()):
+        if not self._is_drawn or (self._job and until > self._drawn + SHOW_EVERY):
             engine.tag_redraw()
         return 0.0 if self._job else None
 
@@ -92,13 +118,13 @@ class LiveView:
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
         show, view = shows.chosen(context), space.as_pointer()
-        wanted = Wanted(str(camera.to_dict()), self._version, settings, show, view)
+        wanted = Wanted(str(camera.to_dict()), self._kept.version, settings, show, view)
         if self._wanted != wanted:
             self._wanted, self.camera, self.said = wanted, camera, ""
         # A coarse picture of where the view has just been is finished: a view that never rests
         # would never show one.
         job = self._job
-        if job and job.wanted != wanted and (job.factor == 1 or not wanted.is_moved(job.wanted)):
+        if job and job.wanted != wanted and (job.factor == 1 or job.wanted[1:] != wanted[1:]):
             self._job = None
         self._begin()
 
@@ -113,51 +139,39 @@ class LiveView:
     def _step(self) -> None:
         """Do one step; a picture that is done with it is shown, and a better one begun."""
         job = self._job
-        if error := _said(job.step):
+        if error := failure(job.step):
             self._give_up(error)
         elif job.is_done:
             if job.factor > 1:  # the time falls with the pixels: from one to the other a quarter
                 share = job.seconds / SLOW * (job.factor / COARSE) ** 2
                 self._factor = COARSER if share > 1 else COARSE
-            job.replace(self.shown)
+            self._layers.add(job.picture, job.place)
             self.shown, self._job, self._is_drawn = job, None, False
-            self._give_up(_said(self._begin))
+            self._give_up(failure(self._begin))
 
     def _give_up(self, error: str) -> None:
         """Show nothing but what went wrong, if something did."""
         if error:
             self.said, self.shown, self._job, self._is_drawn = error, None, None, False
+            self._layers = Layers()
 
     def _draw(self, engine: Any, context: Any, until: float) -> None:
         import gpu
 
         region = context.region
         gpu.state.blend_set("NONE")  # what is better replaces what is below, where it is done
-        self._shader = self._shader or pixel_shader()
-        jobs = [job for job in (self.shown, self._job) if job]
-        left = [job.draw(self._shader, region.width, region.height, until) for job in jobs]
-        self._is_drawn = not any(left)
+        if self._job:
+            self._layers.add(self._job.picture, self._job.place)
+        self._is_drawn = not self._layers.draw(region.width, region.height, until)
         if not self._is_drawn:
             engine.tag_redraw()
         if self.said:
             draw_words(self.said, region, context.preferences.system.ui_scale)
-        own = [job.picture.line for job in jobs if job.picture.line]
-        lines = own[-1:] + list(self._kept.lines[:LINES])
+        own = [job.picture.line for job in (self._job, self.shown) if job and job.picture.line]
+        lines = own[:1] + list(self._kept.lines[:LINES])
         more = len(self._kept.lines) - LINES
         engine.update_stats("", "; ".join(lines) + (f"; and {more} more" if more > 0 else ""))
         self._drawn = time.perf_counter()
-
-
-def _said(work: Any, *arguments: Any) -> str:
-    """Do some work; returns what went wrong in words, or nothing."""
-    try:
-        work(*arguments)
-    except (*EXPECTED, ValueError) as error:
-        return words(error)
-    except Exception as error:  # whatever it is, the view must say so
-        traceback.print_exc()
-        return f"Reference Tracer failed: {type(error).__name__}: {error}"
-    return ""
 
 
 def _tick(reference: weakref.ref) -> float | None:
