@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -100,10 +101,9 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         try:
-            writer = _writer(self.filepath)
             found = derive_here(context, self.x, self.y, self.source, self.limit)
-            if writer:
-                _write(self.filepath, writer(found))
+            if self.filepath:
+                _write(self.filepath, found)
         except Exception as error:
             return failed(self, error)
         said = answer_sentence(found)
@@ -116,15 +116,13 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _writer(filepath: str) -> Any:
-    suffix = Path(filepath).suffix.lower()
-    if filepath and suffix not in WRITERS:
-        raise SceneError(f"'{filepath}' must end in {' or '.join(WRITERS)}")
-    return WRITERS.get(suffix)
-
-
-def _write(filepath: str, text: str) -> None:
-    folders.write_text(Path(bpy.path.abspath(filepath)), text)
+def _write(filepath: str, found: Derivation, **other: Callable[[Derivation], str]) -> None:
+    """Write a derivation as the file's ending says; `other` writers are by theirs."""
+    writers = WRITERS | {f".{ending}": writer for ending, writer in other.items()}
+    path = Path(bpy.path.abspath(filepath))
+    if path.suffix.lower() not in writers:
+        raise SceneError(f"'{filepath}' must end in {' or '.join(writers)}")
+    folders.write_text(path, writers[path.suffix.lower()](found))
 
 
 class _OfLatest:
@@ -182,10 +180,7 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
     def execute(self, context: Any) -> set[str]:
         found = results.latest(Derivation, context.scene).content
         try:
-            writer = _writer(self.filepath)
-            is_json = Path(self.filepath).suffix.lower() == ".json"
-            text = reproducer.text(found.pixel) if is_json else writer(found)
-            _write(self.filepath, text)
+            _write(self.filepath, found, json=lambda found: reproducer.text(found.pixel))
         except Exception as error:
             return failed(self, error)
         self.report({"INFO"}, f"Saved {self.filepath}")
