@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 
 from . import running
-from .commands import COMMANDS
+from .commands import HELP, PLACES
 from .parser import EXIT_CODES_HELP, Parser
 
 
@@ -49,7 +49,8 @@ def parser(argv: Sequence[str]) -> Parser:
     commands = out.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     asked = next((word for word in argv if not word.startswith("-")), None)
     installed = {found.name: found for found in entry_points(group="reference_tracer.commands")}
-    for name, (place, text) in COMMANDS.items():
+    for name, text in HELP.items():
+        place = PLACES.get(name)
         if not place and name not in installed:
             # Without a prefix of options, all that follows is positional, --help too.
             missing = commands.add_parser(

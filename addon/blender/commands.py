@@ -11,7 +11,7 @@ from typing import Any
 import bpy
 
 from .. import running
-from ..commands import COMMANDS, compare, files, studies
+from ..commands import HELP, compare, files, studies
 from ..parser import EXIT_CODES_HELP, Parser
 
 _ADD = {
@@ -47,7 +47,7 @@ def _parser() -> Parser:
     # A backup's name ends in .blend1; that no file is open is said once one is needed.
     file = Path(bpy.data.filepath or "none").with_suffix(".blend")
     for name, add in _ADD.items():
-        own = commands.add_parser(name, help=COMMANDS[name][1])
+        own = commands.add_parser(name, help=HELP[name])
         own.opened = file
         add(own)
     return parser

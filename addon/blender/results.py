@@ -62,7 +62,8 @@ def keep_extremes(context: Any, rows: Sequence[ExtremesRow]) -> Result:
     """Remember where each method breaks, and show the pictures of it if there can be any."""
 
     def plots() -> Iterable[tuple[str, NDArray[np.uint8]]]:
-        return ((plot_name(n), p) for n, p in extremes_report.pictures(rows))
+        for name, picture in extremes_report.pictures(rows):
+            yield f"Reference Tracer {name.replace('_', ' ').title()}", picture
 
     lines = [_extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
     return keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
@@ -132,11 +133,6 @@ def latest(kind: type, scene: Any) -> Result | None:
 def forget() -> None:
     """Drop all results, as when another file is opened."""
     _latest.clear()
-
-
-def plot_name(name: str) -> str:
-    """Return what the image of a study's picture is named: 'map_this_and_that' by its words."""
-    return f"Reference Tracer {name.replace('_', ' ').title()}"
 
 
 def show(name: str, color: NDArray) -> Any:
