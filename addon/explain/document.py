@@ -1,9 +1,14 @@
 """A derivation as a lecture: headings, sentences and tables, for Markdown and HTML alike.
 
-In comes a `Derivation`; out goes a list of blocks, which hold text and no markup.
+In comes a `Derivation`; out goes a list of blocks, which hold text and no markup. The sentences are
+in `document.toml`.
 """
 
 from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
 
 from ..images import to_display
 from ..tracer.certified.certainty import Certainty
@@ -15,14 +20,15 @@ from .formulas import ERRATA
 from .pixel import CERTAINTY_SENTENCES
 from .textbook import FLOATS, Arithmetic, Judgement
 
-READING = (
-    "How to read the tables: every number is computed three times, from the same input and by the "
-    "same formula: in float32, in float64, and exactly, with fractions of integers. A float "
-    "is written with as many digits as tell it from its neighbours; marked digits are wrong. “off” "
-    "is the error in ulp, units in the last place: a number that is as good as its type allows is "
-    "off by 0.5 at most. An exact number that ends in … has more digits (the JSON has it whole, as "
-    "a fraction)."
-)
+_TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+
+
+def _text(name: str, **of: Any) -> str:
+    return _TEXTS[name].strip().format(**of)
+
+
+def _said(name: str, tone: str = "", **of: Any) -> Paragraph:
+    return Paragraph(_text(name, **of), tone)
 
 
 def lecture(derivation: Derivation) -> list[Block]:
@@ -50,53 +56,39 @@ def document_markdown(derivation: Derivation) -> str:
 def _opening(derivation: Derivation) -> list[Block]:
     pixel, camera = derivation.pixel, derivation.pixel.camera
     of = f" of {pixel.source}" if pixel.source else ""
-    part = ""
+    start, end = (digits_text(float(t)) for t in (camera.clip_start, camera.clip_end))
+    shown = [_text("camera", camera=camera, start=start, end=end)]
     if (camera.region.width, camera.region.height) != (camera.width, camera.height):
-        part = (
-            f" The border shows a part: this is pixel ({pixel.column}, {pixel.row}) of the whole."
-        )
+        shown.append(_text("border", pixel=pixel))
     other_t = []  # of what is seen: the one that the tables come to
     if test := derivation.seen_test:
         t = digits_text(test.number("t", Arithmetic.FLOAT64))
-        other_t.append(Paragraph(f"By the textbook’s formula in float64, t = {t} m.", "note"))
+        other_t.append(_said("other_t", "note", t=t))
     return [
         Heading(1, f"The ray through pixel ({pixel.x}, {pixel.y}){of}"),
         Paragraph(answer_sentence(derivation), "answer"),
         *other_t,
-        Paragraph(
-            f"Camera “{camera.name}”: {camera.projection.name}, {camera.width} × {camera.height} "
-            f"pixels, it shows depths from {digits_text(float(camera.clip_start))} m to "
-            f"{digits_text(float(camera.clip_end))} m. "
-            f"Pixel (0, 0) is the lower left.{part}"
-        ),
-        Paragraph(READING, "note"),
+        Paragraph(" ".join(shown)),
+        _said("reading", "note"),
     ]
 
 
 def answer_sentence(derivation: Derivation) -> str:
     """Return what is seen, in a sentence, and where its t comes from."""
-    seen = derivation.seen
+    seen, certified = derivation.seen, derivation.certified
     if seen is None:
-        return "The ray meets nothing within the clip range: the pixel shows the background."
-    proven = derivation.certified.certainty is not Certainty.NOT_CERTIFIED
-    origin = "proven: the exact value, rounded once" if proven else "not proven"
-    return (
-        f"The pixel sees {seen.title}, at t = {digits_text(derivation.certified.t)} m ({origin})."
-    )
+        return _text("background")
+    proven = certified.certainty is not Certainty.NOT_CERTIFIED
+    origin = _text("proven" if proven else "not_proven")
+    return _text("answer", seen=seen, t=digits_text(certified.t), origin=origin)
 
 
 def _camera(derivation: Derivation) -> list[Block]:
     return [
         Heading(2, "1. From the pixel to the ray", "1"),
-        Paragraph(
-            "The camera looks through its view window, which the pixels divide evenly. The ray "
-            "through the middle of a pixel is x = o + t d."
-        ),
+        _said("window"),
         numbers(derivation.camera),
-        Paragraph(
-            "From here on, the ray in float64 and the corners in float64 are the scene, exactly as "
-            "they are stored; the exact numbers below are about them. Float32 has them rounded."
-        ),
+        _said("stored"),
         numbers(derivation.ray),
     ]
 
@@ -105,27 +97,20 @@ def _candidates(derivation: Derivation) -> list[Block]:
     pixel, tests = derivation.pixel, derivation.tests
     triangles = sum(not t.candidate.is_plane for t in tests)
     planes = len(tests) - triangles
-    lines = [
-        f"Of {pixel.triangles:,} triangles in the scene, {triangles + pixel.left_out:,} have a box "
-        "on the film that holds the pixel's centre, before the eye or behind it; no other can be "
-        "met."
-    ]
+    lines = [_text("boxes", pixel=pixel, count=triangles + pixel.left_out)]
     if pixel.left_out:
-        lines.append(
-            f"{triangles:,} of them are below, {pixel.left_out:,} are left out: first comes what "
-            "the textbook accepts, the nearest first, then what the ray passes most closely."
-        )
+        lines.append(_text("left_out", pixel=pixel, triangles=triangles))
     if planes:
-        lines.append(f"Infinite planes may be met by any ray: {planes:,}, all below.")
+        lines.append(_text("planes", planes=planes))
     if pixel.refused:
-        lines.append(f"{pixel.refused:,} triangles have a corner that is not finite: left out.")
+        lines.append(_text("refused", pixel=pixel))
     out: list[Block] = [Heading(2, "2. What the ray may meet", "2"), Paragraph(" ".join(lines))]
     if not tests:
         return out
     rows = tuple(_summary(k, test) for k, test in enumerate(tests, 1))
     out.append(Table(("", "surface", "t", "s₁", "s₂", "s₃", *(k.value for k in Arithmetic)), rows))
     if triangles:
-        out += [Paragraph(f"Erratum {k}: {e}", "note") for k, e in enumerate(ERRATA, 1)]
+        out += [_said("erratum", "note", number=k, erratum=e) for k, e in enumerate(ERRATA, 1)]
     return out
 
 
@@ -149,8 +134,7 @@ def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
     for kind in FLOATS:
         said = test.verdicts[kind].accepted
         if said != truth:
-            does = "accepts what is truly missed" if said else "rejects what is truly hit"
-            out.append(Paragraph(f"{kind.capitalize()} {does}.", "warning"))
+            out.append(_said("accepts" if said else "rejects", "warning", kind=kind.capitalize()))
     return out
 
 
@@ -180,9 +164,9 @@ def _nearest(derivation: Derivation) -> list[Block]:
     )
     return [
         Heading(2, "3. The nearest", "3"),
-        Paragraph("Of all that is accepted, the least t is seen: the textbook's answer."),
+        _said("nearest"),
         Table(("", "sees", "t"), tuple(rows)),
-        Paragraph("What the tracer's methods see of these, beside what is proven:"),
+        _said("methods"),
         Table(("method", "precision", "sees", "t", ""), methods),
     ]
 
@@ -190,34 +174,28 @@ def _nearest(derivation: Derivation) -> list[Block]:
 def _color(derivation: Derivation) -> list[Block]:
     seen = derivation.seen
     if seen is None:
-        said = "Nothing is met, so the pixel has the background's colour."
+        why = "color_of_background"
     elif len(seen.colors) > 1 and not derivation.shading:
-        said = "A colour at a corner is not finite, and so the mean of the corners' may not be."
+        why = "color_not_finite"
     elif derivation.shading:
-        said = "The colour is the mean of those at the corners, weighed by s₁, s₂, s₃; alpha is 1."
-    elif seen.is_plane:
-        said = f"Constant shading: the colour of {seen.object}; alpha is 1."
+        why = "color_mean"
     else:
-        said = (
-            f"Constant shading: the colour of material slot {seen.slot} of {seen.object}; alpha is "
-            "1 on every surface, and light plays no part."
-        )
+        why = "color_of_plane" if seen.is_plane else "color_of_slot"
     steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
     rgba = ", ".join(digits_text(v) for v in derivation.color)
-    shown = to_display([[derivation.color]])[0, 0, :3]
-    srgb = "#" + "".join(f"{v:02x}" for v in shown)
-    text_ = f"linear RGBA ({rgba}); on a screen (sRGB) {srgb}"
-    return [Heading(2, "4. Its colour", "4"), Paragraph(said), *steps, Paragraph(text_, "", srgb)]
+    srgb = "#" + "".join(f"{v:02x}" for v in to_display([[derivation.color]])[0, 0, :3])
+    shown = Paragraph(_text("rgba", rgba=rgba, srgb=srgb), "", srgb)
+    return [Heading(2, "4. Its colour", "4"), _said(why, seen=seen), *steps, shown]
 
 
 def _certain(derivation: Derivation) -> list[Block]:
     certified = derivation.certified
-    said = CERTAINTY_SENTENCES[certified.certainty]
+    sentence, answer = CERTAINTY_SENTENCES[certified.certainty], answer_sentence(derivation)
     out: list[Block] = [
         Heading(2, "5. How certain this is", "5"),
-        Paragraph(f"{answer_sentence(derivation)} This is {said}.", "answer"),
+        _said("certain", "answer", answer=answer, sentence=sentence),
     ]
     if certified.ties:
         names = "; ".join(sorted(derivation.title_of(n) for n in certified.ties))
-        out.append(Paragraph(f"All that this pixel may be said to see: {names}.", "warning"))
+        out.append(_said("ties", "warning", names=names))
     return out
