@@ -12,12 +12,14 @@ from ..methods import MEASURED, Method
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
 from ..study.scenarios.sweeps import BY_NAME, Map
 from . import plots
+from .tables import STUDIES
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.colors import Colormap
     from matplotlib.image import AxesImage
 
+_SAID = STUDIES["extremes"]["pictures"]
 # Of the sweeps: without the literal textbook, which loses half of all rays and hides the others.
 SWEPT = tuple(m for m in MEASURED if m is not Method.TEXTBOOK_LITERAL)
 ACROSS = 4  # sweeps beside one another
@@ -55,8 +57,7 @@ def breaking_picture(rows: Sequence[ExtremesRow]) -> NDArray[np.uint8]:
         x, y = columns.index((p.method, p.precision)), names.index(p.scenario)
         _point(axes, x, y, p, list(dict.fromkeys(r.scale for r in sweeps[p.scenario])))
     _key(axes, len(names) + 0.3)
-    title = "Where each method breaks: the first scale at which a ray is missed or wrong"
-    plots.headline(figure, title, 18)
+    plots.headline(figure, _SAID["breaking"], 18)
     return plots.pixels(figure)
 
 
@@ -82,20 +83,11 @@ def _cell(axes: Axes, box: tuple[float, ...], text: str, color: Any, ink: str, s
 
 def _key(axes: Axes, y: float) -> None:
     """Explain the colours and the plus, below the table."""
-    early = "the first scale at which rays are lost: dark where it is early"
-    holds = "at no scale is a ray lost. (ulp: the distance from one float64 number to the next.)"
-    doubled = (
-        "no ray is lost, but at some scale a ray crosses more triangles than there are. "
-        "A + in other cells: that, too"
-    )
-    for text, color, meaning in (
-        ("1e5", _colormap()(0.3), early),
-        ("never", NEVER, holds),
-        ("never +", DOUBLED, doubled),
-    ):
+    colors = {"early": _colormap()(0.3), "holds": NEVER, "doubled": DOUBLED}
+    for text, (meaning, color) in zip(("1e5", "never", "never +"), colors.items(), strict=True):
         ink = _INKS.get(color, plots.INK)
         _cell(axes, (_LEFT, y + 0.05, 0.7, 0.55), text, color, ink, 12)
-        axes.text(_LEFT + 0.8, y + 0.33, meaning, va="center", fontsize=12, color=plots.GREY)
+        axes.text(_LEFT + 0.8, y + 0.33, _SAID[meaning], va="center", fontsize=12, color=plots.GREY)
         y += 0.65
 
 
@@ -141,11 +133,7 @@ def sweeps_picture(sweeps: Sequence[Sequence[ExtremesRow]], page: str = "") -> N
     handles += grid[0].plot([], [], "o-", label="float64", **grey)
     handles += grid[0].plot([], [], "o:", label="float32", mfc="white", **grey)
     plots.legend_below(figure, handles)
-    title = (
-        f"Rays that are missed or see the wrong surface{page and f' ({page})'}\n"
-        "Lines that cover one another are drawn one inside the other. The literal textbook is left "
-        "out: it loses rays from the first scale of nearly all."
-    )
+    title = f"{_SAID['lost']}{page and f' ({page})'}\n{_SAID['nested']}"
     plots.headline(figure, title, 14)
     return plots.pixels(figure)
 

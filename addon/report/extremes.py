@@ -21,27 +21,14 @@ from ..study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS, Map, Scenario
 from . import extreme_plots
 from .extreme_plots import by_scenario, scale_of
 from .folders import finite, replacing, write_json
-from .tables import columns, percent
+from .tables import STUDIES, columns, percent
 
 SCHEMA = "reference_tracer.extremes/1"
 TABLE, JSON = "extremes.txt", "extremes.json"
 PANELS = 12  # sweeps of one picture
 
-_UNITS = {
-    "rays": "rays of the scene; the counts below are of rays",
-    "seen": "rays whose certified ray sees a surface",
-    "missed": "the certified ray sees a surface, the method none",
-    "wrong": "the method sees another surface, or one where there is none",
-    "order": "of the wrong: what is seen is truly crossed, but is not the nearest",
-    "doubled": "the method crosses more triangles than the certified ray does",
-    "refused": "triangles and rays that are not finite in this precision",
-    "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
-    "exact": "share of the pairs of a ray and a triangle that integer arithmetic decided",
-    "judged": "rays that an independent judge in integers decided, with every triangle",
-    "across": "of a row of a map: its second scale",
-}
+_SAID = STUDIES["extremes"]
 _SHORT = {m.value: m.short for m in MEASURED}
-_LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
 _WIDTH = 12  # of a column of the tables
 
 
@@ -59,8 +46,7 @@ def table(rows: Sequence[ExtremesRow]) -> str:
         by = {(r.scale, r.method, r.precision): r for r in sweep}
         for scale in dict.fromkeys(r.scale for r in sweep):
             lines.append([written(scale), *(_lost(by.get((scale, *m))) for m in methods)])
-    title = "Rays missed or wrong, in percent; + rays that cross more triangles than there are"
-    return _text(title, methods, lines, (_WIDTH,))
+    return _text(_SAID["lost"], methods, lines, (_WIDTH,))
 
 
 def _shown(rows: Sequence[ExtremesRow] | Sequence[BreakingPoint]) -> list[tuple[str, str]]:
@@ -81,7 +67,7 @@ def _text(
     names = [*empty, *(_SHORT.get(method, method) for method, _ in methods)]
     head = names, [*empty, *(precision for _, precision in methods)]
     widths = [*least, *[_WIDTH] * len(methods)]
-    return "\n".join([title, _LITERAL, "", *columns([*head, *lines], left, least=widths)])
+    return "\n".join([title, _SAID["literal"], "", *columns([*head, *lines], left, least=widths)])
 
 
 def _lost(row: ExtremesRow | None) -> str:
@@ -104,10 +90,8 @@ def breaking_table(rows: Sequence[ExtremesRow]) -> str:
     for name in dict.fromkeys(p.scenario for p in points):
         cells = (_first_scale(by.get((name, *m))) for m in methods)
         lines.append([name, scales.get(name, ""), *cells])
-    title = (
-        "First scale at which a ray is missed or wrong; + at which one crosses too many; . never"
-    )
-    return _text(title, methods, lines, (18, 2 + max(map(len, scales.values()))), left=(0, 1))
+    least = 18, 2 + max(map(len, scales.values()))
+    return _text(_SAID["first"], methods, lines, least, left=(0, 1))
 
 
 def _first_scale(point: BreakingPoint | None) -> str:
@@ -120,7 +104,7 @@ def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
     """Return what `extremes.json` holds."""
     return {
         "schema": SCHEMA,
-        "units": _UNITS,
+        "units": _SAID["units"],
         "scenarios": [_about(s) | {"scale": s.scale_name, "unit": s.unit} for s in SCENARIOS],
         "maps": [
             _about(m) | {"scale": m.rows[0].scale_name, "across": m.across_name} for m in MAPS

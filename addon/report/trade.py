@@ -18,7 +18,7 @@ from ..methods import MEASURED, Method
 from ..study.trade import Trade, TradeRow
 from . import plots
 from .folders import finite, replacing, write_json
-from .tables import columns
+from .tables import STUDIES, columns
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,13 +26,7 @@ if TYPE_CHECKING:
 SCHEMA = "reference_tracer.tradeoff/1"
 TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.png"
 
-_UNITS = {
-    "seconds": "seconds, the median of the rounds",
-    "wrong_pixels": "pixels whose surface, seen through the centre, is none of the certified ones",
-    "largest_t_error": "metres along the view axis, where both see the same; null: nowhere",
-    "peak_bytes": "bytes of the working arrays and the picture",
-    "coverage_error": "root mean square of linear RGBA against the converged picture",
-}
+_SAID = STUDIES["tradeoff"]
 _HEAD = (
     *("method", "precision", "seconds", "(min - max)"),
     *("wrong pixels  ", "t error, m", "MiB", "coverage  "),
@@ -52,19 +46,8 @@ def table(trade: Trade) -> str:
         title = f"{r.width} x {r.height} pixels, {rays} each"
         blocks.setdefault(title, []).append(_cells(r, wrong))
     lines = [line for title, rows in blocks.items() for line in ("", title, *rows)]
-    k = trade.converged
-    return "\n".join(
-        [
-            *columns([_HEAD, *lines], left=(0, 1, 3), gap=" "),
-            "",
-            "* no other row beats it, as far as the rounds agree on which is faster: beside wrong",
-            "  pixels, in time and wrong pixels, of the same size; beside coverage, in time and",
-            "  coverage, of all. Coverage is the root mean square of RGBA's difference from",
-            f"  {k} x {k} rays a pixel at the largest size.",
-            "",
-            trade.advice,
-        ]
-    )
+    note = _SAID["note"].format(k=trade.converged)
+    return "\n".join([*columns([_HEAD, *lines], left=(0, 1, 3), gap=" "), note, trade.advice])
 
 
 def _cells(r: TradeRow, wrong: str) -> list[str]:
@@ -84,7 +67,7 @@ def to_dict(trade: Trade) -> dict[str, Any]:
         "scene": trade.scene,
         "advice": trade.advice,
         "converged_samples": trade.converged,
-        "units": _UNITS,
+        "units": _SAID["units"],
         "rows": [_row(r) for r in trade.rows],
     }
 
