@@ -36,7 +36,7 @@ def add_trace(parser: Parser) -> None:
     add_camera(parser)
 
 
-def trace(options: argparse.Namespace) -> int:
+def trace(options: argparse.Namespace) -> None:
     """Trace, and write the picture."""
     with folders.made_for_file(options.out):
         scene, stored = load(options.scene, choice_from(options, options.scene))
@@ -59,7 +59,6 @@ def trace(options: argparse.Namespace) -> int:
     drawn = options.out.suffix.lower() == ".png" and not options.color
     if drawn and options.scene.suffix.lower() in MESH_SUFFIXES:
         print("each mesh has one flat colour: --color facing shows its shape")
-    return 0
 
 
 def add_export(parser: Parser) -> None:
@@ -70,7 +69,7 @@ def add_export(parser: Parser) -> None:
     add_camera(parser)
 
 
-def export(options: argparse.Namespace) -> int:
+def export(options: argparse.Namespace) -> None:
     """Export, and write the scene."""
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(f"'{options.scene}' is not a .blend: only those are exported")
@@ -79,7 +78,6 @@ def export(options: argparse.Namespace) -> int:
         with folders.replacing_file(options.out) as new:
             save_scene(new, scene)
     print(f"{scene.triangle_count:,} triangles: {options.out}")
-    return 0
 
 
 def add_explain(parser: Parser) -> None:
@@ -94,7 +92,7 @@ def add_explain(parser: Parser) -> None:
     add_camera(parser)
 
 
-def explain(options: argparse.Namespace) -> int:
+def explain(options: argparse.Namespace) -> None:
     """Derive, and print or write it."""
     from ..explain import reproducer
     from ..explain.candidates import LIMIT, gather_pixel
@@ -108,7 +106,6 @@ def explain(options: argparse.Namespace) -> int:
             scene, _ = load(path, choice_from(options, path))
         found = gather_pixel(scene, *options.pixel, options.limit or LIMIT, path.name)
     print(printable(pixel.write(found, options.out, options.reproducer)), end="")
-    return 0
 
 
 @contextmanager

@@ -14,20 +14,20 @@ from ..parser import DONE_HELP, Parser
 
 def command(
     parser: Parser,
-    run: Callable[[argparse.Namespace], int],
+    run: Callable[[argparse.Namespace], int | None],
     example: str,
     source: str | None = None,
     codes: str = DONE_HELP,
 ) -> None:
     """Let a command's parser run it, which checks its options first.
 
-    `run` does the work, and returns the exit code. The example and the exit codes are for its help.
+    `run` does the work, and may return an exit code. The example and the codes are for its help.
     `source` says what its SCENE may be, where none is open; without it, the command takes none.
     """
 
     def checked(options: argparse.Namespace) -> int:
         check_options(options)
-        return run(options)
+        return run(options) or 0
 
     parser.set_defaults(run=checked)
     parser.epilog = codes if parser.opened else f"example:\n  {example}\n\n{codes}"

@@ -27,7 +27,7 @@ def add_trade(parser: Parser) -> None:
     add_camera(parser, width=160, height=90, of_scenes=True)
 
 
-def trade(options: argparse.Namespace) -> int:
+def trade(options: argparse.Namespace) -> None:
     """Measure, and print the table."""
     from ..report import trade as report
     from ..study import tradeoff
@@ -40,7 +40,6 @@ def trade(options: argparse.Namespace) -> int:
             found = result_of(work, progress)
         print(report.table(found))
         write_study(options.out, lambda: report.write(options.out, found))
-    return 0
 
 
 def add_extremes(parser: Parser) -> None:
@@ -50,7 +49,7 @@ def add_extremes(parser: Parser) -> None:
     parser.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
 
 
-def extremes(options: argparse.Namespace) -> int:
+def extremes(options: argparse.Namespace) -> None:
     """Measure, and print the breaking points."""
     from ..report import extremes as report
     from ..study.extremes import measure
@@ -60,4 +59,3 @@ def extremes(options: argparse.Namespace) -> int:
             rows = result_of(measure(rays=options.rays), progress)
         print(report.breaking_table(rows))
         write_study(options.out, lambda: report.write(options.out, rows))
-    return 0
