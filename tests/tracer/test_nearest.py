@@ -126,7 +126,7 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         monkeypatch.setattr(render, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
         monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
         monkeypatch.setattr(chunks, "_CHUNK", triangles)
-        for module, name in ((verdict, "_PAIRS"), (rasterise, "_VALUES"), (rasterise, "_CELLS")):
+        for module, name in ((verdict, "_PAIRS"), (rasterise, "_BOXES"), (rasterise, "_CELLS")):
             monkeypatch.setattr(module, name, pairs)
         monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
         monkeypatch.setattr(boxes, "BINS", 2 + triangles % 255)

@@ -19,7 +19,7 @@ from reference_tracer.tracer.certified.sweep.chunks import Expanded
 from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
 from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
 from reference_tracer.tracer.certified.sweep.film import Film
-from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Rasterised
+from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Covered
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import quiet, result_of
 from reference_tracer.tracer.settings import Settings
@@ -85,9 +85,10 @@ class Watched(sweep.Sweep):
             self.found_boxes.append((low, high))
         return low, high, nearest
 
-    def not_hidden(self, boxes: Boxes, nearest: NDArray) -> NDArray[np.integer]:
-        found = super().not_hidden(boxes, nearest)
+    def not_hidden(self, low: NDArray, high: NDArray, nearest: NDArray) -> NDArray[np.integer]:
+        found = super().not_hidden(low, high, nearest)
         if self._closely:
+            boxes = Boxes(np.arange(len(nearest)), low, high)
             self.looks.append(Look(boxes, nearest, found, self.seen))
         return found
 
@@ -97,17 +98,15 @@ class Watched(sweep.Sweep):
         """All triangles go the way that can be drawn, which finds the same."""
         return np.zeros(len(some), bool)
 
-    def pairs(self, found: EdgeFunctions, boxes: Boxes, shape: NDArray) -> Iterator[Rasterised]:
+    def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
         _, of_y, of_x = found.coefficients[:, :3]
         self.bounds.append(found.edge_error / np.hypot(of_x, of_y).min(axis=0))
         if self._closely:  # the depth buffer as it is now: it goes on changing
-            own = boxes.take(found.row)
-            each = Boxes(np.arange(len(found.row)), own.low, own.high)
-            self.tested.append(Tested(found, each, deepcopy(self._depths)))
-        return super().pairs(found, boxes, shape)
+            self.tested.append(Tested(found, boxes, deepcopy(self._depths)))
+        return super().pairs(found, boxes)
 
-    def of_pairs(self, found: EdgeFunctions, pairs: Rasterised, surface: NDArray) -> Fragments:
-        rivals = super().of_pairs(found, pairs, surface)
+    def of_pairs(self, pairs: Covered, surface: NDArray) -> Fragments:
+        rivals = super().of_pairs(pairs, surface)
         if self._closely:
             self.tested[-1].rivals.append(rivals)
         return rivals

@@ -1,7 +1,7 @@
 """Which pixels triangles cover: their edge functions, evaluated where they may be inside.
 
 In come edge functions with the boxes of pixels that they may cover; out go pairs of a pixel and a
-triangle that the ray may hit. A box is evaluated as a block, pixel by pixel. One that is larger
+triangle that the ray may hit. A box is evaluated pixel by pixel. One that is larger
 than a cell of the depth buffer is split into cells first, and cells that an edge rules out, or that
 lie behind what is in the depth buffer already, are dropped as a whole. Floating-point addition and
 multiplication are monotone: what holds at a cell's corner holds, to the last bit, at all of its
@@ -12,111 +12,100 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import Arrays, Index, gather, groups, spread
+from ...vector import Arrays, Floats, Index, gather, groups, parts, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 
-_VALUES = 1 << 14  # pixels
-_CELLS = 1 << 14  # cells tested together
-# Boxes are evaluated in blocks of few sizes, by their extent less 1: what is done for each block
-# weighs more than a few pixels in vain.
-_PADDED = np.array([1, 2, 3, 4, 6, 6, 8, 8], np.uint8)
-LARGE_SHAPE = np.uint8(255)  # the shape of what is larger than a cell of FINE pixels
+_BOXES = 1 << 8  # evaluated together
+_CELLS = 1 << 14  # tested together
 
 
 @dataclass(frozen=True, eq=False)
-class Boxes:
+class Boxes(Arrays):
     """b boxes of pixels: `low` and `high`, (2, b) x and y each, both included, in the region.
 
-    `owner` (b,) says whose edge functions each has; None if each has its own, in their order.
+    `owner` (b,) says whose edge functions each has.
     """
 
-    owner: Index | None
+    owner: Index
     low: Index
     high: Index
 
-    def take(self, index: Index | slice) -> Boxes:
-        """Return those at `index`."""
-        owner = index if self.owner is None else self.owner[index]
-        return Boxes(owner, self.low[:, index], self.high[:, index])
-
     @property
-    def shape(self) -> NDArray[np.uint8]:
-        """Which size of block each is evaluated in, (b,): 16 height + width, or LARGE_SHAPE."""
-        width, height = self.high - self.low
-        large = np.maximum(width, height) >= FINE
-        shape = _PADDED.take(height, mode="clip") * np.uint8(16) + _PADDED.take(width, mode="clip")
-        return np.where(large, LARGE_SHAPE, shape)
+    def size(self) -> Index:
+        """The longer side of each, less 1, (b,)."""
+        return np.maximum(*(self.high - self.low))
 
 
 @dataclass(frozen=True, eq=False)
-class Rasterised(Arrays):
-    """p pairs whose ray may hit: (p,) each.
+class Covered(Arrays):
+    """p pairs of a pixel of a depth buffer and a triangle whose ray may hit, (p,) each.
 
-    `least` is the smallest of the three edge functions, `nearness` the fourth.
+    `owner` is the triangle; the hit's nearness is between `least` and `most`; `sure` says whether
+    there is one for sure.
     """
 
     pixel: Index
     owner: Index
-    least: NDArray[np.float64]
-    nearness: NDArray[np.float64]
+    least: Floats
+    most: Floats
+    sure: NDArray[np.bool_]
 
 
-def rasterised(
-    found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8], depths: DepthBuffer
-) -> Iterator[Rasterised]:
-    """Yield the pairs of boxes that are no larger than a cell, sorted by their shape."""
-    starts = np.flatnonzero(np.diff(shape, prepend=np.uint8(0)))
-    for start, end in pairwise([*starts.tolist(), len(shape)]):
-        h, w = divmod(int(shape[start]), 16)
-        together = max(1, _VALUES // (h * w))
-        for first in range(start, end, together):
-            part = slice(first, min(first + together, end))
-            yield _block(found, boxes.take(part), h, w, depths)
+def rasterised(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Covered]:
+    """Yield the pairs of boxes that are no larger than a cell."""
+    # Of about one size, as they are evaluated together.
+    boxes = boxes.take(np.argsort(boxes.size, kind="stable"))
+    for part in parts(len(boxes), _BOXES):
+        yield _block(found, boxes.take(part), depths)
 
 
-def _block(found: EdgeFunctions, boxes: Boxes, h: int, w: int, depths: DepthBuffer) -> Rasterised:
-    """Evaluate boxes that are at most h pixels high and w wide."""
-    owner, region = boxes.owner, depths.region
-    own = found.take(owner)
+def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:
+    """Evaluate some boxes in blocks of one size."""
+    own, region = found.take(boxes.owner), depths.region
     of_1, of_y, of_x = own.coefficients
     x, y = low = boxes.low
     last_x, last_y = boxes.high - low
     x0, y0 = low + (np.array([[region.x0], [region.y0]]) - own.origin)
-    right = x0 + np.arange(w, dtype=np.float64)[:, None]  # (w, b)
-    up = y0 + np.arange(h, dtype=np.float64)[:, None]
-    for k in range(1, w):  # what a block has beyond its box is not covered, as NaN is not inside
-        right[k, last_x < k] = np.nan
-    for k in range(1, h):
-        up[k, last_y < k] = np.nan
+    across, upwards = (np.arange(last.max() + 1)[:, None] for last in (last_x, last_y))
+    # What a block has beyond its box is not covered, as NaN is not inside.
+    right = np.where(across <= last_x, x0 + across, np.nan)  # (w, b)
+    up = np.where(upwards <= last_y, y0 + upwards, np.nan)  # (h, b)
     rows = of_1[:, None] + of_y[:, None] * up  # (4, h, b)
-    across = of_x[:, None] * right  # (4, w, b)
-    least = rows[0, :, None] + across[0]  # (h, w, b)
+    columns = of_x[:, None] * right  # (4, w, b)
+    least = rows[0, :, None] + columns[0]  # (h, w, b)
     other = np.empty_like(least)
     for k in (1, 2):
-        np.minimum(least, np.add(rows[k, :, None], across[k], out=other), out=least)
+        np.minimum(least, np.add(rows[k, :, None], columns[k], out=other), out=least)
     inside = np.flatnonzero(least >= -own.edge_error)
-    nearness = np.add(rows[3, :, None], across[3], out=other)
+    np.add(rows[3, :, None], columns[3], out=other)
     stride = np.int32(depths.stride)
-    steps = np.arange(h, dtype=np.int32)[:, None] * stride + np.arange(w, dtype=np.int32)
-    pixel = steps[..., None] + (y.astype(np.int32) * stride + x)
-    row = inside % low.shape[1]
-    return Rasterised(
+    pixel = (upwards[:, None] * stride + across).astype(np.int32) + (
+        y.astype(np.int32) * stride + x
+    )
+    row = inside % len(boxes)
+    nearness, error = gather(other.ravel(), inside), gather(own.nearness_error, row)
+    return Covered(
         gather(pixel.ravel(), inside),
-        row + owner.start if isinstance(owner, slice) else gather(owner, row),
-        gather(least.ravel(), inside),
-        gather(nearness.ravel(), inside),
+        gather(boxes.owner, row),
+        nearness - error,
+        np.minimum(nearness + error, gather(own.nearest, row)),
+        (gather(least.ravel(), inside) > gather(own.edge_error, row)) & gather(own.sure, row),
     )
 
 
 def split(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Boxes]:
-    """Yield the parts of boxes in those cells of FINE pixels which may be covered and seen."""
-    for coarse in cells(found, boxes, depths, COARSE):
+    """Yield boxes no larger than a cell of FINE pixels; of others their parts in such cells.
+
+    Only in those which may be covered and seen.
+    """
+    is_small = boxes.size < FINE
+    yield boxes.take(np.flatnonzero(is_small))
+    for coarse in cells(found, boxes.take(np.flatnonzero(~is_small)), depths, COARSE):
         yield from cells(found, coarse, depths, FINE)
 
 

@@ -31,17 +31,17 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import Arrays, Floats, Index, gather, largest
+from ...vector import Index, gather, largest
 from ..bounds import U
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
 from .film import DELTA, Film
+from .rasterise import Covered
 
 SIDE = 16  # pixels along the side of a box, at most
 # Boxes are evaluated in blocks of few sizes, by their extent less 1.
@@ -51,21 +51,6 @@ _L = SIDE + 1
 _E = 1.01 * (4 * DELTA * (SIDE + _L) + 8 * U * (4 * SIDE * _L + 2 * _L * _L))
 _ET = 1.01 * (12 * DELTA * _L + 50 * U * _L * _L)
 _PER_T, _OWN = 1.01 * 12 * (_E + _ET), 1.01 * (4 + 12 * (1 + _E / _ET))  # of the nearness
-
-
-@dataclass(frozen=True, eq=False)
-class SmallPairs(Arrays):
-    """p pairs of a pixel of a depth buffer and a triangle whose ray may hit, (p,) each.
-
-    `owner` is the triangle; the hit's nearness is between `least` and `most`; `sure` says whether
-    there is one for sure.
-    """
-
-    pixel: Index
-    owner: Index
-    least: Floats
-    most: Floats
-    sure: NDArray[np.bool_]
 
 
 def are_small(
@@ -95,7 +80,7 @@ def small_pairs(
     depths: DepthBuffer,
     culling: Counter[str],
     left: list[Index],
-) -> Iterator[SmallPairs]:
+) -> Iterator[Covered]:
     """Yield the pairs of triangles that `are_small`, some thousand triangles at a time.
 
     `left` is added to: those of them which are nearly edge-on.
@@ -123,7 +108,7 @@ def _block(
     w: int,
     depths: DepthBuffer,
     left: list,
-) -> SmallPairs:
+) -> Covered:
     """Evaluate triangles whose boxes are at most h pixels high and w wide."""
     vertices, count = expanded.vertices, len(some)
     corners = [c.astype(np.intp) for c in gather(expanded.corners, some)]
@@ -172,7 +157,7 @@ def _block(
     error = gather(error, row)
     most = nearness + error
     nearness -= error
-    return SmallPairs(pixel, gather(some, row), nearness, most, gather(least, found) > _E)
+    return Covered(pixel, gather(some, row), nearness, most, gather(least, found) > _E)
 
 
 def _pixels(

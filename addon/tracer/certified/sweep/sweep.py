@@ -24,8 +24,8 @@ from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
-from .rasterise import LARGE_SHAPE, Boxes, Rasterised, rasterised, split
-from .small_boxes import SmallPairs, are_small, small_pairs
+from .rasterise import Boxes, Covered, rasterised, split
+from .small_boxes import are_small, small_pairs
 from .small_triangles import SmallTriangles
 from .verdict import Verdict
 
@@ -158,7 +158,7 @@ class Sweep:
         low, high = (np.broadcast_to(v, pixel.shape) for v in fractions.interval())
         least, most = film.camera.projection.nearness(low, high, ROUNDING)
         place, of = self._depths.places(pixel), np.full(len(pixel), surface)
-        return self._test(place, of, least, most, np.isfinite(high))
+        return self.of_pairs(Covered(place, of, least, most, np.isfinite(high)), of)
 
     def enter(self, chunk: Chunk) -> Steps[None]:
         """Sweep the triangles of a chunk, in small steps; yields which stage of work each was."""
@@ -186,42 +186,35 @@ class Sweep:
                 self._depths.refresh()
             for part in parts(len(depth_bin), _TRIANGLES):
                 some = depth_bin[part]
-                boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
-                some = gather(some, self.not_hidden(boxes, gather(nearest, some)))
+                ends = gather(part_low, some), gather(part_high, some)
+                some = gather(some, self.not_hidden(*ends, gather(nearest, some)))
                 small = self.are_small(expanded, low, high, some)
                 yield "set-up"
-                own, left = (
-                    gather(some, np.flatnonzero(small)),
-                    [gather(some, np.flatnonzero(~small))],
-                )
+                own, left = some[small], [some[~small]]
                 found = small_pairs(
                     self._film, expanded, low, high, own, self._depths, culling, left
                 )
-                for pairs in SmallPairs.together(found, _PAIRS):
-                    self._keep(self.of_small(pairs, start))
+                for pairs in Covered.together(found, _PAIRS):
+                    self._keep(self.of_pairs(pairs, start + pairs.owner))
                     yield "pixels"
                 rest = np.concatenate(left)
                 culling["reached"] += len(some) - len(rest)
                 for part in parts(len(rest), _SET_UP):
-                    # Sorted by shape, so that what is evaluated together lies together.
                     some = rest[part]
-                    shape = Boxes(None, gather(part_low, some), gather(part_high, some)).shape
-                    order = np.argsort(shape, kind="stable")
-                    some, shape = gather(some, order), gather(shape, order)
                     origin = gather(low, some)
-                    width, height = gather(high, some) - origin
                     found = set_up(
                         self._film,
                         expanded.vertices,
                         gather(expanded.corners, some),
                         gather(nearest, some),
                         origin,
-                        np.maximum(width, height) + 1.0,
+                        np.maximum(*(gather(high, some) - origin)) + 1.0,
                     )
-                    boxes = Boxes(None, gather(part_low, some), gather(part_high, some))
+                    of = gather(some, found.row)  # some may occur twice
+                    boxes = Boxes(np.arange(len(of)), gather(part_low, of), gather(part_high, of))
                     yield "set-up"
-                    for pairs in self.pairs(found, boxes, shape):
-                        self._keep(self.of_pairs(found, pairs, start + some))
+                    for pairs in self.pairs(found, boxes):
+                        self._keep(self.of_pairs(pairs, start + gather(of, pairs.owner)))
                         yield "pixels"
 
     def are_small(
@@ -230,62 +223,31 @@ class Sweep:
         """Return which of some triangles go the way of `small_boxes.py`."""
         return are_small(self._film, expanded, low, high, some)
 
-    def of_small(self, pairs: SmallPairs, start: int) -> Fragments:
-        """Return the fragments of small pairs; their sure hits enter the depth buffer."""
-        return self._test(pairs.pixel, start + pairs.owner, pairs.least, pairs.most, pairs.sure)
-
     def boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
         """Return the boxes of a chunk's triangles, as `boxes_of`."""
         return boxes_of(self._scene, self._film, expanded)
 
-    def not_hidden(self, boxes: Boxes, nearest: NDArray) -> Index:
+    def not_hidden(self, low: Index, high: Index, nearest: NDArray) -> Index:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
         self._statistics.culling["boxed"] += len(nearest)
-        return np.flatnonzero(~(nearest < self._depths.farthest_in(boxes.low, boxes.high)))
+        return np.flatnonzero(~(nearest < self._depths.farthest_in(low, high)))
 
-    def pairs(
-        self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
-    ) -> Iterator[Rasterised]:
-        """Yield the pairs of sorted boxes, so many at a time as are a short step."""
-        return Rasterised.together(self._blocks(found, boxes, shape), _PAIRS)
+    def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
+        """Yield the pairs of boxes, so many at a time as are a short step."""
+        return Covered.together(self._blocks(found, boxes), _PAIRS)
 
-    def _blocks(
-        self, found: EdgeFunctions, boxes: Boxes, shape: NDArray[np.uint8]
-    ) -> Iterator[Rasterised]:
-        """Yield the blocks of sorted boxes, the large ones last, each with its edge functions."""
-        large = int(np.searchsorted(shape, LARGE_SHAPE))
-        reached = np.arange(boxes.low.shape[1]) < large
-        self._count_pixels(boxes.take(slice(0, large)))
-        yield from rasterised(found, boxes, shape[:large], self._depths)
-        rest = np.arange(large, len(found.row))  # and those that occur twice
-        row = found.row.take(rest)
-        rest = Boxes(rest, boxes.low.take(row, axis=1), boxes.high.take(row, axis=1))
-        for some in split(found, rest, self._depths) if len(row) else ():
-            order = np.argsort(own := some.shape, kind="stable")
-            reached[gather(found.row, some.owner)] = True
-            self._count_pixels(some)
-            yield from rasterised(found, some.take(order), own.take(order), self._depths)
-        self._statistics.culling["reached"] += int(reached.sum())
+    def _blocks(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
+        reached, culling = np.zeros(len(found), bool), self._statistics.culling
+        for some in split(found, boxes, self._depths):
+            reached[found.row.take(some.owner)] = True
+            width, height = (some.high - some.low + 1).astype(np.int64)
+            culling["computed"] += int((width * height).sum())
+            yield from rasterised(found, some, self._depths)
+        culling["reached"] += int(reached.sum())
 
-    def _count_pixels(self, boxes: Boxes) -> None:
-        width, height = (boxes.high - boxes.low + 1).astype(np.int64)
-        self._statistics.culling["computed"] += int((width * height).sum())
-
-    def of_pairs(self, found: EdgeFunctions, pairs: Rasterised, surface: Index) -> Fragments:
-        """Return the fragments of pairs; their sure hits enter the depth buffer."""
-        error = gather(found.nearness_error, pairs.owner)
-        least, most = pairs.nearness - error, pairs.nearness + error
-        np.minimum(most, gather(found.nearest, pairs.owner), out=most)
-        sure = pairs.least > gather(found.edge_error, pairs.owner)
-        sure &= gather(found.sure, pairs.owner)
-        return self._test(
-            pairs.pixel, gather(surface.take(found.row), pairs.owner), least, most, sure
-        )
-
-    def _test(
-        self, pixel: Index, surface: Index, least: NDArray, most: NDArray, sure: NDArray[np.bool_]
-    ) -> Fragments:
+    def of_pairs(self, pairs: Covered, surface: Index) -> Fragments:
         """Enter the sure hits into the depth buffer; return their rivals, and what is not sure."""
+        pixel, _, least, most, sure = vars(pairs).values()
         self._statistics.pairs_tested += len(pixel)
         sure = sure & self._clip.inside(least, most)
         every = pixel, surface, least, most

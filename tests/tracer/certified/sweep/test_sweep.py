@@ -17,6 +17,7 @@ from reference_tracer.tracer.certified.sweep import (
     chunks,
     depth_buffer,
     rasterise,
+    small_boxes,
     sweep,
     verdict,
 )
@@ -111,11 +112,12 @@ DIVISIONS = {
     "triangles by threes": [(sweep, "_TRIANGLES", 3)],
     "one depth bin": [(boxes, "BINS", 2)],
     "few depth bins": [(boxes, "BINS", 5)],
-    "pairs by ones": [(verdict, "_PAIRS", 1), (rasterise, "_VALUES", 1)],
-    "pairs by sevens": [(verdict, "_PAIRS", 7), (rasterise, "_VALUES", 70)],
+    "pairs by ones": [(verdict, "_PAIRS", 1), (rasterise, "_BOXES", 1)],
+    "pairs by sevens": [(verdict, "_PAIRS", 7), (rasterise, "_BOXES", 7)],
     "cells by ones": [(rasterise, "_CELLS", 1)],
-    "no padding": [(rasterise, "_PADDED", np.arange(1, 9, dtype=np.uint8))],
-    "much padding": [(rasterise, "_PADDED", np.full(8, 8, np.uint8))],
+    "no padding": [(small_boxes, "_PADDED", np.arange(1, 17, dtype=np.uint16))],
+    "much padding": [(small_boxes, "_PADDED", np.full(16, 16, np.uint16))],
+    "small triangles by ones": [(small_boxes, "_TRIANGLES", 1)],
     "cells of 4 and 16": sizes(4, 16),
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
@@ -131,7 +133,7 @@ DIVISIONS = {
     "all small": [
         (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (verdict, "_PAIRS", 5),
         (rasterise, "_CELLS", 2),
-        (rasterise, "_VALUES", 9), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
+        (rasterise, "_BOXES", 2), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
         *sizes(2, 4),
     ],
 }  # fmt: skip
