@@ -6,8 +6,11 @@ to get wrong. A mistake in the scene is one in all that is exported: the alterna
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +21,7 @@ from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
 from .case import Case
 
+Change = Callable[[NDArray], NDArray]
 Make = Callable[[Case, Frame], Case | None]  # of a comparison's case, and what was traced of it
 
 _BGRA = [2, 1, 0, 3]
@@ -36,30 +40,19 @@ def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) ->
     return _camera(case, window=ViewWindow(left + x, right + x, bottom + y, top + y))
 
 
-def _axes(change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Make:
+def _axes(change: Change, case: Case, _: Frame) -> Case:
     """Change the axes of the camera."""
-
-    def make(case: Case, _: Frame) -> Case:
-        matrix = case.scene.camera.world_from_camera.copy()
-        matrix[:3, :3] = change(matrix[:3, :3])
-        return _camera(case, world_from_camera=matrix)
-
-    return make
+    matrix = case.scene.camera.world_from_camera.copy()
+    matrix[:3, :3] = change(matrix[:3, :3])
+    return _camera(case, world_from_camera=matrix)
 
 
-def _picture(change: Callable[[NDArray], NDArray], moves: bool = False) -> Make:
+def _picture(change: Change, case: Case, _: Frame, moves: bool = False) -> Case:
     """Change the picture, and whose surfaces it shows where its pixels move."""
-
-    def make(case: Case, _: Frame) -> Case:
-        picture = case.picture
-        names = ("color", "beneath", "owner", "drawn") if moves else ("color", "beneath")
-        held = {name: getattr(picture, name) for name in names}
-        changed = {
-            n: np.ascontiguousarray(change(v.copy())) for n, v in held.items() if v is not None
-        }
-        return replace(case, picture=replace(picture, **changed))
-
-    return make
+    names = ("color", "beneath", "owner", "drawn") if moves else ("color", "beneath")
+    held = {name: getattr(case.picture, name) for name in names}
+    changed = {n: np.ascontiguousarray(change(v.copy())) for n, v in held.items() if v is not None}
+    return replace(case, picture=replace(case.picture, **changed))
 
 
 def _seen(case: Case, frame: Frame) -> list[int]:
@@ -174,18 +167,14 @@ def swapped_colors(case: Case, frame: Frame) -> Case | None:
     return None
 
 
-def _recolored(change: Callable[[NDArray], NDArray]) -> Make:
+def _recolored(change: Change, case: Case, frame: Frame) -> Case | None:
     """Change the colours of the largest object that they change."""
-
-    def make(case: Case, frame: Frame) -> Case | None:
-        for number in _seen(case, frame):
-            of = case.scene.instances[number]
-            plain = case.scene.meshes[of.mesh].corner_colors is None
-            if plain and not np.allclose(colors := change(of.colors), of.colors):
-                return _instance(case, number, lambda i, c=colors: replace(i, colors=c))
-        return None
-
-    return make
+    for number in _seen(case, frame):
+        of = case.scene.instances[number]
+        plain = case.scene.meshes[of.mesh].corner_colors is None
+        if plain and not np.allclose(colors := change(of.colors), of.colors):
+            return _instance(case, number, lambda i, c=colors: replace(i, colors=c))
+    return None
 
 
 def wrong_frame(case: Case, _: Frame) -> Case | None:
@@ -211,24 +200,26 @@ class Fault(NamedTuple):
     make: Make
 
 
-FAULTS = (
-    Fault("half_pixel", "rays through the pixels' corners", lambda c, _: _window(c, 1, 0.5, 0.5)),
-    Fault("one_pixel", "the camera off by a pixel to the right", lambda c, _: _window(c, 1, 1)),
-    Fault("mirrored_x", "the camera mirrored left to right", _axes(lambda m: m * (-1, 1, 1))),
-    Fault("mirrored_y", "the camera mirrored upside down", _axes(lambda m: m * (1, -1, 1))),
-    Fault("sensor_fit", "the lens fitted to the picture's other side", sensor_fit),
-    Fault("camera_transposed", "the camera's rotation inverted", _axes(np.transpose)),
-    Fault("clip_start", "the clip start halfway into the scene", clip_start),
-    Fault("flipped_winding", "all normals turned over", flipped_winding),
-    Fault("dropped_instance", "the largest object left out", dropped_instance),
-    Fault("dropped_triangle", "the largest triangle left out", dropped_triangle),
-    Fault("moved_object", "the largest object moved by a pixel", moved_object),
-    Fault("swapped_colors", "two objects with one another's colours", swapped_colors),
-    Fault("one_shade", "one object half as bright", _recolored(lambda c: c * (0.5, 0.5, 0.5, 1))),
-    Fault("one_channels", "one object's red and blue swapped", _recolored(lambda c: c[:, _BGRA])),
-    Fault("wrong_frame", "the scene a frame later", wrong_frame),
-    Fault("border", "the border off by one row", _picture(lambda v: np.roll(v, 1, axis=0), True)),
-    Fault("rows", "the picture's rows from top to bottom", _picture(np.flipud, moves=True)),
-    Fault("channels", "red and blue swapped", _picture(lambda v: v[..., _BGRA])),
-    Fault("gamma", "a gamma of 2.2 applied to the picture", _picture(_gamma)),
-)
+_MAKES: dict[str, Make] = {
+    "half_pixel": lambda c, _: _window(c, 1, 0.5, 0.5),
+    "one_pixel": lambda c, _: _window(c, 1, 1),
+    "mirrored_x": partial(_axes, lambda m: m * (-1, 1, 1)),
+    "mirrored_y": partial(_axes, lambda m: m * (1, -1, 1)),
+    "sensor_fit": sensor_fit,
+    "camera_transposed": partial(_axes, np.transpose),
+    "clip_start": clip_start,
+    "flipped_winding": flipped_winding,
+    "dropped_instance": dropped_instance,
+    "dropped_triangle": dropped_triangle,
+    "moved_object": moved_object,
+    "swapped_colors": swapped_colors,
+    "one_shade": partial(_recolored, lambda c: c * (0.5, 0.5, 0.5, 1)),
+    "one_channels": partial(_recolored, lambda c: c[:, _BGRA]),
+    "wrong_frame": wrong_frame,
+    "border": partial(_picture, lambda v: np.roll(v, 1, axis=0), moves=True),
+    "rows": partial(_picture, np.flipud, moves=True),
+    "channels": partial(_picture, lambda v: v[..., _BGRA]),
+    "gamma": partial(_picture, _gamma),
+}
+_TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+FAULTS = tuple(Fault(name, text, _MAKES[name]) for name, text in _TEXTS.items())
