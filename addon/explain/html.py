@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterable
 from html import escape
 from pathlib import Path
+from string import Template
 
 from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Table
 from .derivation import Derivation
@@ -33,13 +34,9 @@ def fragment(derivation: Derivation) -> str:
 
 def page(derivation: Derivation) -> str:
     """Return a page by itself, readable in light and dark."""
-    title = lecture(derivation)[0].text
-    return (
-        '<!DOCTYPE html>\n<html lang="en">\n<meta charset="utf-8">\n'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-        f"<title>{escape(title)}</title>\n<style>{_PAGE_STYLE}{STYLE}</style>\n"
-        f"<body>\n{fragment(derivation)}</body>\n</html>\n"
-    )
+    title, style = escape(lecture(derivation)[0].text), _PAGE_STYLE + STYLE
+    page = Template((_HERE / "document.html").read_text(encoding="utf-8"))
+    return page.substitute(title=title, style=style, body=fragment(derivation))
 
 
 def _parts(flat: list[Block]) -> list[list[Block]]:
