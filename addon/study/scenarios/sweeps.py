@@ -20,18 +20,16 @@ from . import scenes
 
 @dataclass(frozen=True)
 class Scenario:
-    """A scene to be swept over a scale."""
+    """A scene to be swept over a scale: see `sweeps.toml` for what its words mean."""
 
-    name: str  # in snake case
+    name: str
     title: str
-    scale_name: str  # what the scale means
-    explanation: str  # for a student, in one sentence
-    scales: tuple[float, ...]  # from harmless to extreme
+    scale_name: str
+    explanation: str
+    scales: tuple[float, ...]
     build: Callable[[float, int, int], Scene]  # of the scale, and the picture's width and height
     unit: str = ""  # of the scale; empty where it has none
-    # Whether every ray crosses the scene's surfaces an odd number of times (the camera is inside a
-    # closed one) or an even one (outside); None where that is not known beforehand.
-    odd: bool | None = None
+    odd: bool | None = None  # None where it is not known beforehand
     across: float | None = None  # of a row of a map: the value of its other scale
     width: int = 32  # of the picture, in pixels
     height: int = 24
