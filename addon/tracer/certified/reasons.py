@@ -42,19 +42,14 @@ def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
         d = rays.directions / speed
         cosine = np.abs(d[0] * normal[0] + d[1] * normal[1] + d[2] * normal[2]) / height
         ratios = np.stack((distance / longest, 1 / height, 1 / cosine))
+        ratios = np.nan_to_num(ratios, nan=np.inf)
         # Of e, T and D: beyond these, it is not the digits that are too few, but the exponent.
         sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
         extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
-    named = Reason.FAR, Reason.THIN, Reason.EDGE_ON
-    out = []
-    for column, beyond in zip(np.nan_to_num(ratios, nan=np.inf).T, extreme, strict=True):
-        if beyond:
-            out.append(Reason.EXTREME)
-        elif column.max() <= _ORDINARY:
-            out.append(Reason.NEAR_EDGE)
-        else:
-            out.append(named[int(column.argmax())])
-    return out
+    found = np.array([Reason.FAR, Reason.THIN, Reason.EDGE_ON])[ratios.argmax(axis=0)]
+    found[ratios.max(axis=0) <= _ORDINARY] = Reason.NEAR_EDGE
+    found[extreme] = Reason.EXTREME
+    return found.tolist()
 
 
 def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
@@ -62,15 +57,11 @@ def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
     exact = sum(counts.values())
     if not exact:
         return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
-    order = list(Reason)
+    named = sorted((r for r in Reason if counts.get(r)), key=lambda r: -counts[r])
     return [
         f"{exact:,} of {pairs:,} pairs of a ray and a surface (one in {pairs / exact:,.0f}) "
         "needed exact arithmetic: rays that",
-        *(
-            f"  {reason.value}: {n:,}"
-            for reason, n in sorted(counts.items(), key=lambda i: (-i[1], order.index(i[0])))
-            if n
-        ),
+        *(f"  {reason.value}: {counts[reason]:,}" for reason in named),
     ]
 
 
