@@ -43,14 +43,15 @@ def played(names):
     """Play one story after another, each until its end or its first error."""
     for name in names:
         scene, story = STORIES[name]
-        began = time.monotonic()
+        began, cpu = time.monotonic(), time.process_time()
         noted.clear()
         try:
             yield from opened(scene)
             yield from story()
         except Exception:
             noted["error"] = traceback.format_exc()
-        print(f"story {name}: {time.monotonic() - began:.1f} s", flush=True)
+        took, cpu = time.monotonic() - began, time.process_time() - cpu
+        print(f"story {name}: {took:.1f} s, {cpu:.1f} s of CPU", flush=True)
         (OUT / f"{name}.json").write_text(json.dumps(noted, indent=1))
 
 

@@ -16,7 +16,7 @@ def test_every_kind_of_view_lies_pixel_on_pixel_over_blenders_own(noted):
         # Edge pixels that Blender, in float32, gives to the other side.
         assert found["differ"] < 50 and found["strange"] < 5, (name, found)
     for name in ("zoomed_border", "free_border"):
-        assert noted[name]["outside"] > 0.97, name  # of what is not traced: the background
+        assert noted[name]["outside"] > 0.95, name  # of what is not traced: the background
 
 
 @pytest.mark.story("viewport_events")
@@ -44,7 +44,7 @@ def test_whatever_happens_to_a_view_it_shows_the_same_again_and_leaves_nothing(n
     ],
 )
 def test_switches_and_moves_leave_memory_flat(noted, _):
-    assert noted["switches"] < 40 and noted["moves"] < 40  # MiB; a whole picture takes 5
+    assert noted["switches"] < 30 and noted["moves"] < 30  # MiB; a whole picture takes 4, twice
 
 
 @pytest.mark.story("viewport_shows")
@@ -61,10 +61,10 @@ def test_what_each_method_sees_and_how_it_differs(noted):
     differ, total, *_ = numbers("free DIFFERENCE auto")
     line = noted["free DIFFERENCE auto"]["line"]
     assert differ < 50 < total and "unexplained" not in line and "Blender's viewport" in line
-    differ, total, *_ = numbers("parallel DIFFERENCE textbook_literal")
-    assert differ > 0.02 * total
-    assert "unexplained" in noted["parallel DIFFERENCE textbook_literal"]["line"]
-    assert sum(numbers("parallel CERTAINTY auto")) == total
+    differ, total, *_ = numbers("far DIFFERENCE textbook_literal")
+    assert differ > 500
+    assert "unexplained" in noted["far DIFFERENCE textbook_literal"]["line"]
+    assert sum(numbers("far CERTAINTY auto")) == total
     assert noted["drawn"] == 2
     assert noted["changed"] == noted["new"] == {}
     assert not any(found["said"] for found in noted.values() if isinstance(found, dict) and found)

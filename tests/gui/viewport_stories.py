@@ -2,6 +2,7 @@
 
 import gc
 import subprocess
+import weakref
 from pathlib import Path
 
 import addon_utils
@@ -10,14 +11,15 @@ import numpy as np
 from mathutils import Euler
 from story import MODULE, OUT, data_blocks, module, noted, settings, until, window
 
-SWITCHES, MOVES = 20, 100  # every day; ten times as many in the long tests
+SWITCHES, MOVES, FIRST = 6, 20, 2  # every day; until what is allocated once is
+MORE_SWITCHES, MORE_MOVES = 200, 1000  # in the long tests
 FILE = str(OUT / "rendered.blend")
 TURNED = Euler((1.1, 0.1, 0.7)).to_quaternion()
 
 
 def viewport_pixels():
     """Views of all kinds beside Blender's own solid drawing of them."""
-    prepared()
+    yield from prepared()
     preferences = bpy.context.preferences
     before, dirty = preferences.system.viewport_aa, preferences.is_dirty
     preferences.system.viewport_aa = "OFF"
@@ -66,7 +68,7 @@ def parallel_camera():
 def free():
     """Look from somewhere else."""
     view = region_3d()
-    view.view_perspective, view.view_rotation, view.view_distance = "PERSP", TURNED, 9
+    view.view_perspective, view.view_rotation, view.view_distance = "PERSP", TURNED, 18
     space().clip_start = 0.1  # Blender's depth buffer is coarse beyond a nearer one
 
 
@@ -82,10 +84,15 @@ def parallel():
     region_3d().view_perspective = "ORTHO"
 
 
+def far():
+    """See little of it: what is not explained takes long."""
+    parallel()
+    region_3d().view_distance = 50
+
+
 def viewport_events():
     """One thing after another that a user does while the view is in Rendered mode."""
-    prepared()
-    yield from made_small()
+    yield from prepared()
     before = yield from in_mode("RENDERED")
     for story in EVENTS:
         noted[story.__name__] = found = {}
@@ -95,7 +102,7 @@ def viewport_events():
         found["same"] = int((np.abs(screen("after") - before) > 1).any(axis=-1).sum())
     yield from in_mode("SOLID")
     gc.collect()
-    noted["left"] = [len(live()), len(alive("view.Job")), len(alive("drawing.Textures"))]
+    noted["left"] = [alive("view.LiveView"), alive("view.Job"), alive("drawing.Textures")]
 
 
 def moved(found):
@@ -211,6 +218,7 @@ def switched_off(found):
     addon_utils.disable(MODULE)
     yield 0.3
     addon_utils.enable(MODULE)
+    all_noted()
     yield 0.3
 
 
@@ -234,16 +242,15 @@ def viewport_often():
 
 
 def viewport_more_often():
-    """The same, ten times as often."""
-    yield from often(10 * SWITCHES, 10 * MOVES)
+    """The same, more often."""
+    yield from often(MORE_SWITCHES, MORE_MOVES)
 
 
 def often(switches, moves):
-    prepared()
-    yield from made_small()
+    yield from prepared()
     for name, count, act in (("switches", switches, switched), ("moves", moves, turned)):
-        for number in range(count + 5):
-            if number == 5:  # what is allocated once is, by now
+        for number in range(count + FIRST):
+            if number == FIRST:
                 before = memory()
             yield from act(number)
         yield from settled()
@@ -270,7 +277,8 @@ def memory():
 
 
 def prepared():
-    """Our engine, flat light, and nothing over the picture."""
+    """Our engine, flat light, nothing over the picture, and a small view: less is to be drawn."""
+    all_noted()
     window().scene.render.engine = "REFERENCE_TRACER"
     for shading in (window().scene.display.shading, space().shading):
         shading.light, shading.color_type = "FLAT", "MATERIAL"
@@ -278,16 +286,12 @@ def prepared():
     space().overlay.show_overlays = space().show_gizmo = False
     for name in ("header", "tool_header", "toolbar", "ui", "hud", "asset_shelf"):
         setattr(space(), f"show_region_{name}", False)
-
-
-def made_small():
-    """Split the area, and give the larger part to another editor: less is to be drawn."""
     with bpy.context.temp_override(window=window(), area=area(), region=region()):
-        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.4)
-    yield 0.1
+        bpy.ops.screen.area_split(direction="VERTICAL", factor=0.25)
+    yield 0.05
     both = [a for a in window().screen.areas if a.type == "VIEW_3D"]
     max(both, key=lambda a: a.width).type = "TEXT_EDITOR"
-    yield 0.1
+    yield 0.05
 
 
 def area():
@@ -308,14 +312,27 @@ def region_3d():
 
 def live():
     """The views in Rendered mode that there are."""
-    return alive("view.LiveView")
+    return list(module("blender.live.view").LiveView.all)
+
+
+def all_noted():
+    """Have each such view note itself, from now on: to look for them all the time takes long."""
+    kind = module("blender.live.view").LiveView
+    if not hasattr(kind, "all"):
+        kind.all, begin = weakref.WeakSet(), kind.__init__
+
+        def noting(self):
+            kind.all.add(self)
+            begin(self)
+
+        kind.__init__ = noting
 
 
 def alive(kind):
-    """All objects of a class of ours."""
+    """How many objects of a class of ours there are."""
     path, name = kind.split(".")
     kind = getattr(module(f"blender.live.{path}"), name)
-    return [o for o in gc.get_objects() if type(o) is kind]
+    return sum(type(o) is kind for o in gc.get_objects())
 
 
 def rests():
@@ -327,31 +344,31 @@ def in_mode(name):
     """Choose a mode of the view, wait for its picture, and return that, as the screen has it."""
     space().shading.type = name
     area().tag_redraw()
-    yield 0.3
+    yield 0.1
     if name == "RENDERED":
         yield from settled()
     return screen(f"viewport_{name.lower()}")
 
 
 def settled():
-    yield 0.1
+    yield 0.05
     yield from until(rests, 60)
-    yield 0.2
+    yield 0.05
 
 
 def screen(name):
     """The view on the screen, (h, w, 3) from 0 to 255, row 0 at the bottom; a file keeps it."""
-    path = str(OUT / f"{name}.png")
-    quick = ["-quality", "10"]  # of the default, a dithered picture takes five seconds
-    subprocess.run(["import", "-window", "root", *quick, path], check=True)
+    path, r = str(OUT / f"{name}.png"), region()
+    bottom = window().height - r.y - r.height
+    part = ["-crop", f"{r.width}x{r.height}+{r.x}+{bottom}", "+repage"]
+    quick = ["-quality", "10"]  # of the default, a dithered picture takes seconds
+    subprocess.run(["import", "-window", "root", *part, *quick, path], check=True)
     image = bpy.data.images.load(path)
     image.colorspace_settings.name = "Non-Color"
-    (width, height), r = image.size, region()
-    pixels = np.empty(width * height * 4, np.float32)
+    pixels = np.empty(r.width * r.height * 4, np.float32)
     image.pixels.foreach_get(pixels)
     bpy.data.images.remove(image)
-    whole = np.rint(255 * pixels.reshape(height, width, 4)[..., :3]).astype(int)
-    return whole[r.y : r.y + r.height, r.x : r.x + r.width]
+    return np.rint(255 * pixels.reshape(r.height, r.width, 4)[..., :3]).astype(int)
 
 
 def apart(camera):
@@ -385,11 +402,10 @@ def beside(seen, solid, region):
 
 def viewport_shows():
     """What each method sees of a view, and how it differs from what Blender draws."""
-    prepared()
+    yield from prepared()
     stored, views = window().scene.reference_tracer, window().scene.view_settings
     views.view_transform = "Standard"
     space().shading.background_type = "VIEWPORT"  # which Blender draws in its solid shading alone
-    yield from made_small()
     yield from in_mode("RENDERED")
     before, drawn = (settings(), data_blocks()), counted_drawings()
     for number, (place, show, method) in enumerate(SHOWN):
@@ -431,8 +447,8 @@ SHOWN = (
     (free, "WRONG", "textbook_literal"),
     (free, "WRONG", "auto"),
     (free, "DIFFERENCE", "auto"),
-    (parallel, "DIFFERENCE", "textbook_literal"),
-    (parallel, "CERTAINTY", "auto"),
+    (far, "DIFFERENCE", "textbook_literal"),
+    (far, "CERTAINTY", "auto"),
 )
 
 
