@@ -20,12 +20,12 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     Blender itself sets what it cannot have to the nearest that it can, such as a pixel's shape of
     more than 200 to 1 or a clip start below `LEAST_CLIP`: `window_of` says what is shown.
     """
-    w = camera.window
-    extent = w.right - w.left
-    render = scene.render
+    w, render = camera.window, scene.render
     render.resolution_x, render.resolution_y = camera.width, camera.height
     render.resolution_percentage = 100
-    tall = (w.top - w.bottom) / camera.height / (extent / camera.width)  # of a pixel, in widths
+    tall = (
+        (w.top - w.bottom) / camera.height / ((w.right - w.left) / camera.width)
+    )  # of a pixel, in widths
     render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1 / tall), max(1.0, tall)
     return place_camera(scene, camera)
 

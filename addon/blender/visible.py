@@ -184,9 +184,8 @@ def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
     vertices, keep = drop_non_finite(vertices, triangles)
     left_out = len(keep) - int(keep.sum())
     if left_out:
-        triangles = triangles[keep]
-        slots = None if slots is None else slots[keep]
-        colors = None if colors is None else colors[keep]
+        left = (a if a is None else a[keep] for a in (triangles, slots, colors))
+        triangles, slots, colors = left
     return Mesh(vertices, triangles, slots, colors, name), left_out
 
 

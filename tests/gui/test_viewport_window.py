@@ -58,13 +58,14 @@ def test_what_each_method_sees_and_how_it_differs(noted):
     assert noted["free WRONG textbook_literal"]["red"] == wrong  # on the screen
     found = noted["free WRONG auto"]
     assert "none is wrong" in found["line"] and found["red"] == 0
-    differ, total, *_ = numbers("free DIFFERENCE auto")
-    line = noted["free DIFFERENCE auto"]["line"]
-    assert differ < 50 < total and "unexplained" not in line and "Blender's viewport" in line
+    for view in ("free", "parallel"):
+        line = noted[f"{view} DIFFERENCE auto"]["line"]
+        differ, total, *_ = numbers(f"{view} DIFFERENCE auto")
+        assert differ < 50 < total and "unexplained" not in line and "Blender's viewport" in line
     differ, total, *_ = numbers("far DIFFERENCE textbook_literal")
     assert differ > 500
     assert "unexplained" in noted["far DIFFERENCE textbook_literal"]["line"]
     assert sum(numbers("far CERTAINTY auto")) == total
-    assert noted["drawn"] == 2
+    assert noted["drawn"] == 3
     assert noted["changed"] == noted["new"] == {}
     assert not any(found["said"] for found in noted.values() if isinstance(found, dict) and found)

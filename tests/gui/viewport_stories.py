@@ -447,6 +447,7 @@ SHOWN = (
     (free, "WRONG", "textbook_literal"),
     (free, "WRONG", "auto"),
     (free, "DIFFERENCE", "auto"),
+    (parallel, "DIFFERENCE", "auto"),
     (far, "DIFFERENCE", "textbook_literal"),
     (far, "CERTAINTY", "auto"),
 )

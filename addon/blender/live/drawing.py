@@ -63,7 +63,7 @@ class Layers:
         """Draw what is done over a region, in pixels; True if something could not be by a time."""
         self._shader = self._shader or pixel_shader()
         left = [textures.upload(until) for textures in self._textures]
-        whole = [n for n, textures in enumerate(self._textures) if textures.is_whole]
+        whole = [n for n, textures in enumerate(self._textures) if not textures.missing]
         del self._textures[: max(whole, default=0)]
         for textures in self._textures:
             textures.draw(self._shader, width, height)
@@ -78,13 +78,8 @@ class Textures:
         step = max(1, BAND // width)
         self.color = picture.color
         self._rows_done, self._place = picture.rows_done, place
-        self._missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
+        self.missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
         self._bands: list[tuple[int, Any]] = []  # the first row of each
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether nothing is missing."""
-        return not self._missing
 
     def upload(self, until: float) -> bool:
         """Make textures of rows that are done, one at least; True if some are left.
@@ -93,13 +88,13 @@ class Textures:
         """
         import gpu
 
-        done = [rows for rows in self._missing if self._rows_done[rows].all()]
+        done = [rows for rows in self.missing if self._rows_done[rows].all()]
         for number, rows in enumerate(done, start=1):
             data = self.color[rows]
             buffer = gpu.types.Buffer("FLOAT", (data.size,), data.reshape(-1))
             texture = gpu.types.GPUTexture(data.shape[1::-1], format="RGBA32F", data=buffer)
             self._bands.append((rows.start, texture))
-            self._missing.remove(rows)
+            self.missing.remove(rows)
             if time.perf_counter() > until:
                 return number < len(done)
         return False

@@ -8,17 +8,13 @@ would be anti-aliased by the user's preference, which draws everything eight tim
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import product
-from typing import Any
 
 import bpy
-import numpy as np
 
 from ...compare.case import Case
 from ...compare.picture import Picture, Source
 from ...scene import Camera, Scene
 from ...tracer.settings import Settings
-from ...tracer.vector import transform_points
 from ..camera import certify_camera
 from ..camera_object import add_camera
 from ..export import export
@@ -47,14 +43,16 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     SceneError
         If Blender makes no picture of it.
     """
-    window, area = _place(space)
-    shown, layer = area.spaces.active, window.view_layer.name
+    windows = bpy.context.window_manager.windows
+    spaces = ((w, a.spaces.active) for w in windows for a in w.screen.areas)
+    window, shown = next((w, s) for w, s in spaces if s.as_pointer() == space)
+    layer = window.view_layer.name
     with temporary_scene(window.scene, layer, _VIEWPORT) as tmp:
         evaluated = ((o, o.evaluated_get(window.view_layer.depsgraph)) for o in drawn(tmp, layer))
         leave_out(tmp, layer, [o for o, e in evaluated if not e.visible_in_viewport_get(shown)])
         use_view_shading(tmp, shown.shading)
         prepare_scene(tmp, True)
-        looking = add_camera(tmp, _from_before(scene)).data
+        looking = add_camera(tmp, _from_before(scene.camera)).data
         try:
             with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
                 depsgraph = bpy.context.evaluated_depsgraph_get()
@@ -73,31 +71,15 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     return Case(traced, manifest, settings, Picture(pixels, shown_by, **drawn_as))
 
 
-def _place(space: int) -> tuple[Any, Any]:
-    """Return the window and the area in which a space is active."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.spaces.active.as_pointer() == space:
-                return window, area
-    raise RuntimeError("the 3D view is gone")
-
-
-def _from_before(scene: Scene) -> Camera:
-    """Return a scene's camera, moved to before all that it shows if it looks behind itself, too.
+def _from_before(camera: Camera) -> Camera:
+    """Return a camera, moved to before all that it shows if it looks behind itself, too.
 
     So does an orthographic view, but no camera of Blender's. Parallel rays stay the same.
     """
-    camera = scene.camera
     if camera.clip_start > 0:
         return camera
-    start = camera.clip_start
-    if not scene.planes:
-        corners = ((i, product(*scene.meshes[i.mesh].bounds.T)) for i in scene.instances)
-        points = (transform_points(i.world_from_object, np.transpose([*c])) for i, c in corners)
-        depths = [camera.forward @ (p - camera.origin[:, None]) for p in points]
-        start = np.clip(np.min(depths, initial=camera.clip_end), start, camera.clip_end)
-    back = start - AWAY * (camera.clip_end - start + 1)
+    back = camera.clip_start - AWAY * (camera.clip_end - camera.clip_start)
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] += back * camera.forward
-    clip = {"clip_start": start - back, "clip_end": camera.clip_end - back}
+    clip = {"clip_start": camera.clip_start - back, "clip_end": camera.clip_end - back}
     return replace(camera, world_from_camera=matrix, **clip)
