@@ -149,9 +149,8 @@ def _in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
     """
     if holder.type not in unshown:
         return holder.visible_in_viewport_get(space)
-    owner = holder.original
-    is_local = not space.local_view or owner.local_view_get(space)
-    return is_local and owner.visible_get(view_layer=layer)
+    is_local = not space.local_view or holder.original.local_view_get(space)
+    return is_local and holder.original.visible_get(view_layer=layer)
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:

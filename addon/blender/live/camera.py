@@ -29,7 +29,11 @@ def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
     SceneError
         If the view looks through an object that the tracer does not model, or shows nothing.
     """
-    through = _through(region_3d, space, scene)
+    through = None
+    if region_3d.view_perspective == "CAMERA":
+        through = space.camera if space.use_local_camera else scene.camera
+    if through:
+        projection_of(through, scene)  # or an error
     own = through.data if through else space
     start, end = own.clip_start, own.clip_end
     p = np.array(region_3d.window_matrix, np.float64)
@@ -72,22 +76,10 @@ def coarser(camera: Camera, factor: int) -> Camera:
     )
 
 
-def _through(region_3d: Any, space: Any, scene: Any) -> Any | None:
-    """Return the camera that a view looks through; None for a free view."""
-    obj = space.camera if space.use_local_camera else scene.camera
-    if region_3d.view_perspective != "CAMERA" or obj is None:
-        return None
-    projection_of(obj, scene)
-    return obj
-
-
 def _within_border(camera: Camera, through: Any, space: Any, scene: Any) -> Camera:
     """Return the camera with the part of its picture that a render border leaves."""
-    if through:
-        owner, name, used = scene.render, "border", scene.render.use_border
-    else:
-        owner, name, used = space, "render_border", space.use_render_border
-    if not used:
+    owner, name = (scene.render, "border") if through else (space, "render_border")
+    if not getattr(owner, f"use_{name}"):
         return camera
     ends = [[getattr(owner, f"{name}_{end}_{axis}") for axis in "xy"] for end in ("min", "max")]
     if through:  # it is that of the camera's frame, whose corners are here:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -183,8 +183,3 @@ SHOWS = (
         for c in Color
     ),
 )
-
-
-def chosen(context: Any) -> Show:
-    """Return what the view of a context is to show."""
-    return next(s for s in SHOWS if s.identifier == context.scene.reference_tracer.show)

@@ -43,7 +43,8 @@ class Job:
     """A picture in the making, whose pixels are `factor` times as wide and high as the view's."""
 
     def __init__(self, wanted: Wanted, kept: KeptScene, camera: Camera, factor: int) -> None:
-        self.wanted, self.factor, self.seconds = wanted, factor, 0.0
+        self.wanted, self.factor = wanted, factor
+        self.seconds, self.is_done = 0.0, False
         scene = kept.scene(camera if factor == 1 else coarser(camera, factor))
         width, height = factor / camera.width, factor / camera.height
         corner = scene.camera.region
@@ -52,16 +53,10 @@ class Job:
         self._work = wanted.show.steps(scene, wanted.settings, self.picture)
 
     def step(self) -> None:
-        """Do one step of the work; the last one frees what it holds."""
+        """Do one step of the work; a generator that has ended holds nothing."""
         began = time.perf_counter()
-        if self._work and next(self._work, None) is None:
-            self._work = None
+        self.is_done = next(self._work, None) is None
         self.seconds += time.perf_counter() - began
-
-    @property
-    def is_done(self) -> bool:
-        """Whether there is nothing left to do."""
-        return self._work is None
 
 
 class LiveView:
@@ -117,8 +112,9 @@ class LiveView:
         scene, space = context.scene, context.space_data
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
-        show, view = shows.chosen(context), space.as_pointer()
-        wanted = Wanted(str(camera.to_dict()), self._kept.version, settings, show, view)
+        show = next(s for s in shows.SHOWS if s.identifier == scene.reference_tracer.show)
+        version, view = self._kept.version, space.as_pointer()
+        wanted = Wanted(str(camera.to_dict()), version, settings, show, view)
         if self._wanted != wanted:
             self._wanted, self.camera, self.said = wanted, camera, ""
         # A coarse picture of where the view has just been is finished: a view that never rests
