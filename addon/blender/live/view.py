@@ -69,7 +69,7 @@ class LiveView:
         self.camera: Camera | None = None  # of what is wanted
         self.shown: Job | None = None  # the best one that is done
         self._job: Job | None = None  # a better one
-        self._factor = COARSE
+        self._factor, self._rows = COARSE, 0  # rows that are drawn of the better one
         self._unread = self.said = ""  # why there is no scene; why what is wanted is not shown
         self._timer: Any = None
         self._drawn, self._is_drawn = 0.0, False  # when; whether all that is known
@@ -103,7 +103,9 @@ class LiveView:
         until = time.perf_counter() + AT_ONCE
         while self._job and time.perf_counter() < until:
             self._step()
-        if not self._is_drawn or (self._job and until > self._drawn + SHOW_EVERY):
+        rows = self._job.picture.rows_done.sum() if self._job else 0
+        if not self._is_drawn or (rows > self._rows and until > self._drawn + SHOW_EVERY):
+            self._rows = rows
             engine.tag_redraw()
         return 0.0 if self._job else None
 
@@ -129,7 +131,7 @@ class LiveView:
         is_right = self.shown and self.shown.wanted == self._wanted
         if self._job or self.said or (is_right and self.shown.factor == 1):
             return
-        factor = 1 if is_right else self._factor
+        factor, self._rows = 1 if is_right else self._factor, 0
         self._job = Job(self._wanted, self._kept, self.camera, factor)
 
     def _step(self) -> None:
