@@ -30,15 +30,14 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
 
     Parameters are as of `render.trace`, the settings' method a method.
     """
-    dtype, first = settings.precision.dtype, len(scene.instances)
+    dtype = settings.precision.dtype
     rays = Rays(rays.origins.astype(dtype), rays.directions.astype(dtype))
     count = max(rays.origins.shape[1], rays.directions.shape[1])
-    clip = scene.camera.clip_start, scene.camera.clip_end
     hits, contest = Hits.none(count), None
     if settings.method.is_plain:
         test_planes(scene, rays, hits)
     else:
-        contest = Contest(rays, [(p.point, p.normal) for p in scene.planes], first, *clip)
+        contest = Contest.of(scene, rays)
     for batch in batches(scene):
         triangles = world_triangles(scene, batch, dtype)
         triangles = triangles.take(np.flatnonzero(triangles.finite))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,9 @@ from .bounds import Fractions, FromPoint, Parallel, plane_fractions
 from .certainty import Certainty
 from .settle import BY_INTEGERS, BY_ORDER, Decisions, by_ray
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
+
+if TYPE_CHECKING:
+    from ...scene import Scene
 
 
 class Contest:
@@ -58,11 +62,10 @@ class Contest:
         self._count = max(rays.origins.shape[1], rays.directions.shape[1])
         self._farthest = np.full(self._count, np.inf)  # the nearest hit is not farther than this
         self._first_plane = first_plane
-        self._possible: list[Candidates] = []  # of all but the current batch
+        self._possible: list[Candidates] = []
         self._surfaces = len(planes)
         self._triangles: list[WorldTriangles] = [WorldTriangles.none()]
-        self._batch: WorldTriangles | None = None
-        self._of_batch: list[Candidates] = []
+        self._batch: WorldTriangles | None = None  # of the last pairs
         every = np.arange(self._count)
         for k, (point, normal) in enumerate(planes):
             with np.errstate(all="ignore"):
@@ -71,10 +74,16 @@ class Contest:
                 found = self._candidates(every, np.full(self._count, k), fractions, sure)
             self._possible.append(found)
 
+    @classmethod
+    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None) -> Contest:
+        """Return one with a scene's planes, in its camera's clip range."""
+        planes, camera = [(p.point, p.normal) for p in scene.planes], scene.camera
+        clip = camera.clip_start, camera.clip_end
+        return cls(rays, planes, len(scene.instances), *clip, around)
+
     def enter(self, some: Pairs) -> None:
         """Test pairs of a ray and a triangle; those of one batch follow one another."""
         if some.triangles is not self._batch:
-            self._end_batch()
             self._batch, self._prepared = some.triangles, self._prepare(some.triangles.corners)
         rays, row = self._rays.take(some.pixel), some.row
         with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
@@ -85,14 +94,16 @@ class Contest:
             sure, possible = sides(prepared, row, rays)
             fractions = prepared.fractions(row[possible], rays.take(possible))
             found = self._candidates(some.pixel[possible], some.row[possible], fractions, sure)
-        self._of_batch.append(found)
+        used, number = np.unique(found.surface, return_inverse=True)
+        self._possible.append(replace(found, surface=number + self._surfaces))
+        self._triangles.append(some.triangles.take(used))
+        self._surfaces += len(used)
 
     def hits(self, statistics: Statistics) -> Work[Hits]:
         """Decide who is nearest, in small steps that all yield 1.
 
         Counts in the statistics what integers were asked for.
         """
-        self._end_batch()
         hits = Hits.none(self._count, Certainty.BOUND)
         if not self._possible:
             return hits
@@ -137,16 +148,6 @@ class Contest:
         np.minimum.at(self._farthest, ray[certain], high[certain])
         keep = np.flatnonzero(~outside & (low <= self._farthest[ray]))
         return Candidates(ray, surface, low, high, doubt).take(keep)
-
-    def _end_batch(self) -> None:
-        """Keep of the current batch only the triangles that candidates are left of."""
-        if self._of_batch:
-            found = Candidates.joined(self._of_batch)
-            used, number = np.unique(found.surface, return_inverse=True)
-            self._possible.append(replace(found, surface=number + self._surfaces))
-            self._triangles.append(self._batch.take(used))
-            self._surfaces += len(used)
-        self._of_batch, self._batch = [], None
 
 
 def sides(prepared: FromPoint | Parallel, row: NDArray, rays: Rays):

@@ -62,14 +62,8 @@ def plain(
 
 def _tile(culled: Culled, tile: Region, dx: float, dy: float, statistics: Statistics) -> Work[Hits]:
     scene, camera = culled.scene, culled.scene.camera
-    contest = Contest(
-        camera_rays(camera, *film_positions(tile, dx, dy)),
-        [(plane.point, plane.normal) for plane in scene.planes],
-        len(scene.instances),
-        camera.clip_start,
-        camera.clip_end,
-        corner_rays(camera, dx, dy),
-    )
+    rays = camera_rays(camera, *film_positions(tile, dx, dy))
+    contest = Contest.of(scene, rays, corner_rays(camera, dx, dy))
     statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
     for share, pairs in candidates(culled, tile):
         if pairs is not None:

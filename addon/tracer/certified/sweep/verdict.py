@@ -6,6 +6,7 @@ no rival is decided. The rays of all others, and all that they may see, go to a 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -30,25 +31,19 @@ _FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
 _RAYS, _CANDIDATES = 1 << 14, 1 << 15  # of a contest, at most
 
 
+@dataclass(frozen=True, eq=False)
 class Verdict:
     """The end of a sweep: its depth buffer, and how it numbers surfaces."""
 
-    def __init__(
-        self,
-        scene: Scene,
-        film: Film,
-        depths: DepthBuffer,
-        numbers: Numbering,
-        statistics: Statistics,
-    ) -> None:
-        self._scene, self._film, self._depths = scene, film, depths
-        self._numbers, self._statistics = numbers, statistics
-        self._planes = [(p.point, p.normal) for p in scene.planes]
-        self._around = corner_rays(film.camera, film.dx, film.dy)
+    scene: Scene
+    film: Film
+    depths: DepthBuffer
+    numbers: Numbering
+    statistics: Statistics
 
     def steps(self, fragments: list[Fragments]) -> Steps[Hits]:
         """Decide every pixel by its fragments, which it empties, in small steps with names."""
-        region = self._depths.region
+        region = self.depths.region
         count = region.width * region.height
         instance, triangle = np.full((2, count), NOTHING, np.int32)
         certainty = np.full(count, Certainty.BOUND, np.uint8)
@@ -57,24 +52,24 @@ class Verdict:
         # Each is let go of as soon as it is looked at.
         every = (fragments.pop(0) for _ in range(len(fragments)))
         for some in Fragments.together(every, _FRAGMENTS):
-            some = some.take(self._depths.not_hidden(some))
-            pixel = self._depths.pixels(some.pixel)
+            some = some.take(self.depths.not_hidden(some))
+            pixel = self.depths.pixels(some.pixel)
             open_[pixel] = True
             pairs.append((pixel, some.surface))
             yield "verdict"
-        winners = self._depths.winners
+        winners = self.depths.winners
         for part in parts(count, PIXELS):
             own, is_open = winners[part], open_[part]
             decided = np.flatnonzero((own != NOTHING) & ~is_open)
-            names = self._numbers.names_of(gather(own, decided))
+            names = self.numbers.names_of(gather(own, decided))
             instance[part.start + decided], triangle[part.start + decided] = names
             beside = np.flatnonzero((own != NOTHING) & is_open)
             pairs.append((part.start + beside, gather(own, beside)))
             yield "verdict"
         out = LazyHits(instance, triangle, certainty)
         yield from self._enter_open(out, open_, pairs)
-        given = self._scene, region, (instance, triangle), out.known
-        out.measure = partial(measured, *given, dx=self._film.dx, dy=self._film.dy)
+        given = self.scene, region, (instance, triangle), out.known
+        out.measure = partial(measured, *given, dx=self.film.dx, dy=self.film.dy)
         return out
 
     def _enter_open(
@@ -85,7 +80,7 @@ class Verdict:
         `pairs` are these pixels and their surfaces; they are used up.
         """
         every = np.flatnonzero(open_)
-        self._statistics.culling["left"] += len(every)
+        self.statistics.culling["left"] += len(every)
         amount = np.zeros(len(open_), np.int32)
         for pixel, _ in pairs:
             np.add.at(amount, pixel, 1)
@@ -114,20 +109,20 @@ class Verdict:
 
     def _rays(self, pixel: Index) -> Rays:
         """Return the rays of pixels of the region, numbered row by row."""
-        film = self._film
+        film = self.film
         return camera_rays(
-            film.camera, *film_positions(self._depths.region, film.dx, film.dy, pixel)
+            film.camera, *film_positions(self.depths.region, film.dx, film.dy, pixel)
         )
 
     def _contest(self, rays: Rays, ray: Index, surface: Index) -> Steps[Hits]:
         """Decide rays, each with all surfaces that it may see: pairs of the two."""
-        scene, camera = self._scene, self._film.camera
+        scene = self.scene
         on_mesh = np.flatnonzero(surface >= len(scene.planes))  # it has the planes already
         ray, surface = ray[on_mesh], surface[on_mesh]
         surface, row = np.unique(surface, return_inverse=True)
-        clip = camera.clip_start, camera.clip_end
-        contest = Contest(rays, self._planes, len(scene.instances), *clip, self._around)
-        names = self._numbers.names_of(surface)
+        around = corner_rays(self.film.camera, self.film.dx, self.film.dy)
+        contest = Contest.of(scene, rays, around)
+        names = self.numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
         # Ray by ray, and once each: a triangle of unknown orientation has two set-ups.
         key = np.sort(ray * len(surface) + row)  # faster than `np.unique`
@@ -136,4 +131,4 @@ class Verdict:
         for part in parts(len(ray), _PAIRS):
             contest.enter(Pairs(ray[part], row[part], triangles))
             yield "contest"
-        return (yield from mapped(contest.hits(self._statistics), lambda _: "contest"))
+        return (yield from mapped(contest.hits(self.statistics), lambda _: "contest"))
