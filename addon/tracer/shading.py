@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
-from .vector import Index, Vectors, cross, dot, largest, transform_points
+from .vector import Index, Vectors, cross, dot, largest
+from .world import world_corners
 
 
 def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
@@ -56,19 +57,12 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     n = np.zeros((3, len(first)))
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         n[:, hits.instance == index] = infinite.normal[:, None]
-    for mesh, rows in by_mesh(scene, hits.instance):
-        which = hits.instance[rows]
-        if (which == which[0]).all():
-            which = which[:1]
-        matrices = scene.instance_matrices[..., which]
-        corners = mesh.triangles.take(hits.triangle[rows], axis=0).T
-        p1, p2, p3 = (
-            transform_points(matrices, mesh.vertices.take(corner, axis=0).T) for corner in corners
-        )
-        x, y, z = map(near_1, matrices[:3, :3].swapaxes(0, 1))  # where the object's axes go
-        mirrored = dot(cross(x, y), z) < 0
-        p1, p2, p3 = (p * 2.0**-2 for p in (p1, p2, p3))  # their differences do not overflow
-        n[:, rows] = cross(near_1(p2 - p1), near_1(p3 - p1)) * np.where(mirrored, -1, 1)
+    rows = np.flatnonzero((hits.instance != NOTHING) & (hits.instance < len(scene.instances)))
+    instance, triangle = hits.instance[rows], hits.triangle[rows]
+    p1, p2, p3 = world_corners(scene, instance, triangle) * 2.0**-2  # their differences are finite
+    x, y, z = map(near_1, scene.instance_matrices[:3, :3].swapaxes(0, 1))  # where the axes go
+    mirrored = (dot(cross(x, y), z) < 0)[instance]
+    n[:, rows] = cross(near_1(p2 - p1), near_1(p3 - p1)) * np.where(mirrored, -1, 1)
     n = near_1(n)
     length = np.sqrt(dot(n, n))
     return (n / np.where(length > 0, length, 1)).T.take(run, axis=0)

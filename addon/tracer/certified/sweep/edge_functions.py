@@ -32,11 +32,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import Arrays, Floats, Index, gather, largest, parts
+from ...vector import Arrays, Floats, Index, gather, largest
 from ..bounds import U
 from .film import Film, Vertices
 
-_CHUNK = 1 << 13  # triangles at a time: their temporaries stay in a core's cache
 _MORE = 1.01  # for the roundings of the bounds themselves
 # Far above what gradual underflow may lose, far below where it matters: what is as small as this is
 # decided elsewhere.
@@ -81,26 +80,7 @@ def set_up(
     reach : (m,) int
         How far from there they are asked for, in pixels, along either axis.
     """
-    count = corners.shape[1]
-    out = EdgeFunctions(
-        np.arange(count),
-        origin,
-        np.empty((3, 4, count)),
-        np.empty(count),
-        np.empty(count),
-        nearest,
-        np.empty(count, bool),
-    )
-    for part in parts(count, _CHUNK):
-        _fill(out.take(part), film, vertices, corners[:, part], reach[part])
-    return out if out.sure.all() else _both_signs(out)
-
-
-def _fill(
-    out: EdgeFunctions, film: Film, vertices: Vertices, corners: Index, reach: Floats
-) -> None:
-    """Compute the functions of some triangles, and their bounds."""
-    x0, y0 = out.origin + 0.5
+    x0, y0 = origin + 0.5
     p, q, w = [], [], []
     corners = corners.astype(np.intp)  # once, not for every array
     for corner in corners:
@@ -109,7 +89,7 @@ def _fill(
         q.append(gather(vertices.q, corner) - y0 * weight)
         w.append(weight)
     size = largest(*(gather(vertices.size, corner) for corner in corners))
-    of_1, of_y, of_x = coefficients = out.coefficients
+    of_1, of_y, of_x = coefficients = np.empty((3, 4, len(size)))
     for k, (a, b) in enumerate(((1, 2), (2, 0), (0, 1))):
         np.subtract(q[a] * w[b], w[a] * q[b], out=of_x[k])
         np.subtract(w[a] * p[b], p[a] * w[b], out=of_y[k])
@@ -149,12 +129,14 @@ def _fill(
         for function in coefficients:
             np.divide(function[0] + function[1] + function[2], amount, out=function[3])
         relative = error / least + (2 * film.ray_error + 16 * U)
-        nearness_error = 6 * edge_error / least + relative * out.nearest
+        nearness_error = 6 * edge_error / least + relative * nearest
     nearness_error *= _MORE
-    out.sure[:], out.edge_error[:], out.nearness_error[:] = sure, edge_error, nearness_error
     lost = ~(terms < _HUGE)
     if lost.any():  # any pixel may be covered
-        coefficients[:, :, lost], out.edge_error[lost], out.sure[lost] = 0, np.inf, False
+        coefficients[:, :, lost], edge_error[lost], sure[lost] = 0, np.inf, False
+    every = np.arange(len(size))
+    out = EdgeFunctions(every, origin, coefficients, edge_error, nearness_error, nearest, sure)
+    return out if sure.all() else _both_signs(out)
 
 
 def _both_signs(found: EdgeFunctions) -> EdgeFunctions:

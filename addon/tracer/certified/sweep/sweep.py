@@ -30,7 +30,7 @@ from .small_triangles import SmallTriangles
 from .verdict import Verdict
 
 _TRIANGLES = 1 << 17  # looked at together
-_SET_UP = 1 << 15  # of those that are not small, at a time
+_SET_UP = 1 << 13  # of those that are not small, at a time: they stay in a core's cache
 _FRAGMENTS = 1 << 10  # for which there is always room
 _PIXELS = 1 << 15  # of a plane, at a time
 _PAIRS = 1 << 15  # that the depth buffer is asked about together
