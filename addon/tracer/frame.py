@@ -115,7 +115,7 @@ class Frame:
     @property
     def barycentrics(self) -> NDArray[np.float64]:
         """Weights of the triangle's corners, (h, w, 3)."""
-        return np.moveaxis(self.measures.of(slice(None))[1], 0, -1)
+        return np.moveaxis(self.measures.of(slice(None))[1:], 0, -1)
 
     @property
     def position(self) -> NDArray[np.float64]:
@@ -135,12 +135,11 @@ class Frame:
     def hits(self, rows: slice = slice(None)) -> LazyHits:
         """Return what the centre rays of some rows met, row by row."""
         names = self.instance_index, self.triangle_index, self.certainty
-
-        def measure(ray: NDArray) -> tuple[NDArray, NDArray]:
-            t, s = self.measures.of(rows)
-            return t.reshape(-1)[ray], s.reshape(3, -1)[:, ray]
-
-        return LazyHits(*(v[rows].reshape(-1) for v in names), measure)
+        measures = self.measures
+        return LazyHits(
+            *(v[rows].reshape(-1) for v in names),
+            lambda ray: measures.of(rows).reshape(4, -1)[:, ray],
+        )
 
     def enter(self, rows: slice, hits: Hits) -> None:
         """Enter what the centre rays of some rows met, row by row."""

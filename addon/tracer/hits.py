@@ -15,7 +15,7 @@ from .certified.reasons import Reason, sentences
 from .vector import Arrays, Index, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
-Measure = tuple[NDArray[np.float64], NDArray[np.float64]]  # t (n,) and barycentrics (3, n)
+Measure = NDArray[np.float64]  # (4, ...): t, and the barycentrics
 Name = tuple[int, int]  # instance and triangle
 NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 _TOGETHER = 1 << 17  # rows of ties looked at together
@@ -196,33 +196,22 @@ class Hits:
 
 @dataclass(frozen=True, eq=False)
 class Measured(Arrays):
-    """t (k,) and barycentrics (3, k) of k rays that were found with the names; `ray` ascends."""
+    """t and barycentrics, (4, k), of k rays that were found with the names; `ray` ascends."""
 
     ray: NDArray[np.int64]
-    t: NDArray[np.float64]
-    s: NDArray[np.float64]
-
-    @property
-    def measure(self) -> Measure:
-        """Both."""
-        return self.t, self.s
+    values: Measure
 
     @classmethod
     @cache
     def none(cls) -> Measured:
         """Return those of no rays."""
-        return cls(np.zeros(0, np.int64), np.zeros(0), np.zeros((3, 0)))
-
-    def numbered(self, first: int) -> Measured:
-        """Return them with ray i called i + first."""
-        return replace(self, ray=self.ray + first)
+        return cls(np.zeros(0, np.int64), np.zeros((4, 0)))
 
 
 class LazyHits(Hits):
     """What n rays meet, of which t and the barycentrics are found when they are asked for.
 
-    `measure` gives both of the rays with these numbers (k,), which are called `ray` (n,) here: by
-    default 0 to n - 1. `known` is what `measure` knows already.
+    `measure` gives both of the rays with these numbers (k,); `known` is what it knows already.
     """
 
     def __init__(
@@ -231,18 +220,16 @@ class LazyHits(Hits):
         triangle: NDArray[np.int32],
         certainty: NDArray[np.uint8],
         measure: Callable[[Index], Measure] | None = None,
-        ray: Index | None = None,
     ) -> None:
         self.instance, self.triangle, self.certainty = instance, triangle, certainty
-        self.ties, self.known = Ties.none(), Measured.none()
-        self.measure, self._ray = measure, ray
+        self.ties, self.known, self.measure = Ties.none(), Measured.none(), measure
 
     @cached_property
     def _measured(self) -> Measure:
-        return self.measure(np.arange(len(self)) if self._ray is None else self._ray)
+        return self.measure(np.arange(len(self)))
 
     t = property(lambda self: self._measured[0])
-    s = property(lambda self: self._measured[1])
+    s = property(lambda self: self._measured[1:])
 
     def enter(self, index: NDArray | slice, other: Hits) -> None:
         """Write the names of others in their place, and how they were decided."""
@@ -251,8 +238,6 @@ class LazyHits(Hits):
 
     def take(self, index: NDArray | slice) -> LazyHits:
         """Return the hits of the rays at `index`, as lazy, without their ties."""
-        if self._ray is not None:
-            ray = self._ray[index]
-        else:
-            ray = np.arange(*index.indices(len(self))) if isinstance(index, slice) else index
-        return LazyHits(*(getattr(self, name)[index] for name in _NAMES), self.measure, ray)
+        own = np.arange(*index.indices(len(self))) if isinstance(index, slice) else index
+        names, measure = (getattr(self, name)[index] for name in _NAMES), self.measure
+        return LazyHits(*names, lambda ray: measure(own[ray]))

@@ -7,6 +7,8 @@ function of the ray and its surface alone: it does not matter when, or of which 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,23 +35,25 @@ class Measures:
         self._height, self._width = names[0].shape
         self._open = np.zeros(self._height, bool)  # rows that nobody has asked for yet
         self._known = Measured.none()
-        self._t: NDArray | None = None
-        self._s: NDArray | None = None
+
+    @cached_property
+    def _values(self) -> Measure:
+        return _nothing(self._height, self._width)
 
     def enter(self, rows: slice, hits: Hits) -> None:
         """Enter what is known of rows; what `LazyHits` do not know is found when asked for."""
         if isinstance(hits, LazyHits):
-            known = hits.known.numbered(rows.start * self._width)
-            self._known, self._open[rows] = Measured.joined((self._known, known)), True
+            ray = hits.known.ray + rows.start * self._width
+            self._known = Measured.joined((self._known, replace(hits.known, ray=ray)))
         else:
-            self._keep(rows, hits.t, hits.s)
+            self._values[:, rows] = np.vstack((hits.t, hits.s)).reshape(4, -1, self._width)
+        self._open[rows] = isinstance(hits, LazyHits)
 
     def of(self, rows: slice) -> Measure:
-        """Return t (k, w), inf where nothing is hit, and barycentrics (3, k, w) of k rows."""
-        self._keep(slice(0, 0), *Measured.none().measure)
+        """Return t, inf where nothing is hit, and barycentrics of k rows, (4, k, w)."""
         for _ in self.steps(rows):
             pass
-        return self._t[rows], self._s[:, rows]
+        return self._values[:, rows]
 
     def steps(self, rows: slice) -> Iterator[None]:
         """Find those of some rows that are not known yet, in small steps."""
@@ -60,15 +64,17 @@ class Measures:
             if self._open[some].any():
                 ray = np.arange(some.start * self._width, some.stop * self._width)
                 region = self._scene.camera.region
-                self._keep(some, *measured(self._scene, region, names, self._known, ray))
+                found = measured(self._scene, region, names, self._known, ray)
+                self._values[:, some] = found.reshape(4, -1, self._width)
+                self._open[some] = False
             yield
 
-    def _keep(self, rows: slice, t: NDArray, s: NDArray) -> None:
-        if self._t is None:
-            self._t = np.full((self._height, self._width), np.inf)
-            self._s = np.zeros((3, *self._t.shape))
-        self._t[rows], self._s[:, rows] = t.reshape(-1, self._width), s.reshape(3, -1, self._width)
-        self._open[rows] = False
+
+def _nothing(*shape: int) -> Measure:
+    """Return t and the barycentrics of rays of this shape that hit nothing."""
+    out = np.zeros((4, *shape))
+    out[0] = np.inf
+    return out
 
 
 def measured(
@@ -80,7 +86,7 @@ def measured(
     dx: float = 0.0,
     dy: float = 0.0,
 ) -> Measure:
-    """Return t, the nearest float64, and the barycentrics of some certified rays of a region.
+    """Return t, the nearest float64, and the barycentrics of certified rays of a region, (4, k).
 
     Parameters
     ----------
@@ -99,11 +105,11 @@ def measured(
         If this process's arithmetic no longer is as the proof needs it.
     """
     check_assumptions()
-    hits = Hits.none(len(ray))
-    names = [gather(v, ray) for v in names]
+    values, names = _nothing(len(ray)), [gather(v, ray) for v in names]
+    hits = Hits(values[0], *np.full((2, len(ray)), NOTHING), values[1:])
     place = np.searchsorted(known.ray, ray)
     given = np.append(known.ray, NOTHING)[place] == ray
-    hits.t[given], hits.s[:, given] = known.take(place[given]).measure
+    values[:, given] = known.values[:, place[given]]
     around = corner_rays(scene.camera, dx, dy)
 
     def rays_at(index: Index) -> Rays:
@@ -117,7 +123,7 @@ def measured(
         for some in parts(len(at), TOGETHER):
             prepared.enter(hits, at[some], rays_at(at[some]), surface[some])
         prepared.finish(hits, rays_at)
-    return hits.t, hits.s
+    return values
 
 
 def _surfaces(scene: Scene, instance: Index, triangle: Index) -> tuple[Surfaces, Index]:

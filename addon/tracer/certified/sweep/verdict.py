@@ -104,7 +104,7 @@ class Verdict:
             found = yield from self._contest(self._rays(which), ray, surface)
             hits.enter(which, found)
             ties.append(found.ties.numbered(which))
-            known.append(Measured(which, found.t, found.s))
+            known.append(Measured(which, np.vstack((found.t, found.s))))
         hits.ties, hits.known = Ties.joined(ties), Measured.joined(known)
 
     def _rays(self, pixel: Index) -> Rays:
