@@ -95,6 +95,15 @@ def grouped(number: NDArray[np.integer], count: int) -> list[NDArray[np.intp]]:
     return np.split(np.argsort(number, kind="stable"), ends)
 
 
+def occurring(number: Index, count: int) -> tuple[NDArray[np.intp], NDArray[np.int32]]:
+    """Return which numbers below `count` occur, ascending, and which of these each is."""
+    occurs = np.zeros(count, bool)
+    occurs[number] = True
+    which, place = np.flatnonzero(occurs), np.empty(count, np.int32)
+    place[which] = np.arange(len(which), dtype=np.int32)
+    return which, place.take(number)
+
+
 def largest(*values: NDArray) -> NDArray:
     """Return the largest of several arrays, place by place."""
     return reduce(np.maximum, values)

@@ -19,6 +19,7 @@ from ..camera import Rays
 from ..candidates import Pairs
 from ..hits import Hits, Statistics, Ties
 from ..progress import Work
+from ..vector import occurring
 from ..world import WorldTriangles
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
 from .certainty import Certainty
@@ -94,7 +95,7 @@ class Contest:
             sure, possible = sides(prepared, row, rays)
             fractions = prepared.fractions(row[possible], rays.take(possible))
             found = self._candidates(some.pixel[possible], some.row[possible], fractions, sure)
-        used, number = np.unique(found.surface, return_inverse=True)
+        used, number = occurring(found.surface, len(some.triangles))
         self._possible.append(replace(found, surface=number + self._surfaces))
         self._triangles.append(some.triangles.take(used))
         self._surfaces += len(used)

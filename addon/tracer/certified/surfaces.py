@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import NOTHING, Hits
-from ..vector import Arrays, Floats, Index, Vectors, cross, gather, largest, parts
+from ..vector import Arrays, Floats, Index, Vectors, cross, gather, largest, occurring, parts
 from ..world import WorldTriangles
 from . import exact
 from .quotient import Quotients
@@ -55,10 +55,9 @@ class Surfaces:
     def only(self, surface: NDArray[np.integer]) -> tuple[Surfaces, Index]:
         """Return all planes, and the triangles among these surfaces, with their numbers there."""
         planes, count = len(self.planes), self.triangles.corners.shape[2]
-        occurs = np.zeros(planes + count, bool)
-        occurs[surface] = occurs[:planes] = True
-        triangles = self.triangles.take(np.flatnonzero(occurs[planes:]))
-        return replace(self, triangles=triangles), (np.cumsum(occurs) - 1)[surface]
+        which, place = occurring(np.r_[np.arange(planes), surface], planes + count)
+        triangles = self.triangles.take(which[planes:] - planes)
+        return replace(self, triangles=triangles), place[planes:]
 
     def names(
         self, surface: NDArray[np.integer] | slice = slice(None)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ....scene import Mesh, Scene
 from ...progress import Steps
-from ...vector import Index, Vectors, gather, grouped, groups, transform_points
+from ...vector import Index, Vectors, gather, grouped, groups, occurring, transform_points
 from ...vector import parts as slices
 from .film import Film, Vertices
 from .small_triangles import SmallTriangles
@@ -139,8 +139,8 @@ class _Part:
     of its vertices more for each instance before. `own` (m,): see `Names`.
     """
 
-    instances: NDArray[np.int32]
     mesh: Mesh
+    instances: NDArray[np.int32]
     counts: Index
     corners: Index
     used: Index
@@ -161,7 +161,10 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
 
     What is not finite there is dropped, or decided elsewhere.
     """
-    parts = list(_parts(scene, chunk, small))
+    parts = []
+    for part in _parts(scene, chunk, small):
+        parts += [part] if part else []
+        yield "project"
     size = max(film.camera.width, film.camera.height)
     vertices = Vertices.empty(
         sum(len(part.used) for part in parts), np.int16 if size < 1 << 14 else np.int32
@@ -179,32 +182,24 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
     return Expanded(
         vertices,
         corners[0] if len(parts) == 1 else np.hstack(corners),
-        Names(chunk.instances, starts, chunk.first, own),
+        Names(np.concatenate([part.instances for part in parts]), starts, chunk.first, own),
     )
 
 
-def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part]:
-    """Yield a chunk's triangles, mesh by mesh."""
+def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:
+    """Yield a chunk's triangles, mesh by mesh; and None after each short step between."""
     of = scene.instance_meshes[chunk.instances]
     for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
         mesh = scene.meshes[scene.instances[members[0]].mesh]
         if chunk.dense:
-            yield _Part(members, mesh, *small.within(mesh, members))
+            for found in small.within(mesh, members):
+                yield found and _Part(mesh, *found)
             continue
-        corners = mesh.triangles[chunk.first : chunk.last].T
-        used = np.arange(len(members) * len(mesh.vertices))
+        corners, count = mesh.triangles[chunk.first : chunk.last].T, len(mesh.vertices)
+        used = np.arange(len(members) * count)
         if chunk.last is not None:
-            used, corners = _used(corners)
+            used, corners = occurring(corners, count)
         counts = np.full(len(members), corners.shape[1])
-        starts = len(mesh.vertices) * np.arange(len(members), dtype=np.int32)
+        starts = count * np.arange(len(members), dtype=np.int32)
         corners = (corners[:, None] + starts[:, None]).reshape(3, -1)
-        yield _Part(members, mesh, counts, corners, used)
-
-
-def _used(corners: Index) -> tuple[Index, Index]:
-    """Return which vertices some triangles may use, and the triangles' corners among them."""
-    low, high = int(corners.min()), int(corners.max())
-    if high - low < corners.size:
-        return np.arange(low, high + 1), corners - low
-    used, number = np.unique(corners, return_inverse=True)
-    return used, number.reshape(corners.shape).astype(np.int32)
+        yield _Part(mesh, members, counts, corners, used)

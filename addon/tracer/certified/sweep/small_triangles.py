@@ -18,16 +18,19 @@ and of the box itself.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Mesh, Region, Scene
 from ...camera import pixel_size
-from ...vector import Floats, Index, gather, largest
+from ...vector import Floats, Index, gather, largest, occurring, parts
 from .film import Film
 
 _PER_PIXEL = 2  # triangles for a pixel of an instance's box: from there on it is dense
-_TOGETHER = 1 << 14  # vertices at a time: their temporaries stay in a core's cache
+_VERTICES = 1 << 14  # at a time: their temporaries stay in a core's cache
+_TRIANGLES = 1 << 15  # at a time
 _ROUNDING = 2.0**-24
 _RANGE = 2.0**40  # of all factors and sums, and of 1 / w: far from where float32 loses digits
 _FARTHEST = 1 << 14  # pixels, added to numbers that are less: the sum of two fills 16 bits
@@ -82,11 +85,11 @@ class SmallTriangles:
         known &= largest(most, np.full_like(most, far)) < _FARTHEST // 2
         self.is_dense = known & (counts > _PER_PIXEL * area)
 
-    def within(self, mesh: Mesh, members: Index) -> tuple[Index, Index, Index, Index]:
-        """Return which triangles of k instances of a mesh may cover a pixel.
+    def within(self, mesh: Mesh, members: Index) -> Iterator[tuple[Index, ...] | None]:
+        """Find which triangles of instances of a mesh may cover a pixel, in small steps.
 
-        Returns
-        -------
+        Yields None after a step; or of some instances (k,) and triangles at a time
+
         counts : (k,) int
             How many of each instance.
         corners : (3, m) int32
@@ -100,30 +103,26 @@ class SmallTriangles:
         count, each = len(mesh.vertices), len(mesh.triangles)
         own = np.ones((4, count), np.float32)
         own[:3] = mesh.vertices.T
-        corners = mesh.triangles.T.astype(np.intp)  # once, not for all instances
-        together, total, found = max(1, _TOGETHER // count), 0, []
-        for first in range(0, len(members), together):
-            some = members[first : first + together]
-            ends = self._ends(own, some)
-            most = gather(ends, corners[0]).view(np.uint16)
-            for corner in corners[1:]:
-                np.maximum(most, gather(ends, corner).view(np.uint16), out=most)
-            both = most.view(np.uint32).ravel()
-            both = both[::2] + both[1::2]
-            both &= _BOTH
-            inside = np.flatnonzero(both == _BOTH)
-            copy = inside // each
-            triangle = inside - copy * each
-            at = gather(corners, triangle) + copy * count
-            used = np.zeros(ends.size, bool)
-            used[at] = True
-            vertex = np.flatnonzero(used)
-            number = np.empty(ends.size, np.int32)
-            number[vertex] = np.arange(total, total + len(vertex), dtype=np.int32)
-            total += len(vertex)
-            counts, vertex = np.bincount(copy, minlength=len(some)), vertex + first * count
-            found.append((counts, gather(number, at), vertex, triangle.astype(np.int32)))
-        return tuple(np.concatenate(v, axis=-1) for v in zip(*found, strict=True))
+        corners = []
+        for part in parts(each, _TRIANGLES):
+            corners.append(mesh.triangles[part].T.astype(np.intp))  # once, not for all instances
+            yield None
+        together = max(1, _TRIANGLES // max(count, each))
+        for some in (members[part] for part in parts(len(members), together)):
+            ends = np.empty((len(some), count), np.int64)
+            for part in parts(count, _VERTICES // len(some)):
+                ends[:, part] = self._ends(own[:, part], some)
+                yield None
+            for first, (a, b, c) in zip(range(0, each, _TRIANGLES), corners, strict=True):
+                most = largest(*(gather(ends, k).view(np.uint16) for k in (a, b, c)))
+                both = most.view(np.uint32).ravel()
+                both = both[::2] + both[1::2]
+                inside = np.flatnonzero(both & _BOTH == _BOTH)
+                copy, triangle = np.divmod(inside, len(a))
+                at = np.stack([gather(k, triangle) + copy * count for k in (a, b, c)])
+                used, at = occurring(at, ends.size)
+                counts, triangle = np.bincount(copy, minlength=len(some)), triangle + first
+                yield some, counts, at, used, triangle.astype(np.int32)
 
     def _ends(self, vertices: NDArray[np.float32], members: Index) -> NDArray[np.int64]:
         """Return per vertex the pixels that a triangle with it may cover: (k, v), 4 x 16 bits.

@@ -51,7 +51,7 @@ def test_what_is_left_out_has_no_pixel_in_its_box(make, monkeypatch):
                 low, high, _ = boxes_of(scene, film, expanded)
             first, last = [[region.x0], [region.y0]], [[region.x1 - 1], [region.y1 - 1]]
             inside = (np.maximum(low, first) <= np.minimum(high, last)).all()
-            counts, _, used, triangle = small.within(meshes[k], np.array([k]))
+            [(_, counts, _, used, triangle)] = filter(None, small.within(meshes[k], np.array([k])))
             assert counts.sum() == len(triangle) and len(used) == 3 * len(triangle)
             assert len(triangle) or not inside, seed
             left_out += not len(triangle)
@@ -76,19 +76,21 @@ def dense_scene(make) -> Scene:
     return Scene(make.camera(60, 44, half=0.2), spheres, instances, objects=("A",))
 
 
+@pytest.mark.parametrize("together", [1 << 15, 3000, 100])
 @pytest.mark.parametrize("orthographic", [False, True])
-def test_the_picture_is_the_same(make, dense_scene, orthographic, monkeypatch):
+def test_the_picture_is_the_same(make, dense_scene, orthographic, together, monkeypatch):
     camera = make.camera(60, 44, half=0.6 if orthographic else 0.2, orthographic=orthographic)
     scene = Scene(camera, dense_scene.meshes, dense_scene.instances, objects=("A",))
     small = small_in(scene, Film(camera), camera.region)
     assert small.is_dense[1:].all() and not small.is_dense[0]
     some = np.flatnonzero(scene.instance_meshes == 0)
-    counts, corners, used, triangle = small.within(scene.meshes[0], some)
-    assert 0 < counts.sum() < 0.7 * len(some) * len(scene.meshes[0].triangles)
-    each = len(scene.meshes[0].vertices)
-    copy = np.repeat(np.arange(len(some)), counts)
-    named = scene.meshes[0].triangles[triangle].T + each * copy
-    assert np.array_equal(used[corners], named)
+    total, each = 0, len(scene.meshes[0].vertices)
+    monkeypatch.setattr(module, "_TRIANGLES", together)
+    for own, counts, corners, used, triangle in filter(None, small.within(scene.meshes[0], some)):
+        copy = np.repeat(np.arange(len(own)), counts)
+        assert np.array_equal(used[corners], scene.meshes[0].triangles[triangle].T + each * copy)
+        total += counts.sum()
+    assert 0 < total < 0.7 * len(some) * len(scene.meshes[0].triangles)
     found = render(scene, Settings("certified"))
     monkeypatch.setattr(module, "_PER_PIXEL", np.inf)
     whole = render(scene, Settings("certified"))
