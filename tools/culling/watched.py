@@ -78,8 +78,10 @@ class Watched(sweep.Sweep):
         """Which pixels pairs are of, row by row from the lowest."""
         return self._depths.pixels(rivals.pixel)
 
-    def boxes(self, expanded: Expanded) -> tuple[NDArray, NDArray, NDArray]:
-        low, high, nearest = super().boxes(expanded)
+    def boxes_of(
+        self, scene: Scene, film: Film, expanded: Expanded
+    ) -> tuple[NDArray, NDArray, NDArray]:
+        low, high, nearest = super().boxes_of(scene, film, expanded)
         if self._closely:
             self.expanded.append(expanded)
             self.found_boxes.append((low, high))
@@ -93,7 +95,7 @@ class Watched(sweep.Sweep):
         return found
 
     def are_small(
-        self, expanded: Expanded, low: NDArray, high: NDArray, some: NDArray
+        self, film: Film, expanded: Expanded, low: NDArray, high: NDArray, some: NDArray
     ) -> NDArray[np.bool_]:
         """All triangles go the way that can be drawn, which finds the same."""
         return np.zeros(len(some), bool)

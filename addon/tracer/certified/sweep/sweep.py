@@ -20,7 +20,7 @@ from ...progress import Steps, Work, quiet, scaled, timed
 from ...vector import Index, gather, parts
 from ..bounds import plane_fractions
 from .boxes import InstanceBoxes, boxes_of, by_depth
-from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
+from .chunks import Chunk, Names, Numbering, chunks, expand
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
@@ -81,6 +81,8 @@ class _FullError(Exception):
 
 class Sweep:
     """A region's pixels, within the camera's, on the way to being decided."""
+
+    boxes_of, are_small = staticmethod(boxes_of), staticmethod(are_small)
 
     def __init__(self, scene: Scene, film: Film, region: Region, statistics: Statistics) -> None:
         self._scene, self._film, self._statistics = scene, film, statistics
@@ -168,7 +170,7 @@ class Sweep:
         expanded = yield from expand(self._scene, self._film, chunk, self._small)
         start = self._numbers.enter(expanded.names)
         yield "project"
-        low, high, nearest = self.boxes(expanded)
+        low, high, nearest = self.boxes_of(self._scene, self._film, expanded)
         yield "boxes"
         corner = np.array([[region.x0], [region.y0]], low.dtype)
         extent = np.array([[region.width - 1], [region.height - 1]], low.dtype)
@@ -188,9 +190,9 @@ class Sweep:
                 some = depth_bin[part]
                 ends = gather(part_low, some), gather(part_high, some)
                 some = gather(some, self.not_hidden(*ends, gather(nearest, some)))
-                small = self.are_small(expanded, low, high, some)
+                small = self.are_small(self._film, expanded, low, high, some)
                 yield "set-up"
-                own, left = some[small], [some[~small]]
+                own, left = gather(some, np.flatnonzero(small)), [some[~small]]
                 found = small_pairs(
                     self._film, expanded, low, high, own, self._depths, culling, left
                 )
@@ -216,16 +218,6 @@ class Sweep:
                     for pairs in self.pairs(found, boxes):
                         self._keep(self.of_pairs(pairs, start + gather(of, pairs.owner)))
                         yield "pixels"
-
-    def are_small(
-        self, expanded: Expanded, low: Index, high: Index, some: Index
-    ) -> NDArray[np.bool_]:
-        """Return which of some triangles go the way of `small_boxes.py`."""
-        return are_small(self._film, expanded, low, high, some)
-
-    def boxes(self, expanded: Expanded) -> tuple[Index, Index, NDArray[np.float64]]:
-        """Return the boxes of a chunk's triangles, as `boxes_of`."""
-        return boxes_of(self._scene, self._film, expanded)
 
     def not_hidden(self, low: Index, high: Index, nearest: NDArray) -> Index:
         """Return which boxes, where they are small, are not wholly behind the depth buffer."""
