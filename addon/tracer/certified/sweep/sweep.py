@@ -215,7 +215,7 @@ class Sweep:
                     of = gather(some, found.row)  # some may occur twice
                     boxes = Boxes(np.arange(len(of)), gather(part_low, of), gather(part_high, of))
                     yield "set-up"
-                    for pairs in self.pairs(found, boxes):
+                    for pairs in Covered.together(self.pairs(found, boxes), _PAIRS):
                         self._keep(self.of_pairs(pairs, start + gather(of, pairs.owner)))
                         yield "pixels"
 
@@ -225,10 +225,7 @@ class Sweep:
         return np.flatnonzero(~(nearest < self._depths.farthest_in(low, high)))
 
     def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
-        """Yield the pairs of boxes, so many at a time as are a short step."""
-        return Covered.together(self._blocks(found, boxes), _PAIRS)
-
-    def _blocks(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
+        """Yield the pairs of boxes, in small steps."""
         reached, culling = np.zeros(len(found), bool), self._statistics.culling
         for some in split(found, boxes, self._depths):
             reached[found.row.take(some.owner)] = True
