@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 _GIB = 1 << 30
@@ -41,40 +42,34 @@ def free_memory() -> int | None:
     """Return how many bytes can be had without swapping; None if the system does not say."""
     if sys.platform == "win32":
         return _free_on_windows()
-    found = [_free_of_machine(), _free_of_container(), _free_of_process()]
-    return min((f for f in found if f is not None), default=None)
+    found = []
+    for ask in (_free_of_machine, _free_of_container, _free_of_process):
+        # A system that does not have it; or "max", which is no number: there is no limit.
+        with suppress(ImportError, OSError, ValueError, StopIteration):
+            found += ask()
+    return min(found, default=None)
 
 
-def _free_of_machine() -> int | None:
-    try:
-        lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
-        return next(int(v.split()[1]) for v in lines if v.startswith("MemAvailable:")) << 10
-    except (OSError, ValueError, StopIteration):
-        return None
+def _free_of_machine() -> list[int]:
+    lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+    return [next(int(v.split()[1]) for v in lines if v.startswith("MemAvailable:")) << 10]
 
 
-def _free_of_container() -> int | None:
+def _free_of_container() -> list[int]:
     folder = Path("/sys/fs/cgroup")
-    try:
-        limit, used = ((folder / name).read_text() for name in ("memory.max", "memory.current"))
-        return int(limit) - int(used)  # "max" is no number: there is no limit
-    except (OSError, ValueError):
-        return None
+    limit, used = ((folder / name).read_text() for name in ("memory.max", "memory.current"))
+    return [int(limit) - int(used)]
 
 
-def _free_of_process() -> int | None:
+def _free_of_process() -> list[int]:
     """Return what is left of the process's own limits, as `ulimit -v` and `-d` set them."""
-    try:
-        import resource
+    import resource
 
-        pages = Path("/proc/self/statm").read_text(encoding="ascii").split()
-    except (ImportError, OSError):
-        return None
+    pages = Path("/proc/self/statm").read_text(encoding="ascii").split()
     limits = (resource.RLIMIT_AS, pages[0]), (resource.RLIMIT_DATA, pages[5])
     soft = [(resource.getrlimit(kind)[0], int(used)) for kind, used in limits]
     page = resource.getpagesize()
-    left = [limit - used * page for limit, used in soft if limit != resource.RLIM_INFINITY]
-    return min(left, default=None)
+    return [limit - used * page for limit, used in soft if limit != resource.RLIM_INFINITY]
 
 
 def _free_on_windows() -> int | None:

@@ -52,10 +52,10 @@ def test_what_is_free_decides(free, fits, monkeypatch):
 
 
 def test_the_least_of_machine_and_container_counts(monkeypatch):
-    for machine, container, expected in ((5, None, 5), (None, 3, 3), (5, 3, 3), (None, None, None)):
+    for machine, container, expected in (([5], [], 5), ([], [3], 3), ([5], [3], 3), ([], [], None)):
         monkeypatch.setattr(memory, "_free_of_machine", lambda m=machine: m)
         monkeypatch.setattr(memory, "_free_of_container", lambda c=container: c)
-        monkeypatch.setattr(memory, "_free_of_process", lambda: None)
+        monkeypatch.setattr(memory, "_free_of_process", lambda: [])
         assert free_memory() == expected
 
 
