@@ -156,7 +156,7 @@ class Frame:
     def _by_rows(self, of: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
         """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
         height, width = self.shape
-        out = _vectors(height, width)
+        out = np.moveaxis(np.zeros((3, height, width)), 0, -1)  # as the tracer has vectors
         together = max(1, _PIXELS // width)
         for y in range(0, height, together):
             rows = slice(y, min(y + together, height))
@@ -203,8 +203,3 @@ class Frame:
     def passes(self) -> dict[str, NDArray]:
         """Return every output by name, also those that are computed."""
         return {p.name: getattr(self, p.name) for p in PASSES}
-
-
-def _vectors(height: int, width: int) -> NDArray[np.float64]:
-    """Return zeros, (h, w, 3), each component by itself in memory, as the tracer has vectors."""
-    return np.moveaxis(np.zeros((3, height, width)), 0, -1)
