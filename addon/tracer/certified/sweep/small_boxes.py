@@ -36,7 +36,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...vector import Index, gather, largest
+from ...vector import Index, gather, largest, parts
 from ..bounds import U
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
@@ -76,7 +76,7 @@ def small_pairs(
     expanded: Expanded,
     low: Index,
     high: Index,
-    some: Index,
+    triangles: Index,
     depths: DepthBuffer,
     culling: Counter[str],
     left: list[Index],
@@ -85,6 +85,61 @@ def small_pairs(
 
     `left` is added to: those of them which are nearly edge-on.
     """
+    for some, h, w in _blocks(low, high, triangles):
+        culling["computed"] += h * w * len(some)
+        vertices, count = expanded.vertices, len(some)
+        corners = [c.astype(np.intp) for c in gather(expanded.corners, some)]
+        start = gather(low, some)
+        x0, y0 = start + 0.5
+        x = [gather(vertices.x, c) - x0 for c in corners]
+        y = [gather(vertices.y, c) - y0 for c in corners]
+        sides = (1, 2), (2, 0), (0, 1)
+        of_1 = [x[a] * y[b] - y[a] * x[b] for a, b in sides]
+        volume = of_1[0] + of_1[1] + of_1[2]
+        amount, sign = np.abs(volume), np.copysign(1.0, volume)
+        edge_on = np.flatnonzero(amount <= 2 * _ET)
+        if len(edge_on):
+            left.append(gather(some, edge_on))
+            sign[edge_on] = np.nan  # never inside
+        up, right = np.arange(float(h))[:, None], np.arange(float(w))[:, None]
+        edges = np.empty((3, h, w, count))
+        for edge, constant, (a, b) in zip(edges, of_1, sides, strict=True):
+            constant *= sign
+            if h == w == 1:
+                edge[0, 0] = constant
+            else:
+                rows = constant + (x[b] - x[a]) * sign * up
+                np.add(rows[:, None], (y[a] - y[b]) * sign * right, out=edge)
+        # Of every triangle's nearness: that of its first corner, and what an edge's unit adds.
+        a, b, c = (film.certain_nearness(gather(vertices.depth, k)) for k in corners)
+        nearest = largest(a, b, c)
+        own = film.certain_error(nearest)
+        b -= a
+        c -= a
+        scale = 1 / np.maximum(amount, 2 * _ET)
+        error = largest(np.abs(b), np.abs(c)) * scale
+        error *= _PER_T
+        error += _OWN * own
+        b *= scale
+        c *= scale
+
+        first, second, third = edges
+        least = np.minimum(np.minimum(first, second, out=first), third, out=first).ravel()
+        found = (least >= -_E).nonzero()[0].astype(np.int32)
+        at = found // np.int32(count)  # which of a box's pixels
+        row = found - at * np.int32(count)
+        pixel, found, row = _pixels(depths, start, w, h, at, row, found)
+        nearness = gather(second.ravel(), found) * gather(b, row)
+        nearness += gather(third.ravel(), found) * gather(c, row)
+        nearness += gather(a, row)
+        error = gather(error, row)
+        most = nearness + error
+        nearness -= error
+        yield Covered(pixel, gather(some, row), nearness, most, gather(least, found) > _E)
+
+
+def _blocks(low: Index, high: Index, some: Index) -> Iterator[tuple[Index, int, int]]:
+    """Yield triangles with boxes of about one size, which is at most h pixels high and w wide."""
     width, height = gather(high, some) - gather(low, some)
     shape = _PADDED.take(height) * np.uint16(SIDE + 1) + _PADDED.take(width)
     order = np.argsort(shape, kind="stable")
@@ -92,72 +147,8 @@ def small_pairs(
     starts = np.flatnonzero(np.diff(shape, prepend=np.uint16(0)))
     for start, end in pairwise([*starts.tolist(), len(shape)]):
         h, w = divmod(int(shape[start]), SIDE + 1)
-        culling["computed"] += h * w * (end - start)
-        together = max(1, min(_TRIANGLES, _VALUES // (h * w)))
-        for first in range(start, end, together):
-            part = some[first : min(first + together, end)]
-            yield _block(film, expanded, gather(low, part), part, h, w, depths, left)
-
-
-def _block(
-    film: Film,
-    expanded: Expanded,
-    low: Index,
-    some: Index,
-    h: int,
-    w: int,
-    depths: DepthBuffer,
-    left: list,
-) -> Covered:
-    """Evaluate triangles whose boxes are at most h pixels high and w wide."""
-    vertices, count = expanded.vertices, len(some)
-    corners = [c.astype(np.intp) for c in gather(expanded.corners, some)]
-    x0, y0 = low + 0.5
-    x = [gather(vertices.x, c) - x0 for c in corners]
-    y = [gather(vertices.y, c) - y0 for c in corners]
-    sides = (1, 2), (2, 0), (0, 1)
-    of_1 = [x[a] * y[b] - y[a] * x[b] for a, b in sides]
-    volume = of_1[0] + of_1[1] + of_1[2]
-    amount, sign = np.abs(volume), np.copysign(1.0, volume)
-    edge_on = np.flatnonzero(amount <= 2 * _ET)
-    if len(edge_on):
-        left.append(gather(some, edge_on))
-        sign[edge_on] = np.nan  # never inside
-    up, right = np.arange(float(h))[:, None], np.arange(float(w))[:, None]
-    edges = np.empty((3, h, w, count))
-    for edge, constant, (a, b) in zip(edges, of_1, sides, strict=True):
-        constant *= sign
-        if h == w == 1:
-            edge[0, 0] = constant
-        else:
-            rows = constant + (x[b] - x[a]) * sign * up
-            np.add(rows[:, None], (y[a] - y[b]) * sign * right, out=edge)
-    # Of every triangle's nearness: that of its first corner, and what an edge's unit adds.
-    a, b, c = (film.certain_nearness(gather(vertices.depth, k)) for k in corners)
-    nearest = largest(a, b, c)
-    own = film.certain_error(nearest)
-    b -= a
-    c -= a
-    scale = 1 / np.maximum(amount, 2 * _ET)
-    error = largest(np.abs(b), np.abs(c)) * scale
-    error *= _PER_T
-    error += _OWN * own
-    b *= scale
-    c *= scale
-
-    first, second, third = edges
-    least = np.minimum(np.minimum(first, second, out=first), third, out=first).ravel()
-    found = (least >= -_E).nonzero()[0].astype(np.int32)
-    at = found // np.int32(count)  # which of a box's pixels
-    row = found - at * np.int32(count)
-    pixel, found, row = _pixels(depths, low, w, h, at, row, found)
-    nearness = gather(second.ravel(), found) * gather(b, row)
-    nearness += gather(third.ravel(), found) * gather(c, row)
-    nearness += gather(a, row)
-    error = gather(error, row)
-    most = nearness + error
-    nearness -= error
-    return Covered(pixel, gather(some, row), nearness, most, gather(least, found) > _E)
+        for part in parts(end - start, max(1, min(_TRIANGLES, _VALUES // (h * w)))):
+            yield some[start:end][part], h, w
 
 
 def _pixels(
