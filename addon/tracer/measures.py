@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ..scene import Region, Scene
 from .camera import Rays, camera_rays, corner_rays, film_positions
 from .certified.certainty import check_assumptions
-from .certified.surfaces import TOGETHER, Prepared, Surfaces
+from .certified.surfaces import Prepared, Surfaces
 from .hits import NOTHING, Hits, LazyHits, Measure, Measured
 from .vector import Index, gather, parts
 from .world import WorldTriangles, world_corners
@@ -119,10 +119,8 @@ def measured(
     for part in parts(len(rest), PIXELS):
         at = rest[part]
         surfaces, surface = _surfaces(scene, *(gather(v, at) for v in names))
-        prepared = Prepared(around, surfaces)
-        for some in parts(len(at), TOGETHER):
-            prepared.enter(hits, at[some], rays_at(at[some]), surface[some])
-        prepared.finish(hits, rays_at)
+        for _ in Prepared(around, surfaces).enter(hits, at, surface, rays_at):
+            pass
     return values
 
 

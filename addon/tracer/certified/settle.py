@@ -16,11 +16,10 @@ from numpy.typing import NDArray
 
 from ..camera import Rays
 from ..hits import Hits, Ties
-from ..vector import parts
 from . import exact, order
 from .certainty import Certainty
 from .reasons import Reason, of_doubts
-from .surfaces import CLIP, EDGE, SURE, TOGETHER, Candidates, Prepared, Surfaces
+from .surfaces import CLIP, EDGE, SURE, Candidates, Prepared, Surfaces
 from .ties import seen_and_ties
 
 # Candidates that are decided at a time, which takes some ten milliseconds.
@@ -58,11 +57,7 @@ class Decisions:
     def by_bound(self, ray: NDArray[np.intp], surface: NDArray[np.intp]) -> Iterator[None]:
         """Enter what rays surely hit first, in small steps: only t and barycentrics are open."""
         surfaces, surface = self.surfaces.only(surface)
-        prepared = Prepared(self.around, surfaces)
-        for part in parts(len(ray), TOGETHER):
-            prepared.enter(self.hits, ray[part], self.rays.take(ray[part]), surface[part])
-            yield
-        prepared.finish(self.hits, self.rays.take)
+        yield from Prepared(self.around, surfaces).enter(self.hits, ray, surface, self.rays.take)
 
     def by_order(self, found: Candidates) -> Candidates:
         """Enter rays that surely hit all their candidates, where `order.py` says who is nearest.

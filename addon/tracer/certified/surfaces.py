@@ -7,7 +7,7 @@ rays that surely hit them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -89,36 +89,37 @@ class Prepared:
     def __init__(self, rays: Rays, surfaces: Surfaces) -> None:
         corners = surfaces.triangles.corners
         self._surfaces, self._names = surfaces, surfaces.names()
-        self._unsure: list[tuple[NDArray, NDArray]] = []
         self._planes = len(surfaces.planes)
         with np.errstate(all="ignore"):  # what overflows is not sure
             self._quotients = Quotients.of(rays, corners, surfaces.planes)
             self._edges, self._least = _edges(rays, corners)
 
-    def enter(self, hits: Hits, at: Index, rays: Rays, surface: Index) -> None:
-        """Enter what rays (p,) surely hit first into the hits with these numbers."""
-        with np.errstate(all="ignore"):  # what overflows is not sure
-            t, sure, s = self.meet(rays, surface)
-        if not sure.all():
-            unsure = np.flatnonzero(~sure)
-            self._unsure.append((at[unsure], surface[unsure]))
-        hits.t[at] = t
-        for component, value in zip(hits.s, s, strict=True):
-            component[at] = value
-        instance, triangle = self._names
-        hits.instance[at], hits.triangle[at] = instance.take(surface), triangle.take(surface)
+    def enter(
+        self, hits: Hits, at: Index, surface: Index, rays_at: Callable[[Index], Rays]
+    ) -> Iterator[None]:
+        """Enter what rays surely hit first into the hits with these numbers (p,), in small steps.
 
-    def finish(self, hits: Hits, rays_at: Callable[[Index], Rays]) -> None:
-        """Enter the t and barycentrics that are not known well: integers divide."""
-        if not self._unsure:
+        Integers divide where t or the barycentrics are not known well.
+        """
+        (instance, triangle), unsure = self._names, [np.arange(0)]
+        for part in parts(len(at), TOGETHER):
+            own, of = at[part], surface[part]
+            with np.errstate(all="ignore"):  # what overflows is not sure
+                hits.t[own], sure, s = self.meet(rays_at(own), of)
+            unsure.append(np.flatnonzero(~sure) + part.start)
+            for component, value in zip(hits.s, s, strict=True):
+                component[own] = value
+            hits.instance[own], hits.triangle[own] = instance.take(of), triangle.take(of)
+            yield
+        which = np.concatenate(unsure)
+        if not len(which):
             return
-        at, surface = map(np.concatenate, zip(*self._unsure, strict=True))
-        batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface)
+        at = at[which]
+        batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface[which])
         found = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
         hits.t[at] = [batch.t(hit) for hit in found]
         for k in np.flatnonzero(np.isnan(hits.s[0, at])):
             hits.s[:, at[k]] = found[k].weights
-        self._unsure = []
 
     def meet(
         self, rays: Rays, surface: Index

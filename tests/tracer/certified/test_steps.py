@@ -38,7 +38,7 @@ def test_no_step_is_long_where_surfaces_coincide(make, monkeypatch, orthographic
 
     counting(DepthBuffer, "enter", lambda buffer, pixel, *_: len(pixel))
     counting(Decisions, "by_order", lambda decisions, found: len(found.ray))
-    counting(Prepared, "enter", lambda prepared, hits, at, *_: len(at))
+    counting(Prepared, "meet", lambda prepared, rays, surface: len(surface))
     camera = make.camera(WIDTH, HEIGHT, half=2.0, orthographic=orthographic)
     quad = make.quad(-9, 9, -9, 9, -2)
     frame = Frame.empty(make.scene(camera, *[quad] * surfaces))

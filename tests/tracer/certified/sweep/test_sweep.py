@@ -10,7 +10,7 @@ import pytest
 from reference_tracer.scene import Mesh, Region, Scene
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import measures, render
-from reference_tracer.tracer.certified import contest, settle, surfaces
+from reference_tracer.tracer.certified import contest, surfaces
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.sweep import (
     boxes,
@@ -122,7 +122,7 @@ DIVISIONS = {
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
     "vertices by twos": [(chunks, "_CHUNK", 2)],
-    "hits by ones": [(m, "TOGETHER", 1) for m in (surfaces, settle, measures)],
+    "hits by ones": [(surfaces, "TOGETHER", 1)],
     "integers by ones": [(contest, "BY_INTEGERS", 1)],
     "orders by ones": [(contest, "BY_ORDER", 1)],
     "pixels by ones": [(m, "PIXELS", 1) for m in (verdict, measures)],
