@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scene import Scene
-from ...camera import Rays, camera_rays, corner_rays, film_positions
+from ...camera import camera_rays, corner_rays, film_positions
 from ...candidates import Pairs
 from ...hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
 from ...measures import PIXELS, measured
@@ -101,27 +101,21 @@ class Verdict:
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             members.clear()
             ray = np.searchsorted(which, pixel)
-            found = yield from self._contest(self._rays(which), ray, surface)
+            found = yield from self._contest(which, ray, surface)
             hits.enter(which, found)
             ties.append(found.ties.numbered(which))
             known.append(Measured(which, np.vstack((found.t, found.s))))
         hits.ties, hits.known = Ties.joined(ties), Measured.joined(known)
 
-    def _rays(self, pixel: Index) -> Rays:
-        """Return the rays of pixels of the region, numbered row by row."""
-        film = self.film
-        return camera_rays(
-            film.camera, *film_positions(self.depths.region, film.dx, film.dy, pixel)
-        )
-
-    def _contest(self, rays: Rays, ray: Index, surface: Index) -> Steps[Hits]:
-        """Decide rays, each with all surfaces that it may see: pairs of the two."""
-        scene = self.scene
+    def _contest(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
+        """Decide the rays of pixels, each with all surfaces that it may see: pairs of the two."""
+        scene, film = self.scene, self.film
+        at = film_positions(self.depths.region, film.dx, film.dy, pixel)
         on_mesh = np.flatnonzero(surface >= len(scene.planes))  # it has the planes already
         ray, surface = ray[on_mesh], surface[on_mesh]
         surface, row = np.unique(surface, return_inverse=True)
-        around = corner_rays(self.film.camera, self.film.dx, self.film.dy)
-        contest = Contest.of(scene, rays, around)
+        around = corner_rays(film.camera, film.dx, film.dy)
+        contest = Contest.of(scene, camera_rays(film.camera, *at), around)
         names = self.numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
         # Ray by ray, and once each: a triangle of unknown orientation has two set-ups.
