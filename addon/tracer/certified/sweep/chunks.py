@@ -178,12 +178,10 @@ def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Ste
         at += len(part.used)
     starts = np.concatenate(([0], np.cumsum(np.concatenate([part.counts for part in parts]))))
     own = np.concatenate([part.own for part in parts]) if chunk.dense else None
-    corners = [part.corners for part in parts]
-    return Expanded(
-        vertices,
-        corners[0] if len(parts) == 1 else np.hstack(corners),
-        Names(np.concatenate([part.instances for part in parts]), starts, chunk.first, own),
-    )
+    # Row by row in memory: of columns that lie together, `take` would copy all for each few.
+    corners = np.ascontiguousarray(np.hstack([part.corners for part in parts]))
+    names = Names(np.concatenate([part.instances for part in parts]), starts, chunk.first, own)
+    return Expanded(vertices, corners, names)
 
 
 def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:

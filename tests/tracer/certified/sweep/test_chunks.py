@@ -52,6 +52,7 @@ def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
         expanded = expanded_of(scene, film, chunk)
         count = expanded.corners.shape[1]
         assert count == expanded.names.count <= limit
+        assert expanded.corners.flags.c_contiguous  # else each small `take` copies all of them
         names += zip(*(v.tolist() for v in expanded.names.of(np.arange(count))), strict=True)
     return names
 
