@@ -60,9 +60,9 @@ class Measures:
         first, last, _ = rows.indices(self._height)
         together, names = max(1, PIXELS // self._width), [v.reshape(-1) for v in self._names]
         for y in range(first, last, together):
-            some = slice(y, min(y + together, last))
-            if self._open[some].any():
-                ray = np.arange(some.start * self._width, some.stop * self._width)
+            some = y + np.flatnonzero(self._open[y : min(y + together, last)])
+            if len(some):
+                ray = (some[:, None] * self._width + np.arange(self._width)).ravel()
                 region = self._scene.camera.region
                 found = measured(self._scene, region, names, self._known, ray)
                 self._values[:, some] = found.reshape(4, -1, self._width)

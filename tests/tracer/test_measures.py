@@ -10,7 +10,7 @@ from reference_tracer.tracer import measures, render
 from reference_tracer.tracer.certified import certainty, plain
 from reference_tracer.tracer.certified.certainty import AssumptionError, Certainty
 from reference_tracer.tracer.certified.sweep import verdict
-from reference_tracer.tracer.hits import NOTHING, LazyHits
+from reference_tracer.tracer.hits import NOTHING, Hits, LazyHits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision, Settings
 
@@ -97,6 +97,21 @@ def test_depths_are_found_once(make, rng, monkeypatch, samples):
     frame = render.render(scene, Settings(color="depth", samples=samples))
     assert np.isfinite(frame.t).any() and frame.barycentrics.any()
     assert sum(found) == frame.t.size
+
+
+def test_rows_that_are_known_are_not_found_again(make, rng):
+    """Also between rows that are not: those of a band that was swept in halves come with theirs."""
+    frame = render.render(mess(make, rng, False, False), CERTIFIED)
+    found = measures.Measures(frame.scene, (frame.instance_index, frame.triangle_index))
+    known = Hits.none(frame.shape[1])
+    known.t[:] = 7
+    for y in range(frame.shape[0]):
+        rows = slice(y, y + 1)
+        found.enter(rows, known if y == 3 else frame.hits(rows))
+    t, _ = found.of(slice(None))
+    assert (t[3] == 7).all() and (frame.t[3] != 7).all()
+    for rows in (slice(0, 3), slice(4, None)):
+        assert t[rows].tobytes() == frame.t[rows].tobytes()
 
 
 def test_an_arithmetic_that_was_changed_meanwhile_is_found(make, rng, monkeypatch):
