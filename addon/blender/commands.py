@@ -36,8 +36,9 @@ def run(argv: list[str]) -> int:
 
 def _run(argv: list[str]) -> int:
     options = _parser().parse_args(argv)
-    if options.out:  # // is beside the file
-        options.out = type(options.out)(bpy.path.abspath(str(options.out)))
+    for name in ("out", "reproducer", "against"):
+        if path := getattr(options, name, None):  # // is beside the file
+            setattr(options, name, type(path)(bpy.path.abspath(str(path))))
     return options.run(options)
 
 

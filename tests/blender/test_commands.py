@@ -200,8 +200,12 @@ def test_a_folder_beside_the_file(saved, tmp_path):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "scene.blend1"))
     assert commands.run(["compare", "--out", "//beside"]) == 0
     assert (tmp_path / "beside" / "comparison.json").is_file()
-    assert commands.run(["explain", "--pixel", "0", "0", "--out", "//beside/pixel.md"]) == 0
+    written = ["--out", "//beside/pixel.md", "--reproducer", "//beside/pixel.json"]
+    assert commands.run(["explain", "--pixel", "0", "0", *written]) == 0
     assert (tmp_path / "beside" / "pixel.md").is_file()
+    assert (tmp_path / "beside" / "pixel.json").is_file()
+    traced = ["--against", "//beside/traced.png"]
+    assert commands.run(["compare", "--out", "//again", *traced]) == 0
 
 
 def test_another_picture_than_blenders(saved, out, capsys):

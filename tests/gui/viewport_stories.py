@@ -159,17 +159,28 @@ def other_method(found):
 
 
 def in_words(found):
-    """Look through a camera that is not modelled, and have no camera at all."""
+    """Look through a camera that is not modelled, fail to draw, and have no camera at all."""
     camera, scene = window().scene.camera, window().scene
     camera.data.type = "PANO"
     yield from settled()
     found["said"] = live()[0].said
     found["white"] = int((screen("words") == 255).all(axis=-1).sum())
     camera.data.type = "PERSP"
+    textures = module("blender.live.drawing").Textures
+    upload, textures.upload = textures.upload, no_memory
+    try:
+        yield from settled()
+        found["not_drawn"] = live()[0].said
+    finally:
+        textures.upload = upload
     scene.camera = None
     yield from settled()
     found["without"] = live()[0].said
     scene.camera = camera
+
+
+def no_memory(*_):
+    raise MemoryError("none on the card")
 
 
 def two_views(found):
