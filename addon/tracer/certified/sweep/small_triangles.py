@@ -110,7 +110,7 @@ class SmallTriangles:
         together = max(1, _TRIANGLES // max(count, each))
         for some in (members[part] for part in parts(len(members), together)):
             ends = np.empty((len(some), count), np.int64)
-            for part in parts(count, _VERTICES // len(some)):
+            for part in parts(count, max(1, _VERTICES // len(some))):
                 ends[:, part] = self._ends(own[:, part], some)
                 yield None
             for first, (a, b, c) in zip(range(0, each, _TRIANGLES), corners, strict=True):
