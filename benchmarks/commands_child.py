@@ -40,9 +40,10 @@ def f12(path: str, passes: str) -> None:
     scene.render.engine = "REFERENCE_TRACER"
     scene.render.resolution_x, scene.render.resolution_y = 1920, 1080
     scene.render.resolution_percentage = 100
-    if passes == "none":
-        for layer in scene.view_layers:
-            layer.reference_tracer.passes = set()
+    for layer in scene.view_layers:
+        chosen = layer.reference_tracer
+        every = {item.identifier for item in chosen.bl_rna.properties["passes"].enum_items_static}
+        chosen.passes = every if passes == "all" else set()
     for _ in range(2):
         began = time.process_time()
         bpy.ops.render.render()
