@@ -67,8 +67,8 @@ frame = render(scene, Settings("textbook"))
 assert np.array_equal(frame.passes()["twice"], 2 * frame.t)
 """
 SEES_PASS_IN_BLENDER = """
-from reference_tracer.blender import engine
-assert "Twice" in {p.label for p in engine._IN_BLENDER}
+from reference_tracer.blender.properties import PASS_ITEMS
+assert PASS_ITEMS[-1][:2] == ("Twice", "Twice")
 """
 CAMERA = {
     "projections/mirrored.py": (
