@@ -106,7 +106,7 @@ def measured(
     """
     check_assumptions()
     values, names = _nothing(len(ray)), [gather(v, ray) for v in names]
-    hits = Hits(values[0], *np.full((2, len(ray)), NOTHING), values[1:])
+    hits = Hits(values[0], *np.full((2, len(ray)), NOTHING, np.int32), values[1:])
     place = np.searchsorted(known.ray, ray)
     given = np.append(known.ray, NOTHING)[place] == ray
     values[:, given] = known.values[:, place[given]]
