@@ -93,7 +93,7 @@ class LiveView:
             self._wanted = None  # whatever is wanted next is to be tried
         while self._job and self._job.factor > 1 and time.perf_counter() < until:
             self._step()
-        if error := _said(self._draw, engine, context, until):
+        if error := failure(self._draw, engine, context, until):
             self._give_up(error)
             engine.tag_redraw()  # to say so
         if self._job and not (self._timer and bpy.app.timers.is_registered(self._timer)):
