@@ -55,7 +55,7 @@ REFUSED = {  # what is wrong with the scene: what the message has to name
     not_a_camera: "'Sun', the active camera of scene 'Scene', is a light",
     clip_range: "Camera 'Camera'.*clip start",
     flat_camera: "Camera 'Camera'.*scale",
-    no_pixels: "scene 'Scene' has 0 x 0 pixels",
+    no_pixels: "The picture has 0 x 0 pixels",
     empty_border: "border",
     thin_border: "border",
 }
