@@ -179,7 +179,7 @@ def read_picture(path: str | Path) -> StoredPicture:
     oiio = _library()
     asked = oiio.ImageSpec()
     asked.attribute("oiio:UnassociatedAlpha", 1)
-    with _quiet():
+    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):  # C libraries print, too
         file = oiio.ImageInput.open(str(path), asked)
         picture = file and readers[path.suffix.lower()](path, file)
     if picture is None:
@@ -235,13 +235,12 @@ def _error(of: Any) -> str:
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
-    """Keep what C libraries print beside their error from the terminal."""
-    own = os.dup(2)
+def redirected(number: int, into: int) -> Iterator[None]:
+    """Send what is written to one file descriptor, by C libraries too, to another meanwhile."""
+    own = os.dup(number)
+    os.dup2(into, number)
     try:
-        with open(os.devnull, "wb") as nowhere:
-            os.dup2(nowhere.fileno(), 2)
         yield
     finally:
-        os.dup2(own, 2)
+        os.dup2(own, number)
         os.close(own)

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager, redirect_stdout
+from contextlib import redirect_stdout
 from pathlib import Path
 
 from .. import images
@@ -102,20 +100,8 @@ def explain(options: argparse.Namespace) -> None:
     if path.suffix.lower() == ".json":
         found = reproducer.read(path)
     else:
-        with _told_aside():
+        # What is said meanwhile, by Blender too, is no part of the Markdown.
+        with images.redirected(1, 2), redirect_stdout(sys.stderr):
             scene, _ = load(path, choice_from(options, path))
         found = gather_pixel(scene, *options.pixel, options.limit or LIMIT, path.name)
     print(printable(pixel.write(found, options.out, options.reproducer)), end="")
-
-
-@contextmanager
-def _told_aside() -> Iterator[None]:
-    """Send what is said meanwhile, by Blender too, to stderr: it is no part of the Markdown."""
-    own = os.dup(1)
-    os.dup2(2, 1)
-    try:
-        with redirect_stdout(sys.stderr):
-            yield
-    finally:
-        os.dup2(own, 1)
-        os.close(own)
