@@ -101,18 +101,15 @@ def png(picture: NDArray[np.uint8]) -> bytes:
     rows[0, 1:] = flat[0]
     rows[1:, 1:] = flat[1:] - flat[:-1]  # modulo 256, as the filter wants it
     header = struct.pack(">2I5B", width, height, 8, _RGBA, 0, 0, 0)
-    chunks = (b"IHDR", header), (b"IDAT", zlib.compress(rows, _LEVEL)), (b"IEND", b"")
-    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(*chunk) for chunk in chunks)
+    out = [b"\x89PNG\r\n\x1a\n"]
+    for chunk in (b"IHDR" + header, b"IDAT" + zlib.compress(rows, _LEVEL), b"IEND"):
+        out += struct.pack(">I", len(chunk) - 4), chunk, struct.pack(">I", zlib.crc32(chunk))
+    return b"".join(out)
 
 
 def data_uri(picture: NDArray[np.uint8]) -> str:
     """Return the same PNG as the address of an image in a page."""
     return f"data:image/png;base64,{base64.b64encode(png(picture)).decode('ascii')}"
-
-
-def _chunk(kind: bytes, content: bytes) -> bytes:
-    body = kind + content
-    return struct.pack(">I", len(content)) + body + struct.pack(">I", zlib.crc32(body))
 
 
 def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
