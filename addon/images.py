@@ -176,7 +176,7 @@ def read_picture(path: str | Path) -> StoredPicture:
     oiio = _library()
     asked = oiio.ImageSpec()
     asked.attribute("oiio:UnassociatedAlpha", 1)
-    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):  # C libraries print, too
+    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):
         file = oiio.ImageInput.open(str(path), asked)
         picture = file and readers[path.suffix.lower()](path, file)
     if picture is None:
@@ -233,7 +233,7 @@ def _error(of: Any) -> str:
 
 @contextmanager
 def redirected(number: int, into: int) -> Iterator[None]:
-    """Send what is written to one file descriptor, by C libraries too, to another meanwhile."""
+    """Send what is written to one file descriptor, also by C libraries, to another meanwhile."""
     own = os.dup(number)
     os.dup2(into, number)
     try:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -61,24 +61,17 @@ def add(parser: Parser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Compare; the exit code is the verdict's."""
-    with _failure_written(options):
-        import_trimesh()  # which diagnoses the meshes
-        return _with_blender(options) if options.against is None else _against(options)
-
-
-@contextmanager
-def _failure_written(options: argparse.Namespace) -> Iterator[None]:
-    """Make the folder, and say there why there is no comparison: but for an animation's."""
+    """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
     if options.out.startswith("//"):  # here it is the shell's: Blender's is beside the file
         options.out = os.path.realpath(options.out)
     out = Path(options.out).resolve()
     for file in (options.scene, options.against):
         if file and file.resolve() in [out / name for name in comparison_report.NAMES]:
             raise SceneError(f"'{file}' is called as a result: choose another --out, or rename it")
-    written = comparison_report.failure_written(options.out)
+    written = comparison_report.failure_written(options.out)  # but for an animation
     with folders.made(Path(options.out)), written if options.frames is None else nullcontext():
-        yield
+        import_trimesh()  # which diagnoses the meshes
+        return _with_blender(options) if options.against is None else _against(options)
 
 
 def _with_blender(options: argparse.Namespace) -> int:
