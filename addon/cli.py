@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 
 from . import running
-from .commands import HELP, PLACES
+from .commands import FILES, HELP
 from .parser import EXIT_CODES_HELP, Parser
 
 
@@ -50,8 +50,8 @@ def parser(argv: Sequence[str]) -> Parser:
     asked = next((word for word in argv if not word.startswith("-")), None)
     installed = {found.name: found for found in entry_points(group="reference_tracer.commands")}
     for name, text in HELP.items():
-        place = PLACES.get(name)
-        if not place and name not in installed:
+        file = FILES.get(name)
+        if not file and name not in installed:
             # Without a prefix of options, all that follows is positional, --help too.
             missing = commands.add_parser(
                 name, help="(not installed here)", add_help=False, prefix_chars="\0"
@@ -60,9 +60,8 @@ def parser(argv: Sequence[str]) -> Parser:
             missing.set_defaults(run=_missing, name=name)
             continue
         own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
-        if name == asked and place:
-            module, add = place.split(":")
-            getattr(import_module(f"{__package__}.commands{module}"), add)(own)
+        if name == asked and file:
+            getattr(import_module(f"{__package__}.commands.{file}"), f"add_{name}")(own)
         elif name == asked:
             installed[name].load().add(own)
     return out

@@ -15,7 +15,7 @@ from ..commands import HELP, compare, files, studies
 from ..parser import EXIT_CODES_HELP, Parser
 
 _ADD = {
-    "compare": compare.add,
+    "compare": compare.add_compare,
     "explain": files.add_explain,
     "trade": studies.add_trade,
     "extremes": studies.add_extremes,

@@ -13,12 +13,9 @@ HELP = {  # in its order
     "bench": "measure the speed of the tracer beside embreex, Cycles and others",
     "export": "export a .blend to a scene that needs no Blender",
 }
-# Where a command's options are. Those without a place are packages of their own.
-PLACES = {
-    "compare": ".compare:add",
-    "trace": ".files:add_trace",
-    "explain": ".files:add_explain",
-    "trade": ".studies:add_trade",
-    "extremes": ".studies:add_extremes",
-    "export": ".files:add_export",
+# Which file's `add_` and name adds a command's options; the others are packages of their own.
+FILES = {
+    "compare": "compare",
+    **dict.fromkeys(("trace", "explain", "export"), "files"),
+    **dict.fromkeys(("trade", "extremes"), "studies"),
 }

@@ -31,7 +31,7 @@ from ..tracer.progress import Work, result_of
 from .parts import command
 
 
-def add(parser: Parser) -> None:
+def add_compare(parser: Parser) -> None:
     """Add the command's options."""
     from ..blender.judges import choices
 
