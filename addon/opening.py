@@ -34,7 +34,12 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     """
     suffix = path.suffix.lower()
     if suffix == ".blend":
-        return _exported(path, choice)
+        with open_blend(path, choice) as blender:
+            from .blender.compare import export_open_file
+
+            scene, manifest, settings = export_open_file(blender.context)
+        print(*manifest.lines(), sep="\n")
+        return scene, settings
     check_is_file(path)
     if suffix == ".npz":
         return load_scene(path), Settings()
@@ -50,15 +55,6 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
         except SceneError as error:
             raise SceneError(f"'{path}': {error}") from error
     raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
-
-
-def _exported(path: Path, choice: Choice) -> tuple[Scene, Settings]:
-    with open_blend(path, choice) as blender:
-        from .blender.compare import export_open_file
-
-        scene, manifest, settings = export_open_file(blender.context)
-    print(*manifest.lines(), sep="\n")
-    return scene, settings
 
 
 def import_trimesh() -> None:
