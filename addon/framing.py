@@ -84,16 +84,13 @@ def shown_points(
     meshes: Sequence[Mesh], instances: Iterable[Instance]
 ) -> Iterator[NDArray[np.float64]]:
     """Yield the corners of each instance's triangles in world space, (n, 3)."""
-    used = [m.vertices[_used(m)].T.astype(np.float64) for m in meshes]
+    used = []
+    for mesh in meshes:
+        is_used = np.zeros(len(mesh.vertices), bool)
+        is_used[mesh.triangles] = True
+        used.append(mesh.vertices[is_used].T.astype(np.float64))
     for instance in instances:
         yield transform_points(instance.world_from_object, used[instance.mesh]).T
-
-
-def _used(mesh: Mesh) -> NDArray[np.bool_]:
-    """Return which vertices are a triangle's, (v,)."""
-    out = np.zeros(len(mesh.vertices), bool)
-    out[mesh.triangles] = True
-    return out
 
 
 @dataclass(frozen=True)
