@@ -151,32 +151,23 @@ def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Wor
     return frame
 
 
+_WRONG = (
+    "What the method makes, dimmed; red where it sees another surface than is proven. Counted in "
+    "the view's corner"
+)
+_DIFFERENCE = (
+    "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that differ "
+    "have the colour of their cause, as in a comparison"
+)
+_CERTAINTY = (
+    "How each pixel was decided: dark by an error bound, blue by integers, yellow by a rule, as "
+    "the ray meets an edge or two surfaces at once"
+)
 SHOWS = (
     Show("PICTURE", "Picture", "What a render shows", 0, picture),
-    Show(
-        "WRONG",
-        "Wrong Pixels",
-        "What the method makes, dimmed; red where it sees another surface than is proven. Counted "
-        "in the view's corner",
-        1,
-        wrong_pixels,
-    ),
-    Show(
-        "DIFFERENCE",
-        "Difference to Blender's Viewport",
-        "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that "
-        "differ have the colour of their cause, as in a comparison",
-        2,
-        difference,
-    ),
-    Show(
-        "CERTAINTY",
-        "Certainty",
-        "How each pixel was decided: dark by an error bound, blue by integers, yellow by a rule, "
-        "as the ray meets an edge or two surfaces at once",
-        3,
-        certainty,
-    ),
+    Show("WRONG", "Wrong Pixels", _WRONG, 1, wrong_pixels),
+    Show("DIFFERENCE", "Difference to Blender's Viewport", _DIFFERENCE, 2, difference),
+    Show("CERTAINTY", "Certainty", _CERTAINTY, 3, certainty),
     # The others follow, in the order of their numbers, from 4 on.
     *(
         Show(c.name, c.capitalize(), c.description, 4 + c.number, partial(colored, c))
