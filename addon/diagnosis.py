@@ -40,21 +40,16 @@ def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manife
     for mesh in scene.meshes:
         diagnoses.append(diagnose(mesh))
         yield 0.0
-    own: dict[str, dict[int, None]] = {}
+    own: dict[str, set[int]] = {}
     for instance in scene.instances:
-        own.setdefault(scene.objects[instance.object], {})[instance.mesh] = None
-    entries = tuple(
-        replace(e, diagnosis=merged([diagnoses[mesh] for mesh in own.get(e.name, ())]))
-        for e in manifest.objects
-    )
-    return replace(manifest, objects=entries)
-
-
-def merged(diagnoses: list[dict[str, Any]]) -> dict[str, Any] | None:
-    """Join the diagnoses of several meshes: closed if all are, and the sum of each count."""
-    if not diagnoses:
-        return None
-    return {
-        key: (all if isinstance(value, bool) else sum)(d[key] for d in diagnoses)
-        for key, value in diagnoses[0].items()
-    }
+        own.setdefault(scene.objects[instance.object], set()).add(instance.mesh)
+    entries = []
+    for entry in manifest.objects:
+        of = [diagnoses[mesh] for mesh in own.get(entry.name, ())]
+        # Closed if all are, and the sum of each count.
+        joined = {
+            key: (all if isinstance(value, bool) else sum)(d[key] for d in of)
+            for key, value in (of[0].items() if of else ())
+        }
+        entries.append(replace(entry, diagnosis=joined or None))
+    return replace(manifest, objects=tuple(entries))
