@@ -28,7 +28,6 @@ class KeptScene:
 
     def __init__(self) -> None:
         self.version = 0  # another for another scene
-        self.meshes_read = 0  # by the last update
         self.lines: tuple[str, ...] = ()  # what the picture lacks
         self._meshes: dict[tuple[int, bool], Read] = {}
         self._scene: Scene | None = None
@@ -43,14 +42,12 @@ class KeptScene:
         """Read what has changed in an evaluated depsgraph, as a `SpaceView3D` shows it."""
         objects = (u.id for u in depsgraph.updates if u.is_updated_geometry)
         changed = {o.original.session_uid for o in objects if isinstance(o, bpy.types.Object)}
-        known, self._meshes, self.meshes_read = self._meshes, {}, 0
+        known, self._meshes = self._meshes, {}
 
         def read(obj: Any, name: str, with_colors: bool) -> Read | None:
             key = obj.data.session_uid, with_colors
             found = known.get(key) if obj.original.session_uid not in changed else None
-            if not found:
-                found = read_mesh(obj, name, with_colors)
-                self.meshes_read += bool(found)
+            found = found or read_mesh(obj, name, with_colors)
             if found and key[0] and obj.mode == "OBJECT" and not obj.data.is_editmode:
                 self._meshes[key] = found
             return found
