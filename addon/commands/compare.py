@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable
 from contextlib import nullcontext
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -81,31 +79,27 @@ def _with_blender(options: argparse.Namespace) -> int:
             "with --against"
         )
     with open_blend(options.scene, choice_from(options)) as blender, progress_bar() as progress:
-        return _compare_open_file(options, blender.context, progress)
+        from ..blender import animation
+        from ..blender.compare import compare_all, compare_to_folder
 
-
-def _compare_open_file(options: argparse.Namespace, context: Any, progress: Callable) -> int:
-    from ..blender import animation
-    from ..blender.compare import compare_all, compare_to_folder
-
-    chosen = {
-        "settings": settings_from(options, context.scene.reference_tracer.settings()),
-        "as_is": options.as_is or None,
-        "identity": options.identity,
-        "self_check": options.self_check,
-    }
-    judge = options.judge.upper() if options.judge else None
-    if options.frames:
-        return animation.compare_open_file(options, progress, judge=judge, **chosen)
-    if options.judge == "all":
-        rows = result_of(compare_all(context, options.out, **chosen), progress)
-        verdict = engines.worst(rows)
-        print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
-        pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
-        return _told(options, verdict, *pages)
-    for_page = {"trade": options.trade, "extremes": options.extremes}
-    work = compare_to_folder(context, options.out, **for_page, judge=judge, **chosen)
-    return _told_comparison(options, result_of(work, progress))
+        chosen = {
+            "settings": settings_from(options, blender.context.scene.reference_tracer.settings()),
+            "as_is": options.as_is or None,
+            "identity": options.identity,
+            "self_check": options.self_check,
+        }
+        judge = options.judge.upper() if options.judge else None
+        if options.frames:
+            return animation.compare_open_file(options, progress, judge=judge, **chosen)
+        if options.judge == "all":
+            rows = result_of(compare_all(blender.context, options.out, **chosen), progress)
+            verdict = engines.worst(rows)
+            print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
+            pages = [Path(options.out) / row.engine / page.NAME for row in rows if row.pixels]
+            return _told(options, verdict, *pages)
+        for_page = {"trade": options.trade, "extremes": options.extremes}
+        work = compare_to_folder(blender.context, options.out, **for_page, judge=judge, **chosen)
+        return _told_comparison(options, result_of(work, progress))
 
 
 def _against(options: argparse.Namespace) -> int:
