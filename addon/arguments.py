@@ -131,9 +131,8 @@ def _refuse_unheard(options: argparse.Namespace) -> None:
     if (frames := getattr(options, "frames", None)) is not None:
         from .compare.animation import frames_named
 
-        refuse(
-            options, ("frame", "against", "trade", "extremes"), "is for one frame, not for --frames"
-        )
+        why = "is for one frame, not for --frames"
+        refuse(options, ("frame", "against", "trade", "extremes"), why)
         if options.judge == "all":
             raise SceneError("--judge all is for one frame: name one judge with --frames")
         try:

@@ -33,14 +33,12 @@ def add_compare(parser: Parser) -> None:
     """Add the command's options."""
     from ..blender.judges import choices
 
-    command(
-        parser,
-        run,
+    examples = (
         "reftrace compare scene.blend --out out/\n"
-        "  reftrace compare scene.npz --against student.png --out out/",
-        "scene.blend; with --against also scene.npz or a mesh",
-        EXIT_CODES_HELP,
+        "  reftrace compare scene.npz --against student.png --out out/"
     )
+    sources = "scene.blend; with --against also scene.npz or a mesh"
+    command(parser, run, examples, sources, EXIT_CODES_HELP)
     parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
     add_settings(parser)
     add_judge(parser, choices())

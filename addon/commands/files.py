@@ -80,12 +80,8 @@ def export(options: argparse.Namespace) -> None:
 
 def add_explain(parser: Parser) -> None:
     """Add the command's options."""
-    command(
-        parser,
-        explain,
-        "reftrace explain scene.blend --pixel 480 270 --out pixel.html",
-        f"{SOURCES}, or a pixel.json that --reproducer wrote",
-    )
+    example = "reftrace explain scene.blend --pixel 480 270 --out pixel.html"
+    command(parser, explain, example, f"{SOURCES}, or a pixel.json that --reproducer wrote")
     add_pixel(parser)
     add_camera(parser)
 

@@ -21,9 +21,8 @@ def add_trade(parser: Parser) -> None:
     """Add the command's options."""
     command(parser, trade, "reftrace trade sample_scenes/suzanne.blend --out out/", SOURCES)
     parser.add_argument("--out", metavar="DIR", help="folder for the table, JSON and plot")
-    parser.add_argument(
-        "--samples", type=int, metavar="N", help="measure up to N x N rays a pixel (default 4)"
-    )
+    samples = "measure up to N x N rays a pixel (default 4)"
+    parser.add_argument("--samples", type=int, metavar="N", help=samples)
     add_camera(parser, width=160, height=90, of_scenes=True)
 
 
