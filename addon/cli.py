@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from . import running
+from . import __version__, running
 from .commands import FILES, HELP
 from .parser import EXIT_CODES_HELP, Parser
 
@@ -34,8 +34,6 @@ def parser(argv: Sequence[str]) -> Parser:
     """
     from importlib import import_module
     from importlib.metadata import entry_points
-
-    from . import __version__
 
     out = Parser(
         "reftrace",
