@@ -18,19 +18,11 @@ import numpy as np
 
 from ..scene import Scene
 from ..tracer.hits import NOWHERE, Name
+from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
 from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
-from .textbook import (
-    Arithmetic,
-    Judgement,
-    Number,
-    Values,
-    camera_steps,
-    evaluate_all,
-    surface_steps,
-    verdict,
-)
+from .textbook import Arithmetic, Judgement, Number, Values
 
 Columns = dict[Arithmetic, Values]
 
@@ -117,9 +109,8 @@ def derive(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str = "") -
 
 def derive_pixel(pixel: Pixel) -> Derivation:
     """Derive a pixel that stands alone."""
-    camera: Columns = {
-        kind: camera_steps(kind, pixel.camera, pixel.column, pixel.row) for kind in Arithmetic
-    }
+    at = pixel.camera, pixel.column, pixel.row
+    camera: Columns = {kind: textbook.camera_steps(kind, *at) for kind in Arithmetic}
     ray: Columns = {kind: {"o": made["o"], "d": made["d"]} for kind, made in camera.items()}
     ray[Arithmetic.EXACT] = {  # from here on, the truth is about what float64 has stored
         name: Arithmetic.EXACT.vector(ray[Arithmetic.FLOAT64][name]) for name in ("o", "d")
@@ -158,11 +149,11 @@ def _test(pixel: Pixel, ray: Columns, candidate: Candidate) -> Test:
     columns = {}
     for kind in Arithmetic:
         points = [kind.vector(p) for p in candidate.points]
-        columns[kind] = surface_steps(formulas, ray[kind]["o"], ray[kind]["d"], *points)
+        columns[kind] = textbook.surface_steps(formulas, ray[kind]["o"], ray[kind]["d"], *points)
     return Test(
         candidate,
         _quantities(columns, formulas),
-        {kind: verdict(found, pixel.camera) for kind, found in columns.items()},
+        {kind: textbook.verdict(found, pixel.camera) for kind, found in columns.items()},
     )
 
 
@@ -193,7 +184,7 @@ def _color(
     for kind in Arithmetic:
         given = {TRIANGLE[k].label: seen.number(k, kind) for k in ("s1", "s2", "s3")}
         corners = (kind.vector(c[:3]) for c in colors)
-        columns[kind] = evaluate_all(
+        columns[kind] = textbook.evaluate_all(
             COLOR, given | dict(zip(("c₁", "c₂", "c₃"), corners, strict=True))
         )
     return _quantities(columns, COLOR), color

@@ -21,17 +21,7 @@ from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
 from ..tracer.vector import transform_points
-from .moved_rays import (
-    THE_RULE,
-    Surface,
-    crosses,
-    dot,
-    in_integers,
-    meet,
-    moved,
-    nearest_of_moved,
-    sub,
-)
+from .moved_rays import THE_RULE, Surface, crosses, dot, in_integers, meet, moved, nearest_of_moved
 
 OUTSIDE, EDGE, INSIDE = -1, 0, 1
 AT_ONCE = 1 << 16  # pairs: some hundred MiB of integers
@@ -197,7 +187,7 @@ def sights(
         o, d = ([Fraction(float(x)) for x in v[:, k]] for v in (origins, directions))
         for name, point, normal in planes:
             p, w = ([Fraction(float(x)) for x in v] for v in (point, normal))
-            if dot(d, w) and _within(t := dot(sub(p, o), w) / dot(d, w), start, end):
+            if dot(d, w) and _within(t := (dot(p, w) - dot(o, w)) / dot(d, w), start, end):
                 crossings.append(Crossing(t, False, True, Surface(name, [p], w)))
     return [_sight(origins[:, k], directions[:, k], m) for k, m in enumerate(found)]
 

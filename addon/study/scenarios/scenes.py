@@ -10,21 +10,8 @@ import numpy as np
 from ...projections import ORTHOGRAPHIC
 from ...scene import Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
-from .parts import (
-    BESIDE,
-    TURNED,
-    TURNED_39,
-    camera,
-    closed,
-    generator,
-    grid,
-    lattice,
-    lattice_rim,
-    scene,
-    sheet,
-    sphere,
-    translation,
-)
+from . import parts
+from .parts import BESIDE, TURNED, camera, generator, grid, scene, sheet, sphere
 
 RIGHT, UP, BACKWARD = TURNED.T
 FORWARD = -BACKWARD
@@ -58,7 +45,7 @@ def closed_fan(count: float, width: int, height: int) -> Scene:
     points = rays.at(4 + generator().random(len(x))).T
     around = np.arange(1, len(x))
     triangles = np.stack((np.zeros_like(around), around, np.roll(around, -1)), axis=1)
-    return scene(view, closed(points, triangles, around, EYE - 8 * FORWARD))
+    return scene(view, parts.closed(points, triangles, around, EYE - 8 * FORWARD))
 
 
 def needles(
@@ -128,20 +115,20 @@ def _cube(cells: int, least: np.ndarray, side: float) -> Mesh:
 def degenerate_faces(copies: float, width: int, height: int) -> Scene:
     """Return a wall, and `copies` of its faces split otherwise, with others of no area."""
     columns, rows, copies = 16, 12, int(copies)
-    across, up, backward = TURNED_39.T / 4  # a quarter cell: all corners are multiples of it
+    across, up, backward = parts.TURNED_39.T / 4  # a quarter cell: all corners are multiples of it
     corner = -20 * backward - columns / 2 * across - rows / 2 * up
     rng = generator()
     split = rng.integers(0, 2, columns * rows)
     # The cells' corners are sums of quarters: no product is rounded, unlike in `grid`.
     i, j = (v.ravel()[:, None] for v in np.mgrid[: rows + 1, : columns + 1])
     points = corner + j * across + i * up
-    meshes = [Mesh(points, lattice(columns, rows, split), name="Wall")]
+    meshes = [Mesh(points, parts.lattice(columns, rows, split), name="Wall")]
     if copies:
-        rim = lattice_rim(columns, rows)[:columns]
+        rim = parts.lattice_rim(columns, rows)[:columns]
         line = (rim[:-2, None] + np.arange(rows)[None] * (columns + 1)).ravel()
         empty = np.stack((line, line + 1, line + 2), axis=1)  # three corners in a row
         point = np.stack((line, line + 1, line), axis=1)
-        again = np.tile(lattice(columns, rows, 1 - split), (copies, 1))
+        again = np.tile(parts.lattice(columns, rows, 1 - split), (copies, 1))
         meshes.append(Mesh(points, np.concatenate((empty, again, point)), name="Copies"))
     # Not symmetrical: no pixel's ray is on a diagonal.
     view = camera(width, height, window=ViewWindow(-0.33, 0.3, -0.22, 0.25))
@@ -167,7 +154,7 @@ def far_from_origin(distance: float, width: int, height: int, size: float = 1.0)
     """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
     centre = distance * AWAY
     view = camera(width, height, 1.0, eye=centre + size * EYE, near=1e-3 * size, far=1e3 * size)
-    return scene(view, sphere(2.0 * size, 8), matrices=(translation(centre),))
+    return scene(view, sphere(2.0 * size, 8), matrices=(parts.translation(centre),))
 
 
 def far_corners(distance: float, width: int, height: int) -> Scene:
@@ -240,4 +227,4 @@ def stored_float32(offset: float, width: int, height: int) -> Scene:
     view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
     points = (ball.vertices + centre).astype(np.float32)
     mesh = Mesh(points, ball.triangles, name="Sphere")
-    return scene(view, mesh, matrices=(translation(-centre),))
+    return scene(view, mesh, matrices=(parts.translation(-centre),))
