@@ -48,12 +48,10 @@ def camera(
 
     Pixels are square unless `half_height` is given.
     """
-    matrix = np.eye(4)
-    matrix[:3, :3] = axes
-    matrix[:3, 3] = eye
     tall = half * height / width if half_height is None else half_height
     window = options.pop("window", None) or ViewWindow(-half, half, -tall, tall)
-    return Camera(matrix, window, width, height, clip_start=near, clip_end=far, **options)
+    options |= {"clip_start": near, "clip_end": far}
+    return Camera(placed(axes, eye), window, width, height, **options)
 
 
 def sheet(
@@ -158,8 +156,8 @@ def scene(view: Camera, *meshes: Mesh, matrices: tuple[NDArray, ...] = ()) -> Sc
     return Scene(view, meshes, instances, background=(0.0, 0.0, 0.0, 1.0), objects=names)
 
 
-def translation(by: NDArray | tuple[float, float, float]) -> NDArray[np.float64]:
-    """Return the matrix of an object that is moved."""
+def placed(axes: NDArray, at: Sequence[float] | NDArray = (0.0, 0.0, 0.0)) -> NDArray[np.float64]:
+    """Return the matrix of what has these axes, as columns, and this place."""
     matrix = np.eye(4)
-    matrix[:3, 3] = by
+    matrix[:3, :3], matrix[:3, 3] = axes, at
     return matrix

@@ -154,7 +154,7 @@ def far_from_origin(distance: float, width: int, height: int, size: float = 1.0)
     """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
     centre = distance * AWAY
     view = camera(width, height, 1.0, eye=centre + size * EYE, near=1e-3 * size, far=1e3 * size)
-    return scene(view, sphere(2.0 * size, 8), matrices=(parts.translation(centre),))
+    return scene(view, sphere(2.0 * size, 8), matrices=(parts.placed(np.eye(3), centre),))
 
 
 def far_corners(distance: float, width: int, height: int) -> Scene:
@@ -197,8 +197,7 @@ def ortho_scale(size: float, width: int, height: int) -> Scene:
 
 def squashed(thickness: float, width: int, height: int) -> Scene:
     """Return a sphere from outside, mirrored and pressed flat by its object's matrix."""
-    matrix = np.eye(4)
-    matrix[:3, :3] = TURNED * (1.0, 1.0, -thickness)
+    matrix = parts.placed(TURNED * (1.0, 1.0, -thickness))
     c, s = np.cos(0.3), np.sin(0.3)  # the camera is a little rolled about the view's direction
     axes = np.stack((c * RIGHT + s * UP, c * UP - s * RIGHT, BACKWARD), axis=1)
     view = camera(width, height, 0.4, eye=6 * BACKWARD, axes=axes)
@@ -208,13 +207,10 @@ def squashed(thickness: float, width: int, height: int) -> Scene:
 def sheared(factor: float, width: int, height: int) -> Scene:
     """Return a sphere with the camera inside, mirrored and sheared by its object's matrix."""
     shear = np.array([[1.0, factor, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]])
-    matrix = np.eye(4)
-    matrix[:3, :3] = [
-        [sum(TURNED[i, j] * shear[j, k] for j in range(3)) for k in range(3)] for i in range(3)
-    ]
+    axes = [[sum(TURNED[i, j] * shear[j, k] for j in range(3)) for k in range(3)] for i in range(3)]
     eye, near, far = 1e-3 * EYE / factor, 1e-6 / factor, 1e3 * factor
     view = camera(width, height, 1.0, axes=np.eye(3), near=near, far=far, eye=eye)
-    return scene(view, sphere(), matrices=(matrix,))
+    return scene(view, sphere(), matrices=(parts.placed(axes),))
 
 
 def stored_float32(offset: float, width: int, height: int) -> Scene:
@@ -227,4 +223,4 @@ def stored_float32(offset: float, width: int, height: int) -> Scene:
     view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
     points = (ball.vertices + centre).astype(np.float32)
     mesh = Mesh(points, ball.triangles, name="Sphere")
-    return scene(view, mesh, matrices=(parts.translation(-centre),))
+    return scene(view, mesh, matrices=(parts.placed(np.eye(3), -centre),))
