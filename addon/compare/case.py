@@ -46,14 +46,13 @@ class Case:
         if self.settings.color != Color.OBJECT:
             object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
 
-    def feature_of(self, *effects: Effect) -> NDArray[np.int32]:
-        """Return which feature with one of the effects each instance's object has, each plane's.
+    def feature_of(self, effect: Effect) -> NDArray[np.int32]:
+        """Return which feature with an effect each instance's object has, and each plane's.
 
         It is an index into the manifest's `unmodelled`; NOTHING for none, and at the end: (k + 1,).
         """
-        number = {
-            u.object: n for n, u in enumerate(self.manifest.unmodelled) if u.effect in effects
-        }
+        features = enumerate(self.manifest.unmodelled)
+        number = {u.object: n for n, u in features if u.effect is effect}
         found = [number.get(name, NOTHING) for name in self.scene.objects]
         return np.array([*found, NOTHING], np.int32)[self.scene.instance_objects]
 

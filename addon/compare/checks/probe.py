@@ -33,9 +33,7 @@ from ..picture import Picture
 SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
 
 LAYERS = 4  # surfaces behind one another that are looked at
-
 FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
-
 BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
 
 
@@ -60,16 +58,16 @@ class OpenPixels:
         self,
         where: NDArray[np.bool_],
         cause: Cause,
-        figure: ArrayLike | None = None,
+        figure: ArrayLike = np.nan,
         allowed: ArrayLike = np.nan,
+        at: tuple[NDArray[np.intp], ...] | None = None,
     ) -> None:
-        """Give the pixels of `where` (h, w) a cause, but for those that have one."""
-        where = where & (self.out.cause == Cause.AGREE)
-        self.out.cause[where] = cause
-        if figure is not None:
-            self.out.figure[where] = np.broadcast_to(figure, where.shape)[where]
-            self.out.allowed[where] = np.broadcast_to(allowed, where.shape)[where]
-        self.open &= ~where
+        """Give pixels that have none a cause: those of `where`, (h, w), or (n,) of those `at`."""
+        where = where & (self.out.cause[... if at is None else at] == Cause.AGREE)
+        given = where if at is None else tuple(v[where] for v in at)
+        self.out.cause[given], self.open[given] = cause, False
+        for values, own in ((self.out.figure, figure), (self.out.allowed, allowed)):
+            values[given] = np.broadcast_to(own, where.shape)[where]
 
     def rows(self, rows: slice) -> OpenPixels:
         """Return those of some rows; their causes are written into the whole."""
@@ -161,12 +159,7 @@ class Part:
         self, where: NDArray[np.bool_], cause: Cause, figure: ArrayLike, allowed: ArrayLike
     ) -> None:
         """Give those of the n pixels a cause that have none yet."""
-        out = self.pixels.out
-        where = where & (out.cause[self.at] == Cause.AGREE)
-        at = tuple(v[where] for v in self.at)
-        out.cause[at], self.pixels.open[at] = cause, False
-        for values, own in ((out.figure, figure), (out.allowed, allowed)):
-            values[at] = np.broadcast_to(own, where.shape)[where]
+        self.pixels.settle(where, cause, figure, allowed, self.at)
 
     def resolution(self, hits: Hits) -> NDArray[np.float64]:
         """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
