@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from .comparison import EXIT_CODES
 
@@ -34,8 +33,7 @@ def frames_named(text: str) -> range | None:
     )
 
 
-@dataclass(frozen=True)
-class FrameRow:
+class FrameRow(NamedTuple):
     """What came of one frame: counts of pixels, or why it is not compared."""
 
     frame: int

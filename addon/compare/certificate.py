@@ -7,8 +7,7 @@ made before any picture: pictures of different cameras are not compared.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +27,7 @@ class CameraMismatchError(SceneError):
     """The tracer's camera is not Blender's."""
 
 
-@dataclass(frozen=True)
-class CameraCertificate:
+class CameraCertificate(NamedTuple):
     """How far apart, in pixels, the two cameras see the point on which they agree least."""
 
     largest: float
@@ -43,7 +41,7 @@ class CameraCertificate:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the certificate as JSON can hold it."""
-        return asdict(self) | {"passed": self.passed}
+        return self._asdict() | {"passed": self.passed}
 
     def line(self) -> str:
         """Return it in words."""

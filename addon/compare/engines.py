@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +17,7 @@ from .self_check import FaultRow
 SCHEMA = "reference_tracer.engines/1"
 
 
-@dataclass(frozen=True)
-class EngineRow:
+class EngineRow(NamedTuple):
     """One engine's picture against the tracer's; `error` says why there is none."""
 
     engine: str
@@ -49,7 +47,7 @@ class EngineRow:
         """Return the row as JSON can hold it."""
         checked = [fault.to_dict() for fault in self.self_check]
         lists = {"wrong": list(self.wrong), "not_judged": list(self.not_judged)}
-        return vars(self) | lists | {"self_check": checked}
+        return self._asdict() | lists | {"self_check": checked}
 
 
 def _wrong(comparison: Comparison) -> list[dict[str, Any]]:

@@ -8,8 +8,7 @@ falls between digits or has an odd sum. Then nothing is said.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +22,7 @@ MOST_OBJECTS = LEVELS**3 // 2  # objects that are told apart
 _OFF = 0.1  # of a step: so far a channel may lie from its digit (1/255 is 0.12 of one, halved)
 
 
-@dataclass(eq=False)
-class Identity:
+class Identity(NamedTuple):
     """Which object each side shows.
 
     `traced` and `shown` are (h, w) int32: indices into `names`, NOTHING or UNKNOWN.

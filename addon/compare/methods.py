@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..methods import Method
 from ..scene import Scene
@@ -14,8 +13,7 @@ from ..tracer.render import steps
 from ..tracer.settings import Precision, Settings
 
 
-@dataclass(frozen=True)
-class MethodRow:
+class MethodRow(NamedTuple):
     """One way to trace a picture."""
 
     method: str
@@ -28,7 +26,7 @@ class MethodRow:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
-        return vars(self) | {"seconds": round(self.seconds, 6), "required": list(self.required)}
+        return self._asdict() | {"seconds": round(self.seconds, 6), "required": list(self.required)}
 
     def line(self) -> str:
         """Return what a person wants to know."""

@@ -11,8 +11,7 @@ pixels that cannot be judged: it is said to be one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,8 +29,7 @@ from .faults import FAULTS, Fault
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
 
-@dataclass(frozen=True)
-class FaultRow:
+class FaultRow(NamedTuple):
     """A fault, and what the comparison made of it.
 
     `changed` pixels of the traced picture (or of Blender's) are others than without the fault;
@@ -70,7 +68,7 @@ class FaultRow:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
-        held = {k: v for k, v in vars(self).items() if k not in ("named", "blind")}
+        held = {k: v for k, v in self._asdict().items() if k not in ("named", "blind")}
         return held | {"result": self.result}
 
 
@@ -93,9 +91,9 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     try:
         wrong = fault.make(case, frame)
     except SceneError as error:  # nothing can be traced with it: nobody would miss that
-        return replace(row, note=f"refused: {error}")
+        return row._replace(note=f"refused: {error}")
     if wrong is None:
-        return replace(row, note="there is nothing to get wrong")
+        return row._replace(note="there is nothing to get wrong")
     traced = frame
     if wrong.scene is not case.scene:
         traced = Frame.empty(wrong.scene)
@@ -108,8 +106,7 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     looked_at = int((of_fault != Cause.AGREE).sum())
     named = bool(found.transform) and found.transform != causes.transform
     rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
-    return replace(
-        row,
+    return row._replace(
         changed=int(changed.sum()),
         differ=looked_at + found.passed_over,
         looked_at=looked_at,

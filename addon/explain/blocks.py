@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from .derivation import Quantity
 from .digits import Parts, exact_text, marked, off_text, ulps
@@ -11,8 +11,7 @@ from .formulas import Formula
 from .textbook import FLOATS
 
 
-@dataclass(frozen=True)
-class Heading:
+class Heading(NamedTuple):
     """A title, of level 1 to 3.
 
     `name` is what a link can lead to; `folded`: what is below it may be read later.
@@ -24,8 +23,7 @@ class Heading:
     folded: bool = False
 
 
-@dataclass(frozen=True)
-class Paragraph:
+class Paragraph(NamedTuple):
     """Sentences; `tone` is "", "answer" (the result), "note" or "warning".
 
     `srgb` is a colour to look at beside them, #rrggbb, if there is one.
@@ -36,16 +34,14 @@ class Paragraph:
     srgb: str = ""
 
 
-@dataclass(frozen=True)
-class Table:
+class Table(NamedTuple):
     """Rows of text below a head."""
 
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
 
 
-@dataclass(frozen=True)
-class BlockRow:
+class BlockRow(NamedTuple):
     """A number: what it is called, and for each float its digits and its error in ulp.
 
     The first of a vector's three says where the vector comes from.
@@ -57,8 +53,7 @@ class BlockRow:
     exact: str
 
 
-@dataclass(frozen=True)
-class Numbers:
+class Numbers(NamedTuple):
     """Numbers below one another, in float32, float64 and exactly."""
 
     rows: tuple[BlockRow, ...]

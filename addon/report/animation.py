@@ -63,7 +63,7 @@ def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) 
         "schema": SCHEMA,
         "title": title,
         "asked_for": [frames[0], frames[-1], frames.step],
-        "frames": [vars(row) for row in worst_first(rows)],
+        "frames": [row._asdict() for row in worst_first(rows)],
         "verdict": verdict(rows),
     }
     with replacing(directory, (PAGE, JSON)) as new:

@@ -109,7 +109,7 @@ def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
         "maps": [
             _about(m) | {"scale": m.rows[0].scale_name, "across": m.across_name} for m in MAPS
         ],
-        "breaking_points": [asdict(p) for p in breaking_points(rows)],
+        "breaking_points": [p._asdict() for p in breaking_points(rows)],
         "rows": [asdict(r) | {"largest_t_error": finite(r.largest_t_error)} for r in rows],
     }
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,8 +66,7 @@ class ExtremesRow:
         return self.lost / self.rays
 
 
-@dataclass(frozen=True)
-class BreakingPoint:
+class BreakingPoint(NamedTuple):
     """The first scale of a scenario at which a method goes wrong, each way; None for never."""
 
     scenario: str

@@ -7,8 +7,8 @@ Then the scene is compared on that background, and the pixels that deviate from 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,7 @@ NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
 _NAMES = {(0, 0, 0): "black", (1, 1, 1): "white"}
 
 
-@dataclass(frozen=True)
-class Background:
+class Background(NamedTuple):
     """Two backgrounds, linear RGBA with premultiplied alpha: the picture's and the scene's."""
 
     picture: tuple[float, ...]

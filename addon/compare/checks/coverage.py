@@ -7,7 +7,7 @@ clipped, a crack may open along an edge that it shared. So the triangles themsel
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,7 @@ INWARD = 2.0**-20
 LEAST_HEIGHT = 16
 
 
-@dataclass(eq=False)
-class Coverage:
+class Coverage(NamedTuple):
     """What k triangles that may cover one of n pixels would show there.
 
     `hits` are theirs, each where the triangle comes nearest to the centre, at `distance` (k,)

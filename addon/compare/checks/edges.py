@@ -6,7 +6,7 @@ off, what Blender shows.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,8 +40,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         yield from scaled(by_parts(pixels, made, _look, asked), 0.2, 0.8)
 
 
-@dataclass(eq=False)
-class _Asked:
+class _Asked(NamedTuple):
     """What is known of the n pixels of a part, more with each way to ask."""
 
     centre: Hits

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import base64
 import zlib
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,8 +48,7 @@ def size(value: Any) -> int:
     return len(value) if isinstance(value, str) else 0
 
 
-@dataclass(frozen=True, eq=False)
-class SeenSurfaces:
+class SeenSurfaces(NamedTuple):
     """The k surfaces that are seen, and which of them each pixel sees."""
 
     number: NDArray[np.int32]  # (h, w): 0 for none, else one more than the index into the others

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ...scene import Scene
 from . import scenes
@@ -40,8 +40,7 @@ class Scenario:
         return f"{self.scale_name}, {self.unit}" if self.unit else self.scale_name
 
 
-@dataclass(frozen=True)
-class Map:
+class Map(NamedTuple):
     """Two scales at once: a scenario for each value of the second."""
 
     name: str
