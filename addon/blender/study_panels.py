@@ -11,7 +11,7 @@ import bpy
 
 from ..explain.derivation import Derivation, Test
 from ..explain.digits import exact_text, marked, off_text, ulps
-from ..explain.pixel import CERTAINTY_SENTENCES
+from ..explain.document import CERTAINTY_SENTENCES
 from ..explain.textbook import Arithmetic
 from ..methods import MEASURED, PLAIN, Method
 from ..study.extremes import BreakingPoint, written

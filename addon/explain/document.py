@@ -17,10 +17,10 @@ from .blocks import Block, Heading, Paragraph, Table, numbers
 from .derivation import Derivation, Test
 from .digits import digits_text
 from .formulas import ERRATA
-from .pixel import CERTAINTY_SENTENCES
 from .textbook import FLOATS, Arithmetic, Judgement
 
 _TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+CERTAINTY_SENTENCES = {c: _TEXTS["certainty"][c.name.lower()] for c in Certainty}
 
 
 def _text(name: str, **of: Any) -> str:

@@ -138,16 +138,6 @@ def check_pixel(camera: Camera, x: int, y: int) -> None:
             )
 
 
-CERTAINTY_SENTENCES = {
-    Certainty.NOT_CERTIFIED: "by floating point alone: this machine's arithmetic allows no proof",
-    Certainty.BOUND: "proven by the error bound of float64: no rounding could change it",
-    Certainty.EXACT: "proven by integers: float64's error bound left some doubt",
-    Certainty.AMBIGUOUS: "decided by the rule, as exact arithmetic leaves several answers: the ray "
-    "meets an edge, a corner, or two surfaces at once, and is taken to pass infinitesimally beside "
-    "itself",
-}
-
-
 @dataclass(frozen=True, eq=False)
 class Answer:
     """What one method in one precision sees; `seen` is NOWHERE, and `t` inf, for nothing."""
