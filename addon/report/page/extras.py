@@ -30,8 +30,6 @@ LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long
 DERIVED = 3  # examples of each cause whose derivation is written out
 DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
 
-_LITERAL, _TRADE, _EXTREMES, _DERIVED = 1.0, 6.0, 12.0, 0.5  # shares of the work, roughly
-
 
 @dataclass(frozen=True, eq=False)
 class Extras:
@@ -49,24 +47,20 @@ def extras(
 ) -> Work[Extras]:
     """Find out what a page shows beside a comparison; yields the share of the work done."""
     left_out: list[str] = []
-    total = _LITERAL + _DERIVED + _TRADE * measure_trade + _EXTREMES * measure_extremes
-    done = 0.0
-
-    def part(work: Work, share: float) -> Work:
-        nonlocal done
-        found = yield from scaled(work, done / total, share / total)
-        done += share
-        return found
-
-    literal = yield from part(_literal(comparison, left_out), _LITERAL)
-    derivations = yield from part(_derivations(comparison, left_out), _DERIVED)
-    trade = rows = None
+    works: dict[str, tuple[Work, float]] = {  # of each field, with its share of the work, roughly
+        "literal": (_literal(comparison, left_out), 1.0),
+        "derivations": (_derivations(comparison, left_out), 0.5),
+    }
     if measure_trade:
-        work = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
-        trade = yield from part(work, _TRADE)
+        measuring = tradeoff.measure(comparison.scene, name=comparison.manifest.file)
+        works["trade"] = measuring, 6.0
     if measure_extremes:
-        rows = yield from part(extremes.measure(), _EXTREMES)
-    return Extras(trade, rows, literal, derivations, tuple(left_out))
+        works["extremes"] = extremes.measure(), 12.0
+    total, done, found = sum(share for _, share in works.values()), 0.0, {}
+    for name, (work, share) in works.items():
+        found[name] = yield from scaled(work, done / total, share / total)
+        done += share
+    return Extras(**found, left_out=tuple(left_out))
 
 
 def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.float32] | None]:
