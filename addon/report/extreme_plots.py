@@ -30,6 +30,7 @@ _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 _WIDTHS, _SIZES = (6.0, 4.0, 2.4, 1.4), (11.0, 8.5, 6.5, 4.5)
 _LEFT = -4.65  # of the scenes' names, where a column of the table is 1 wide
 _CENTRED = {"ha": "center", "va": "center"}
+_SLANTED = {"rotation": 45, "ha": "right", "rotation_mode": "anchor"}
 
 
 def breaking_picture(rows: Sequence[ExtremesRow]) -> NDArray[np.uint8]:
@@ -167,12 +168,7 @@ def _sweep(axes: Axes, rows: Sequence[ExtremesRow]) -> None:
         axes.text(0.5, 0.5, note, transform=axes.transAxes, **_CENTRED, fontsize=12)
     axes.set_ylim(0, 100)
     axes.set_yticks([0, 50, 100], ["0 %", "50 %", "100 %"])
-    _ticks(axes.set_xticks, scales)
-
-
-def _ticks(put, scales: Sequence[float]) -> None:
-    places, words = range(len(scales)), [written(s) for s in scales]
-    put(places, words, rotation=45, ha="right", rotation_mode="anchor")
+    axes.set_xticks(range(len(scales)), [written(s) for s in scales], **_SLANTED)
 
 
 def map_picture(some: Map, rows: Sequence[ExtremesRow]) -> NDArray[np.uint8]:
@@ -221,7 +217,7 @@ def _heat(axes: Axes, rows: Sequence[ExtremesRow]) -> AxesImage | None:
     image = axes.imshow(np.ma.masked_invalid(cells), cmap=_colormap(), norm=norm, aspect="auto")
     title = f"{Method(rows[0].method).words}, {rows[0].precision}"
     axes.set_title(title, fontsize=14, color=plots.INK)
-    _ticks(axes.set_xticks, scales)
+    axes.set_xticks(range(len(scales)), [written(s) for s in scales], **_SLANTED)
     axes.set_yticks(range(len(others)), [written(o) for o in others])
     axes.tick_params(labelsize=11, length=0)
     axes.spines[:].set_visible(False)
