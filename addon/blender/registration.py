@@ -6,18 +6,9 @@ from typing import Any
 
 import bpy
 
-from . import (
-    engine,
-    explain,
-    inspector,
-    operators,
-    panels,
-    properties,
-    results,
-    studies,
-    study_panels,
-)
+from . import engine, explain, inspector, operators, panels, properties, studies, study_panels
 from .long_work import LongWork
+from .results import forget
 
 MODULES = properties, engine, operators, studies, explain, inspector, panels, study_panels
 
@@ -25,7 +16,7 @@ MODULES = properties, engine, operators, studies, explain, inspector, panels, st
 @bpy.app.handlers.persistent
 def _file_closes(*_: Any) -> None:
     """Forget what was found in the file that goes, and what Blender ends with it."""
-    results.forget()
+    forget()
     LongWork.running = ""
     inspector.REFERENCE_TRACER_OT_inspect.running = False
 
@@ -41,6 +32,6 @@ def unregister() -> None:
     """Undo :func:`register`."""
     bpy.app.handlers.load_pre.remove(_file_closes)
     LongWork.stop()
-    results.forget()
+    forget()
     for module in reversed(MODULES):
         module.unregister()
