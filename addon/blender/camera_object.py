@@ -8,6 +8,7 @@ import bpy
 from mathutils import Matrix
 
 from ..scene import Camera
+from ..tracer.camera import pixel_size
 
 LEAST_CLIP = 1e-6  # metres: Blender's own limit
 _SENSOR = 36.0  # millimetres; what Blender's own cameras have
@@ -20,12 +21,10 @@ def add_camera(scene: Any, camera: Camera) -> Any:
     Blender itself sets what it cannot have to the nearest that it can, such as a pixel's shape of
     more than 200 to 1 or a clip start below `LEAST_CLIP`: `window_of` says what is shown.
     """
-    w, render = camera.window, scene.render
+    render, (across, up) = scene.render, pixel_size(camera)
     render.resolution_x, render.resolution_y = camera.width, camera.height
     render.resolution_percentage = 100
-    tall = (
-        (w.top - w.bottom) / camera.height / ((w.right - w.left) / camera.width)
-    )  # of a pixel, in widths
+    tall = up / across
     render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1 / tall), max(1.0, tall)
     return place_camera(scene, camera)
 
