@@ -117,17 +117,13 @@ def _leave_out(collection: Any, layer: Any, objects: Collection[Any], copies: li
     for child in list(collection.children):
         if not any(obj in objects for obj in child.all_objects):
             continue
-        if child in copies:
-            _leave_out(child, layer.children[child.name], objects, copies)
-            continue
-        copy = child.copy()
-        copies.append(copy)
-        old = layer.children[child.name]
-        collection.children.link(copy)  # before the old one goes: hidden objects stay hidden
-        new = layer.children[copy.name]
-        _copy_flags(old, new)
-        collection.children.unlink(child)
-        _leave_out(copy, new, objects, copies)
+        if child not in copies:
+            old, child = child, child.copy()
+            copies.append(child)
+            collection.children.link(child)  # before the old one goes: hidden objects stay hidden
+            _copy_flags(layer.children[old.name], layer.children[child.name])
+            collection.children.unlink(old)
+        _leave_out(child, layer.children[child.name], objects, copies)
     for obj in [o for o in collection.objects if o in objects]:
         collection.objects.unlink(obj)
 
