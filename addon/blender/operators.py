@@ -19,7 +19,7 @@ from ..report import animation as frames_report
 from ..report import engines as engines_report
 from ..report import page
 from ..scene import SceneError
-from ..study.extremes import BreakingPoint
+from ..study.extremes import ExtremesRow
 from ..study.trade import Trade
 from ..tracer.progress import Work
 from . import animation, results
@@ -138,9 +138,9 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     def finish(self, context: Any, result: page.Extras) -> tuple[str, str]:
         """Write the page, with the studies that there are, and open it."""
         path = self._folder / page.NAME
-        trade = results.latest(Trade, context.scene)
-        extremes = results.latest(BreakingPoint, context.scene)
-        more = {"trade": trade and trade.content, "extremes": (extremes and extremes.rows) or None}
+        kinds = {"trade": Trade, "extremes": ExtremesRow}
+        kept = {name: results.latest(kind, context.scene) for name, kind in kinds.items()}
+        more = {name: found.content for name, found in kept.items() if found and found.content}
         page.write(path, self._comparison, replace(result, **more))
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())

@@ -37,7 +37,6 @@ class Result:
     content: Any  # of the kind that it is kept as
     lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
     scene: str | None = None  # None: of no scene
-    rows: tuple[ExtremesRow, ...] = ()  # of the extremes, as they were measured
 
 
 _latest: dict[type, Result] = {}
@@ -66,7 +65,8 @@ def keep_extremes(context: Any, rows: Sequence[ExtremesRow]) -> Result:
             yield f"Reference Tracer {name.replace('_', ' ').title()}", picture
 
     lines = [_extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
-    return keep(BreakingPoint, tuple(breaking_points(rows)), lines, rows=rows)
+    keep(ExtremesRow, tuple(rows), lines)
+    return keep(BreakingPoint, tuple(breaking_points(rows)), lines)
 
 
 def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
@@ -107,22 +107,16 @@ def _show_plots(
         ]
 
 
-def keep(
-    kind: type,
-    content: Any,
-    lines: Iterable[str],
-    scene: str | None = None,
-    rows: Sequence[ExtremesRow] = (),
-) -> Result:
+def keep(kind: type, content: Any, lines: Iterable[str], scene: str | None = None) -> Result:
     """Remember a result of a kind, for :func:`latest`."""
-    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, tuple(rows))
+    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene)
     return _latest[kind]
 
 
 def latest(kind: type, scene: Any) -> Result | None:
     """Return the latest result of a kind, if it is of this scene in the file that is open.
 
-    The kinds are Comparison, Derivation, EngineRow, FrameRow, Trade and BreakingPoint.
+    The kinds are Comparison, Derivation, EngineRow, FrameRow, Trade, BreakingPoint and ExtremesRow.
     """
     found = _latest.get(kind)
     if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):
