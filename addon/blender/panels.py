@@ -54,10 +54,10 @@ def both(part: type, suffix: str = "", **in_properties: Any) -> tuple[type, type
     return tuple(made)
 
 
-def short_name(method: str, precision: str) -> str:
-    """Return a method in a precision, as short as a narrow table needs: 'Textbook 32'."""
-    name = Method(method).short
-    return f"{name[0].upper()}{name[1:]} {precision.removeprefix('float')}"
+def short_name(row: Any) -> str:
+    """Return a row's method and precision, as short as a narrow table needs: 'Textbook 32'."""
+    name = Method(row.method).short
+    return f"{name[0].upper()}{name[1:]} {row.precision.removeprefix('float')}"
 
 
 def draw_table(layout: Any, rows: Sequence[Sequence[str]], first: float = 0.45) -> None:
@@ -161,8 +161,7 @@ class _Result:
         rows = [("Traced by", "s", "Wrong", "Ambig.")]
         for m in comparison.methods:
             wrong = "?" if m.wrong_pixels is None else f"{m.wrong_pixels:,}"
-            name = short_name(m.method, m.precision)
-            rows.append((name, f"{m.seconds:.2f}", wrong, f"{m.ambiguous:,}"))
+            rows.append((short_name(m), f"{m.seconds:.2f}", wrong, f"{m.ambiguous:,}"))
         draw_table(self.layout.box(), rows, NARROW)
         for line in (*comparison.required, *self_check.table(comparison.self_check)[:1]):
             wrapped(self.layout, context, line)

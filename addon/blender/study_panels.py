@@ -141,14 +141,12 @@ def _say_why(layout: Any, context: Any, found: results.Result) -> None:
 def _method(row: TradeRow) -> tuple[str, ...]:
     star = " *" if row.best_pixels else ""
     memory = f"{row.peak_bytes / 2**20:.1f}"
-    name = short_name(row.method, row.precision)
-    return name, f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
+    return short_name(row), f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
 
 
 def _coverage(row: TradeRow) -> tuple[str, ...]:
     size = f"{row.width}, {row.samples}²"
-    name = short_name(row.method, row.precision)
-    return name, size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"
+    return short_name(row), size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"
 
 
 class _Extremes:
