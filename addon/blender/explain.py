@@ -23,10 +23,12 @@ from .compare import export_open_file
 from .engine import export_for_judge
 from .judges import judge_named
 from .long_work import failed
+from .properties import SAID, SOURCES
 from .temporary import temporary_scene
 from .viewport import prepare_scene
 
 TEXT = "Reference Tracer Pixel"
+_SAID = SAID["explain"]
 
 
 def derive_here(
@@ -77,21 +79,11 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
     )
     bl_options = {"UNDO"}
 
-    x: IntProperty(name="X", min=0, description="From the left of the picture")  # type: ignore[valid-type]
-    y: IntProperty(name="Y", min=0, description="From the bottom of the picture")  # type: ignore[valid-type]
-    source: EnumProperty(  # type: ignore[valid-type]
-        name="Of",
-        items=[
-            ("SCENE", "Scene", "The scene now, as Trace and Compare takes it"),
-            ("RENDER", "Render", "The scene now, as a render takes it"),
-            ("COMPARISON", "Comparison", "The scene as the latest comparison took it"),
-        ],
-        options={"SKIP_SAVE"},
-    )
-    limit: IntProperty(name="Triangles", default=LIMIT, min=1, description="Shown at most")  # type: ignore[valid-type]
-    draw_ray: BoolProperty(  # type: ignore[valid-type]
-        name="Draw the Ray", options={"SKIP_SAVE"}, description="As objects in the 3D view, too"
-    )
+    x: IntProperty(**_SAID["x"])  # type: ignore[valid-type]
+    y: IntProperty(**_SAID["y"])  # type: ignore[valid-type]
+    source: EnumProperty(items=SOURCES, options={"SKIP_SAVE"}, **_SAID["source"])  # type: ignore[valid-type]
+    limit: IntProperty(default=LIMIT, **_SAID["limit"])  # type: ignore[valid-type]
+    draw_ray: BoolProperty(options={"SKIP_SAVE"}, **_SAID["draw_ray"])  # type: ignore[valid-type]
     filepath: StringProperty(  # type: ignore[valid-type]
         name="File",
         subtype="FILE_PATH",

@@ -18,6 +18,7 @@ from bpy.props import StringProperty
 from ..arguments import EXPECTED, words
 from ..tracer.progress import Work, result_of
 from .compare import made_folder
+from .properties import SAID
 from .results import redraw
 
 SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
@@ -37,12 +38,7 @@ class LongWork:
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
 
-    directory: StringProperty(  # type: ignore[valid-type]
-        name="Folder",
-        subtype="DIR_PATH",
-        options={"SKIP_SAVE"},
-        description="Where to write what is found; nothing is written if empty",
-    )
+    directory: StringProperty(options={"SKIP_SAVE"}, **SAID["work"]["directory"])  # type: ignore[valid-type]
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""

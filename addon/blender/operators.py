@@ -27,6 +27,7 @@ from .choice import frame_all
 from .compare import compare_all, compare_to_folder, compared, gather_case
 from .judges import JUDGES
 from .long_work import LongWork, failed, say
+from .properties import SAID
 from .results import redraw
 
 *_FIRST, _LAST = ("the viewport" if j.needs_window else j.label for j in JUDGES.values())
@@ -113,12 +114,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     )
     bl_options: set[str] = set()  # it leaves nothing in Blender
 
-    open_browser: BoolProperty(  # type: ignore[valid-type]
-        name="Open in the Browser",
-        default=True,
-        options={"SKIP_SAVE"},
-        description="Open the file once it is written",
-    )
+    open_browser: BoolProperty(options={"SKIP_SAVE"}, **SAID["open_page"]["open_browser"])  # type: ignore[valid-type]
 
     @classmethod
     def poll(cls, context: Any) -> bool:

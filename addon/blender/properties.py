@@ -1,6 +1,7 @@
 """What the user sets: stored in the .blend on the scene and its objects, or of the moment.
 
-`properties.toml` has their names, texts and limits. Results are not stored here: see `results.py`.
+`properties.toml` has their names, texts and limits, and those of the operators' properties. Results
+are not stored here: see `results.py`.
 """
 
 # mypy: disable-error-code="valid-type"
@@ -22,13 +23,15 @@ from ..tracer.settings import Precision, Settings
 from . import judges, results
 from .live.shows import SHOWS
 
-_SAID = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-_SCENE, _LAYER, _OBJECT, _WINDOW = (_SAID[of] for of in ("scene", "layer", "object", "window"))
+SAID = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+_SCENE, _LAYER, _OBJECT, _WINDOW = (SAID[of] for of in ("scene", "layer", "object", "window"))
 
 # (identifier, name, description, number). A .blend stores the number: one that was given away is
 # never given to another, and a new item takes the next.
 METHOD_ITEMS = tuple((m.value, m.label, m.description, m.number) for m in reversed(Method))
-PRECISIONS, SHADINGS = (tuple(map(tuple, _SAID[items])) for items in ("precisions", "shadings"))
+PRECISIONS, SHADINGS, SOURCES = (
+    tuple(map(tuple, SAID[items])) for items in ("precisions", "shadings", "sources")
+)
 COLORS = tuple((c.value, c.capitalize(), c.description, c.number) for c in Color)
 JUDGE_ITEMS = (
     (judges.AUTO, "Automatic", "The viewport in a window, Workbench in background", 0),

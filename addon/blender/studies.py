@@ -17,8 +17,9 @@ from ..tracer.progress import Work
 from . import results, scenario_scene
 from .compare import export_open_file
 from .long_work import LongWork, failed, say
-from .properties import SWEEPS
+from .properties import SAID, SWEEPS
 
+_TRADE, _EXTREMES, _SCENE = (SAID[of] for of in ("trade", "extremes", "extreme_scene"))
 EVERY = "ALL"  # in place of a scenario's name
 STUDIES = [
     (EVERY, "All", "Every scenario, and the maps of two scales at once"),
@@ -36,20 +37,8 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
     )
     needs_camera = True
 
-    width: IntProperty(  # type: ignore[valid-type]
-        name="Width",
-        default=tradeoff.WIDTH,
-        min=1,
-        soft_max=1920,
-        description="Of the largest picture that is measured, in pixels; its height follows",
-    )
-    samples: IntProperty(  # type: ignore[valid-type]
-        name="Samples",
-        default=tradeoff.SAMPLES,
-        min=1,
-        max=16,
-        description="Up to this number squared of rays a pixel are measured",
-    )
+    width: IntProperty(default=tradeoff.WIDTH, **_TRADE["width"])  # type: ignore[valid-type]
+    samples: IntProperty(default=tradeoff.SAMPLES, **_TRADE["samples"])  # type: ignore[valid-type]
 
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene at once, as a render has it; return the work of measuring."""
@@ -72,14 +61,8 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         "find the first scale at which each goes wrong against exact arithmetic"
     )
 
-    scenario: EnumProperty(name="Scenario", items=STUDIES, default=EVERY)  # type: ignore[valid-type]
-    rays: IntProperty(  # type: ignore[valid-type]
-        name="Rays",
-        default=0,
-        min=0,
-        soft_max=10_000,
-        description="About so many through each scene; 0 for each scene's own number",
-    )
+    scenario: EnumProperty(items=STUDIES, default=EVERY, **_EXTREMES["scenario"])  # type: ignore[valid-type]
+    rays: IntProperty(**_EXTREMES["rays"])  # type: ignore[valid-type]
 
     def begin(self, context: Any) -> Work[Any]:
         """Return the work; a map has a scenario of its name for each of its rows."""
@@ -103,17 +86,9 @@ class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
     )
     bl_options = {"UNDO"}
 
-    scenario: EnumProperty(name="Scenario", items=SWEEPS)  # type: ignore[valid-type]
-    scale: StringProperty(  # type: ignore[valid-type]
-        name="Scale", description="A number, such as 1e8; the scenario's last and hardest if empty"
-    )
-    width: IntProperty(  # type: ignore[valid-type]
-        name="Width",
-        default=0,
-        min=0,
-        soft_max=1920,
-        description="Of the picture, in pixels; 0 for that of the study, one ray a pixel",
-    )
+    scenario: EnumProperty(items=SWEEPS, **_SCENE["scenario"])  # type: ignore[valid-type]
+    scale: StringProperty(**_SCENE["scale"])  # type: ignore[valid-type]
+    width: IntProperty(**_SCENE["width"])  # type: ignore[valid-type]
 
     def execute(self, context: Any) -> set[str]:
         try:
