@@ -28,7 +28,7 @@ from ..tracer.progress import Work, scaled
 from ..tracer.settings import Settings
 from .camera import export_camera
 from .drawings import Drawing, with_identity, with_what_draws_itself
-from .engine import export_for_judge, export_for_render
+from .engine import export_for_judge
 from .judges import JUDGES, Judge, judge_named
 from .planes import stand_ins
 from .rasteriser import snapping_of
@@ -212,15 +212,20 @@ def made_folder(directory: str) -> Path:
     return folder
 
 
-def export_open_file(context: Any) -> tuple[Scene, Manifest, Settings]:
+def export_open_file(context: Any, judge: Judge | None = None) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
+
+    For a judge it is as a comparison exports it.
 
     Raises
     ------
     SceneError
         If the scene cannot be traced.
     """
-    export_camera(context.scene)
-    with temporary_scene(context.scene, context.view_layer.name) as tmp:
-        exported, manifest, _ = export_for_render(tmp)
-    return exported, manifest, context.scene.reference_tracer.settings()
+    scene, layer, stored = context.scene, context.view_layer.name, context.scene.reference_tracer
+    export_camera(scene)  # first, as its errors name the user's scene, say what to do
+    with temporary_scene(scene, layer, judge) as tmp:
+        if judge:
+            prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
+        exported, manifest, _ = export_for_judge(tmp, layer, judge or JUDGES["workbench"])
+    return exported, manifest, stored.settings()

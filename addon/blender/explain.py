@@ -16,16 +16,12 @@ from ..explain.derivation import Derivation, derive
 from ..explain.document import answer_sentence
 from ..explain.writers import WRITERS
 from ..report import folders
-from ..scene import Scene, SceneError
+from ..scene import SceneError
 from . import ray_objects, results
-from .camera import export_camera
 from .compare import export_open_file
-from .engine import export_for_judge
 from .judges import judge_named
 from .long_work import failed
 from .properties import SAID, SOURCES
-from .temporary import temporary_scene
-from .viewport import prepare_scene
 
 TEXT = "Reference Tracer Pixel"
 _SAID = SAID["explain"]
@@ -55,19 +51,10 @@ def derive_here(
     if source == "COMPARISON" and latest:
         scene = latest.content.scene
     else:
-        scene = export_open_file(context)[0] if source == "RENDER" else _compared(context)
+        judge = judge_named(context.scene.reference_tracer.judge, bpy.app.background)
+        scene, _, _ = export_open_file(context, None if source == "RENDER" else judge)
     file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
     return derive(scene, x, y, limit, file)
-
-
-def _compared(context: Any) -> Scene:
-    """Export the context's scene as a comparison does."""
-    scene, layer, stored = context.scene, context.view_layer.name, context.scene.reference_tracer
-    export_camera(scene)  # first, as its errors name the user's scene and say what to do
-    judge = judge_named(stored.judge, bpy.app.background)
-    with temporary_scene(scene, layer, judge) as tmp:
-        prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
-        return export_for_judge(tmp, layer, judge)[0]
 
 
 class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
