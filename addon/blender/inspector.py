@@ -16,7 +16,7 @@ from ..arguments import words
 from ..scene import Camera, SceneError
 from . import results
 from .camera import export_camera
-from .long_work import LongWork, camera_missing
+from .long_work import is_blocked
 
 _OURS = {results.TRACED, results.BLENDER, results.DIFFERENCE}
 _HINT = (
@@ -40,9 +40,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
         """Allow one at a time, where there is a camera, and none beside long work."""
         if cls.running:
             cls.poll_message_set("The inspector is on: click a pixel, or end it with Esc")
-        elif LongWork.running:
-            cls.poll_message_set(f"{LongWork.running} is running: Esc cancels it")
-        return not (cls.running or LongWork.running or camera_missing(cls, context))
+        return not (cls.running or is_blocked(cls, context, needs_camera=True))
 
     def execute(self, context: Any) -> set[str]:
         """Refuse a script's call: it has no mouse."""

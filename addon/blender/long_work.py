@@ -55,10 +55,7 @@ class LongWork:
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Allow one at a time, with a camera if it needs one."""
-        if LongWork.running:
-            cls.poll_message_set(f"{LongWork.running} is running: Esc cancels it")
-            return False
-        return not (cls.needs_camera and camera_missing(cls, context))
+        return not is_blocked(cls, context, cls.needs_camera)
 
     def execute(self, context: Any) -> set[str]:
         """Run through, as a script wants it."""
@@ -86,7 +83,7 @@ class LongWork:
     def modal(self, context: Any, event: Any) -> set[str]:
         """Work for one step, or stop at Esc."""
         if event.type == "ESC" and event.value == "PRESS":
-            self._clean_up(context)
+            self.cancel(context)
             self.report({"WARNING"}, f"{self.bl_label} was cancelled; {self.left}")
             return {"CANCELLED"}
         if event.type != "TIMER":
@@ -96,20 +93,16 @@ class LongWork:
             while time.monotonic() < until:
                 share = next(self._work)
         except StopIteration as stop:
-            self._clean_up(context)
+            self.cancel(context)
             try:
                 return self._end(context, stop.value)
             except Exception as error:
                 return failed(self, error)
         except Exception as error:
-            self._clean_up(context)
+            self.cancel(context)
             return failed(self, error)
         self._show_progress(context, share)
         return {"PASS_THROUGH"}  # the timers of others are theirs
-
-    def cancel(self, context: Any) -> None:
-        """Stop when Blender itself ends the operator, as at quitting or loading a file."""
-        self._clean_up(context)
 
     def _show_progress(self, context: Any, share: float) -> None:
         now = time.monotonic()
@@ -128,10 +121,10 @@ class LongWork:
         if LongWork.running:
             window = bpy.context.window or bpy.context.window_manager.windows[0]
             with bpy.context.temp_override(window=window):  # a script may have none
-                LongWork._clean_up(bpy.context)
+                LongWork.cancel(LongWork, bpy.context)
 
-    @staticmethod
-    def _clean_up(context: Any) -> None:
+    def cancel(self, context: Any) -> None:
+        """Stop; Blender itself asks for it, too, as at quitting or loading a file."""
         LongWork.running = ""
         LongWork._work.close()
         context.window_manager.event_timer_remove(LongWork._timer)
@@ -154,12 +147,16 @@ def failed(operator: Any, error: Exception) -> set[str]:
     return {"CANCELLED"}
 
 
-def camera_missing(operator: Any, context: Any) -> bool:
-    """Return whether the scene has no camera, and have the operator's button say so."""
-    if context.scene.camera is None:
-        name = context.scene.name
-        operator.poll_message_set(f"Scene '{name}' has no camera: add one, or make one active")
-    return context.scene.camera is None
+def is_blocked(operator: Any, context: Any, needs_camera: bool) -> bool:
+    """Return whether long work or a missing camera is in the way; an operator's button says so."""
+    why, name = "", context.scene.name
+    if LongWork.running:
+        why = f"{LongWork.running} is running: Esc cancels it"
+    elif needs_camera and context.scene.camera is None:
+        why = f"Scene '{name}' has no camera: add one, or make one active"
+    if why:
+        operator.poll_message_set(why)
+    return bool(why)
 
 
 def say(*lines: str) -> None:

@@ -119,12 +119,10 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
     @classmethod
     def poll(cls, context: Any) -> bool:
         """Allow it where there is a comparison, and nothing else at work."""
-        if not super().poll(context):
-            return False
-        if not results.latest(Comparison, context.scene):
+        found = results.latest(Comparison, context.scene)
+        if not found:
             cls.poll_message_set("Trace and Compare comes first")
-            return False
-        return True
+        return super().poll(context) and bool(found)
 
     def begin(self, context: Any) -> Work[page.Extras]:
         self._folder = self.folder() or Path(_session_folder())
