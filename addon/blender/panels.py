@@ -27,18 +27,8 @@ _LETTER = 6.5  # mean width in pixels at a scale of 1: what Blender's own font h
 _NOT_OURS = {f"RENDER_PT_{n}" for n in ("simplify", "freestyle", "stamp")} | {"VIEWLAYER_PT_filter"}
 # Those of other engines that say which colours and passes are shown.
 _OURS_TOO = {"RENDER_PT_opengl_color", "RENDER_PT_opengl_film", "VIEWLAYER_PT_layer_passes"}
-
-
-class Properties:
-    """In the Render properties."""
-
-    bl_space_type, bl_region_type, bl_context = "PROPERTIES", "WINDOW", "render"
-
-
-class Sidebar:
-    """In the 3D view's sidebar, in a tab of its own."""
-
-    bl_space_type, bl_region_type, bl_category = "VIEW_3D", "UI", "Reference Tracer"
+_PROPERTIES = {"bl_space_type": "PROPERTIES", "bl_region_type": "WINDOW", "bl_context": "render"}
+_SIDEBAR = {"bl_space_type": "VIEW_3D", "bl_region_type": "UI", "bl_category": "Reference Tracer"}
 
 
 def both(part: type, suffix: str = "", **in_properties: Any) -> tuple[type, type]:
@@ -47,10 +37,10 @@ def both(part: type, suffix: str = "", **in_properties: Any) -> tuple[type, type
     One with a suffix stands within the main one. `in_properties` is of the first alone.
     """
     made = []
-    for prefix, place, more in (("RENDER", Properties, in_properties), ("VIEW3D", Sidebar, {})):
+    for prefix, place in (("RENDER", _PROPERTIES | in_properties), ("VIEW3D", _SIDEBAR)):
         main = f"{prefix}_PT_reference_tracer"
         parent = {"bl_parent_id": main} if suffix else {}
-        made.append(type(main + suffix, (place, part, bpy.types.Panel), parent | more))
+        made.append(type(main + suffix, (part, bpy.types.Panel), place | parent))
     return tuple(made)
 
 
@@ -110,8 +100,8 @@ class _Main:
             for row in found.content:
                 p = row.pixels or {"differ": "-", "unexplained": "-"}
                 wrong = "?" if row.wrong_objects is None else row.wrong_objects
-                shown = (p["differ"], wrong, p["unexplained"])
-                rows.append((JUDGES[row.engine].label, *map(str, shown)))
+                shown = JUDGES[row.engine].label, p["differ"], wrong, p["unexplained"]
+                rows.append(tuple(map(str, shown)))
             draw_table(layout.box(), rows, NARROW)
         button = operators.REFERENCE_TRACER_OT_compare_animation.bl_idname
         layout.operator(button, icon="RENDER_ANIMATION")
@@ -140,11 +130,8 @@ class _Result:
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
         rows = [("Agree", pixels["agree"]), ("Differ", pixels["differ"])]
-        rows += [
-            (f"  {Cause[name.upper()].label.capitalize()}", n)
-            for name, n in pixels["by_cause"].items()
-            if n
-        ]
+        causes = {Cause[name.upper()]: n for name, n in pixels["by_cause"].items() if n}
+        rows += [(f"  {cause.label.capitalize()}", n) for cause, n in causes.items()]
         rows += [(f"Differ, {part.capitalize()}", pixels[part]["differ"]) for part in _PARTS]
         rows = [(label, f"{n:,} px") for label, n in rows]
         psnr = measured["psnr"]
