@@ -167,18 +167,15 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
     """
     folder = made_folder(directory) if directory else None
     here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
-    drawn = [(name, _drawn(context, name, choices)) for name in here]
+    drawn: list[tuple[str, Case | str]] = []  # or why there is no picture
+    for name in here:
+        try:
+            drawn.append((name, gather_case(context, judge=name.upper(), **choices)))
+        except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
+            drawn.append((name, words(error)))
     if all(isinstance(d, str) for _, d in drawn):
         raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
     return _all_compared(drawn, folder)
-
-
-def _drawn(context: Any, engine: str, choices: dict[str, Any]) -> Case | str:
-    """Return what is gathered for an engine, or why it makes no picture."""
-    try:
-        return gather_case(context, judge=engine.upper(), **choices)
-    except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
-        return words(error)
 
 
 def _all_compared(
