@@ -85,10 +85,8 @@ def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
 def solid_shading(context: Any) -> Any:
     """Return the solid shading of the 3D view the user is in, else of the window's first one."""
     areas = [context.area, *(context.window.screen.areas if context.window else ())]
-    for area in areas:
-        if area and area.type == "VIEW_3D" and area.spaces.active.shading.type == "SOLID":
-            return area.spaces.active.shading
-    return None
+    found = (a.spaces.active.shading for a in areas if a and a.type == "VIEW_3D")
+    return next((shading for shading in found if shading.type == "SOLID"), None)
 
 
 def use_view_shading(scene: Any, shading: Any) -> None:
