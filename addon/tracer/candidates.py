@@ -23,6 +23,7 @@ from .world import Batch, Pairs, batches, world_triangles
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region, Scene
+    from .settings import Settings
 
 # Camera-space coordinates and rays are off by at most a few roundings, of half an eps each, of all
 # their terms: one for v - o, five for each dot product, three for a ray's direction, two for its
@@ -38,15 +39,14 @@ _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, round
 
 
 @dataclass(frozen=True, eq=False)
-class Culled:
-    """Batches of a scene with the rows that each may cover.
+class Plan:
+    """Batches of a scene with the rows that each may cover, and the settings that it is traced by.
 
-    For rays within `reach` pixels of their pixel's centre, and vertices rounded to `dtype`; pairs
-    may take some `memory`, in bytes.
+    For rays within `reach` pixels of their pixel's centre; pairs may take some `memory`, in bytes.
     """
 
     scene: Scene
-    dtype: np.dtype
+    settings: Settings
     memory: int
     reach: float
     batches: list[Batch]
@@ -130,23 +130,24 @@ def within(bounds: NDArray[np.int32], tile: Region) -> NDArray[np.int32]:
     return np.stack((x0, x1, np.maximum(y0, tile.y0), np.minimum(y1, tile.y1)))
 
 
-def cull(scene: Scene, dtype: np.dtype, memory: int, reach: float) -> Work[Culled]:
+def plan(scene: Scene, settings: Settings, reach: float, memory: int | None = None) -> Work[Plan]:
     """Look at every batch once; yields 0, as nothing is traced yet."""
     found, rows, refused = [], [], 0
     for batch in batches(scene):
-        _, (x0, x1, y0, y1), left_out = _bounds(scene, dtype, reach, batch)
+        _, (x0, x1, y0, y1), left_out = _bounds(scene, settings, reach, batch)
         refused += left_out
         seen = (x0 < x1) & (y0 < y1)
         if seen.any():
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
         yield 0.0
-    return Culled(scene, dtype, memory, reach, found, rows, refused)
+    memory = settings.memory if memory is None else memory
+    return Plan(scene, settings, memory, reach, found, rows, refused)
 
 
-def _bounds(scene: Scene, dtype: np.dtype, reach: float, batch: Batch):
+def _bounds(scene: Scene, settings: Settings, reach: float, batch: Batch):
     """Return a batch's triangles but those that are not finite, their bounds, and how many are."""
-    triangles = world_triangles(scene, batch, dtype)
+    triangles = world_triangles(scene, batch, settings.precision.dtype)
     finite = triangles.finite
     refused = len(finite) - int(finite.sum())
     if refused:
@@ -155,22 +156,22 @@ def _bounds(scene: Scene, dtype: np.dtype, reach: float, batch: Batch):
 
 
 def candidates(
-    culled: Culled, tile: Region, wanted: NDArray[np.bool_] | None = None
+    plan: Plan, tile: Region, wanted: NDArray[np.bool_] | None = None
 ) -> Iterator[tuple[float, Pairs | None]]:
     """Yield the share of the work that is done, and the next pairs of a tile (None: none yet).
 
     They index the tile's n pixels row by row from the lowest. If some are `wanted` (n,), they index
     these, in that order.
     """
-    limit = max(1, min(PAIRS, culled.memory // (4 * _BYTES_PER_PAIR)))
+    limit = max(1, min(PAIRS, plan.memory // (4 * _BYTES_PER_PAIR)))
     before = None if wanted is None else np.append(0, np.cumsum(wanted, dtype=np.int32))
     work = [
         b
-        for b, (y0, y1) in zip(culled.batches, culled.rows, strict=True)
+        for b, (y0, y1) in zip(plan.batches, plan.rows, strict=True)
         if y0 < tile.y1 and y1 > tile.y0
     ]
     for done, batch in enumerate(work):
-        triangles, bounds, _ = _bounds(culled.scene, culled.dtype, culled.reach, batch)
+        triangles, bounds, _ = _bounds(plan.scene, plan.settings, plan.reach, batch)
         bounds = within(bounds, tile)
         inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
         triangles = triangles.take(inside)

@@ -7,31 +7,17 @@ whose it is. Exactly equal t go to the lower (instance, triangle); planes come a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import Culled, Pairs, candidates, cull
+from .candidates import Pairs, Plan, candidates
+from .candidates import plan as plan  # for who traces: the other half of `trace_tile`
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
-
-
-@dataclass(frozen=True, eq=False)
-class Plan(Culled):
-    """A culled scene with the settings that it is traced by."""
-
-    settings: Settings
-
-
-def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
-    """Look at every batch once; yields 0, as nothing is traced yet."""
-    culled = yield from cull(scene, settings.precision.dtype, settings.memory, reach)
-    return Plan(**vars(culled), settings=settings)
 
 
 def trace_tile(

@@ -11,12 +11,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ..camera import camera_rays, corner_rays, film_positions
-from ..candidates import Culled, candidates, cull
+from ..candidates import candidates, plan
 from ..hits import Hits, Statistics
 from ..progress import Work
+from ..settings import Settings
 from .contest import Contest
 
 if TYPE_CHECKING:
@@ -52,22 +51,18 @@ def plain(
         Of the n rays, row by row from the lowest.
     """
     statistics = statistics or Statistics()
-    culled = yield from cull(scene, np.dtype(np.float64), memory, max(abs(dx), abs(dy)))
+    planned = yield from plan(scene, Settings(), max(abs(dx), abs(dy)), memory)
+    around = corner_rays(scene.camera, dx, dy)
     found = []
     for y in range(region.y0, region.y1, _ROWS):
         tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
-        found.append((yield from _tile(culled, tile, dx, dy, statistics)))
+        rays = camera_rays(scene.camera, *film_positions(tile, dx, dy))
+        contest = Contest.of(scene, rays, around)
+        statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
+        for share, pairs in candidates(planned, tile):
+            if pairs is not None:
+                statistics.pairs_tested += len(pairs.pixel)
+                contest.enter(pairs)
+            yield share
+        found.append((yield from contest.hits(statistics)))
     return Hits.joined(found)
-
-
-def _tile(culled: Culled, tile: Region, dx: float, dy: float, statistics: Statistics) -> Work[Hits]:
-    scene, camera = culled.scene, culled.scene.camera
-    rays = camera_rays(camera, *film_positions(tile, dx, dy))
-    contest = Contest.of(scene, rays, corner_rays(camera, dx, dy))
-    statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
-    for share, pairs in candidates(culled, tile):
-        if pairs is not None:
-            statistics.pairs_tested += len(pairs.pixel)
-            contest.enter(pairs)
-        yield share
-    return (yield from contest.hits(statistics))
