@@ -5,7 +5,6 @@ They share nothing that could say which triangles they come near, so nothing is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,7 +21,7 @@ from .hits import Hits, Statistics
 from .nearest import test_pairs, test_planes
 from .progress import Work
 from .settings import Settings
-from .world import WorldTriangles, batches, world_triangles
+from .world import batches, world_triangles
 
 
 def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
@@ -41,23 +40,17 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
     for batch in batches(scene):
         triangles = world_triangles(scene, batch, dtype)
         triangles = triangles.take(np.flatnonzero(triangles.finite))
-        for some in _pairs(triangles, count):
-            statistics.pairs_tested += len(some.pixel)
+        total = count * len(triangles)
+        for start in range(0, total, PAIRS):  # each ray with each triangle
+            every = np.arange(start, min(start + PAIRS, total))
+            some = Pairs(*np.divmod(every, len(triangles)), triangles)
+            statistics.pairs_tested += len(every)
             if contest:
                 contest.enter(some)
             else:
                 test_pairs(scene, settings, rays, some, hits)
             yield 0.0
     return (yield from contest.hits(statistics)) if contest else hits
-
-
-def _pairs(triangles: WorldTriangles, count: int) -> Iterator[Pairs]:
-    """Yield each of `count` rays with each triangle."""
-    size = len(triangles.instance)
-    total = count * size
-    for start in range(0, total, PAIRS):
-        ray, row = np.divmod(np.arange(start, min(start + PAIRS, total)), size)
-        yield Pairs(ray, row, triangles)
 
 
 @dataclass(frozen=True, eq=False)
