@@ -144,30 +144,29 @@ class DepthBuffer:
 
     def farthest(self, x: Index, y: Index, size: int) -> NDArray[np.float64]:
         """Return the least nearness in the cells of FINE or COARSE pixels with these numbers."""
-        cells = self._fine if size == FINE else self._coarse
-        return gather(cells.ravel(), y.astype(np.intp) * cells.shape[1] + x)
+        return _at(self._fine if size == FINE else self._coarse, x, y)
 
     def farthest_in(self, low: Index, high: Index) -> NDArray[np.float64]:
         """Return at most the least nearness in boxes of pixels from `low` to `high`, (2, b) each.
 
         Both included. Of boxes that are larger than two cells of FINE pixels it says nothing: -inf.
         """
-        out, size = self._farthest_from(*low), np.maximum(*(high - low))
+        around = self._around  # of boxes of FINE pixels a side, in the cell where these begin
+        out, size = _at(around, *(low // FINE)), np.maximum(*(high - low))
         larger = np.flatnonzero(size >= FINE)
         if len(larger):
             size, (x, y), farthest = (gather(v, larger) for v in (size, low, out))
             right, up = np.minimum((x + FINE, y + FINE), gather(high, larger))
             for other in ((right, y), (x, up), (right, up)):
-                np.minimum(farthest, self._farthest_from(*other), out=farthest)
+                np.minimum(farthest, _at(around, *(v // FINE for v in other)), out=farthest)
             out[larger] = np.where(size < 2 * FINE, farthest, -np.inf)
         return out
-
-    def _farthest_from(self, x: Index, y: Index) -> NDArray[np.float64]:
-        """Return at most the least nearness in boxes of FINE pixels a side that begin here."""
-        cell = (y // FINE).astype(np.intp) * self._around.shape[1] + x // FINE
-        return gather(self._around.ravel(), cell)
 
     def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
         """Return the least nearness in the cells around one box of any size."""
         rows, columns = (slice(a // FINE, b // FINE + 1) for a, b in ((y0, y1), (x0, x1)))
         return float(self._fine[rows, columns].min())
+
+
+def _at(cells: NDArray[np.float64], x: Index, y: Index) -> NDArray[np.float64]:
+    return gather(cells.ravel(), y.astype(np.intp) * cells.shape[1] + x)
