@@ -136,15 +136,9 @@ def set_up(
         coefficients[:, :, lost], edge_error[lost], sure[lost] = 0, np.inf, False
     every = np.arange(len(size))
     out = EdgeFunctions(every, origin, coefficients, edge_error, nearness_error, nearest, sure)
-    return out if sure.all() else _both_signs(out)
-
-
-def _both_signs(found: EdgeFunctions) -> EdgeFunctions:
-    """Duplicate the triangles whose orientation is uncertain, once for each sign of T."""
-    unsure = np.flatnonzero(~found.sure)
-    out = found.take(np.r_[np.arange(len(found.row)), unsure])
-    out.coefficients[:, :3, len(found.row) :] *= -1
-    unsure = np.flatnonzero(~out.sure)
-    out.coefficients[:, 3, unsure] = 0
-    out.nearness_error[unsure] = np.inf
+    unsure = np.flatnonzero(~sure)
+    if len(unsure):  # they come twice, once for each sign of T
+        coefficients[:, 3, unsure], nearness_error[unsure] = 0, np.inf
+        out = out.take(np.r_[every, unsure])
+        out.coefficients[:, :3, len(every) :] *= -1
     return out
