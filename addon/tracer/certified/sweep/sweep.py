@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scene import Plane, Region, Scene
+from ....scene import Region, Scene
 from ...camera import camera_rays, film_positions
 from ...hits import NOTHING, Hits, Statistics
 from ...progress import Steps, Work, quiet, scaled, timed
@@ -67,11 +67,6 @@ def sweep(
     return Hits.joined(halves)
 
 
-def triangles_in(memory: int) -> int:
-    """Return how many triangles a part of the scene may have that takes this memory, in bytes."""
-    return max(1, memory // _BYTES_PER_TRIANGLE)
-
-
 class _FullError(Exception):
     """There is no room for so many fragments; `share` is that of the work that is done."""
 
@@ -94,7 +89,7 @@ class Sweep:
 
     def steps(self, memory: int) -> Work[Hits]:
         """Sweep the scene in chunks, and decide every pixel; a `_FullError` without the memory."""
-        limit = triangles_in(memory)
+        limit = max(1, memory // _BYTES_PER_TRIANGLE)
         room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
         stages = self._statistics.stages
         yield 0.0  # to make room for the depth buffer of a large picture is a step of its own
@@ -103,14 +98,15 @@ class Sweep:
             self._make_room(room, 0.0)
         every: list[Chunk] = []
         if self._scene.instances:
-            around = InstanceBoxes.of(self._scene, self._film)
-            in_view = around.in_region(self._depths.region)
-            region = self._depths.region
+            around, region = InstanceBoxes.of(self._scene, self._film), self._depths.region
             self._small = SmallTriangles(self._scene, self._film, region, around.area)
-            every = chunks(self._scene, in_view, around.depth, limit, self._small.is_dense)
+            in_view, dense = around.in_region(region), self._small.is_dense
+            every = chunks(self._scene, in_view, around.depth, limit, dense)
         for number, chunk in enumerate(every):
             if self._fragments:
-                chunk = self._not_behind(chunk, around)
+                self._depths.refresh()
+                hidden = around.hidden(chunk.instances, self._depths)
+                chunk = replace(chunk, instances=chunk.instances[~hidden])
             for _ in timed(self.enter(chunk), stages):
                 yield 0.6 * number / len(every)
                 self._make_room(room, 0.6 * number / len(every))
@@ -132,12 +128,6 @@ class Sweep:
         if self._held > 0.75 * room and region.width * region.height > 1:
             raise _FullError(share)
 
-    def _not_behind(self, chunk: Chunk, around: InstanceBoxes) -> Chunk:
-        """Return a chunk without the instances that what is nearer hides."""
-        self._depths.refresh()
-        hidden = around.hidden(chunk.instances, self._depths)
-        return replace(chunk, instances=chunk.instances[~hidden])
-
     def enter_planes(self) -> Steps[None]:
         """Sweep the infinite planes, in small steps."""
         planes, first = self._scene.planes, len(self._scene.instances)
@@ -145,22 +135,20 @@ class Sweep:
             return
         count = np.arange(len(planes) + 1)
         start = self._numbers.enter(Names((first + count[:-1]).astype(np.int32), count, NOTHING))
-        size = self._depths.region.width * self._depths.region.height
-        for number, infinite in enumerate(planes):
-            for low in range(0, size, _PIXELS):
-                pixel = np.arange(low, min(low + _PIXELS, size))
-                self._keep(self._of_plane(infinite, pixel, start + number))
+        film, region = self._film, self._depths.region
+        size = region.width * region.height
+        for surface, infinite in enumerate(planes, start):
+            point, normal = infinite.point[:, None], infinite.normal[:, None]
+            for begin in range(0, size, _PIXELS):
+                pixel = np.arange(begin, min(begin + _PIXELS, size))
+                rays = camera_rays(film.camera, *film_positions(region, film.dx, film.dy, pixel))
+                ends = plane_fractions(rays, point, normal).interval()
+                low, high = (np.broadcast_to(v, pixel.shape) for v in ends)
+                least, most = film.camera.projection.nearness(low, high, ROUNDING)
+                place, of = self._depths.places(pixel), np.full(len(pixel), surface)
+                pairs = Covered(place, of, least, most, np.isfinite(high))
+                self._keep(self.of_pairs(pairs, of))
                 yield "planes"
-
-    def _of_plane(self, infinite: Plane, pixel: Index, surface: int) -> Fragments:
-        film = self._film
-        at = film_positions(self._depths.region, film.dx, film.dy, pixel)
-        rays = camera_rays(film.camera, *at)
-        fractions = plane_fractions(rays, infinite.point[:, None], infinite.normal[:, None])
-        low, high = (np.broadcast_to(v, pixel.shape) for v in fractions.interval())
-        least, most = film.camera.projection.nearness(low, high, ROUNDING)
-        place, of = self._depths.places(pixel), np.full(len(pixel), surface)
-        return self.of_pairs(Covered(place, of, least, most, np.isfinite(high)), of)
 
     def enter(self, chunk: Chunk) -> Steps[None]:
         """Sweep the triangles of a chunk, in small steps; yields which stage of work each was."""
