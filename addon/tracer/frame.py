@@ -112,6 +112,8 @@ class Frame:
         """Ray parameter = depth along the view axis, (h, w) metres; inf: no hit."""
         return self.measures.of(slice(None))[0]
 
+    depth = t  # as Blender's Z pass has it: directions are not normalised, for any camera
+
     @property
     def barycentrics(self) -> NDArray[np.float64]:
         """Weights of the triangle's corners, (h, w, 3)."""
@@ -162,14 +164,6 @@ class Frame:
             rows = slice(y, min(y + together, height))
             out[rows] = of(rows).reshape(-1, width, 3)
         return out
-
-    @property
-    def depth(self) -> NDArray[np.float64]:
-        """Depth along the view axis, (h, w) metres, as Blender's Z pass has it; inf: no hit.
-
-        Directions are not normalised, so it is t itself, for both kinds of camera.
-        """
-        return self.t
 
     def depths(self) -> tuple[float, float]:
         """Return the depths of the nearest and the farthest hit, metres; 0 where there is none."""
