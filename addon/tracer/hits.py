@@ -159,6 +159,7 @@ class Hits:
     s: NDArray[np.float64]
     certainty: NDArray[np.uint8] = None  # type: ignore[assignment]  # by default NOT_CERTIFIED
     ties: Ties = field(default_factory=Ties.none)
+    _entered = _ARRAYS
 
     def __post_init__(self) -> None:
         if self.certainty is None:
@@ -186,7 +187,7 @@ class Hits:
 
     def enter(self, index: NDArray | slice, other: Hits) -> None:
         """Write others in the place of the hits of the rays at `index`, but for their ties."""
-        for name in _ARRAYS:
+        for name in self._entered:
             getattr(self, name)[..., index] = getattr(other, name)
 
     def take(self, index: NDArray | slice) -> Hits:
@@ -214,6 +215,8 @@ class LazyHits(Hits):
     `measure` gives both of the rays with these numbers (k,); `known` is what it knows already.
     """
 
+    _entered = _NAMES
+
     def __init__(
         self,
         instance: NDArray[np.int32],
@@ -230,11 +233,6 @@ class LazyHits(Hits):
 
     t = property(lambda self: self._measured[0])
     s = property(lambda self: self._measured[1:])
-
-    def enter(self, index: NDArray | slice, other: Hits) -> None:
-        """Write the names of others in their place, and how they were decided."""
-        for name in _NAMES:
-            getattr(self, name)[index] = getattr(other, name)
 
     def take(self, index: NDArray | slice) -> LazyHits:
         """Return the hits of the rays at `index`, as lazy, without their ties."""
