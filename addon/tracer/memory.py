@@ -73,15 +73,7 @@ def _free_of_process() -> list[int]:
 
 
 def _free_on_windows() -> int | None:
-    class Status(ctypes.Structure):
-        _fields_ = (
-            ("length", ctypes.c_uint32),
-            ("load", ctypes.c_uint32),
-            ("total", ctypes.c_uint64),
-            ("available", ctypes.c_uint64),
-            ("rest", ctypes.c_uint64 * 5),
-        )
-
-    status = Status(length=ctypes.sizeof(Status))
+    # A MEMORYSTATUSEX: its length and the load in 32 bits each, what there is, what is free, ...
+    status = (ctypes.c_uint64 * 8)(64)
     done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
-    return status.available if done else None
+    return status[2] if done else None
