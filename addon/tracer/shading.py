@@ -7,10 +7,12 @@ whatever the precision of the intersection: it says where the hit was found to b
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..runs import by_runs
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
@@ -52,28 +54,22 @@ def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
     It is the side that the winding (p2 - p1) x (p3 - p1) names in *object* space: a mirrored
     instance keeps its outside outside. (The textbook's own n is its opposite.)
     """
-    first, run = _runs(hits)
-    hits = hits.take(first)
-    n = np.zeros((3, len(first)))
+    return by_runs(partial(_normals, scene), hits.instance, hits.triangle)
+
+
+def _normals(scene: Scene, instance: Index, triangle: Index) -> NDArray[np.float64]:
+    n = np.zeros((3, len(instance)))
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
-        n[:, hits.instance == index] = infinite.normal[:, None]
-    rows = np.flatnonzero((hits.instance != NOTHING) & (hits.instance < len(scene.instances)))
-    instance, triangle = hits.instance[rows], hits.triangle[rows]
+        n[:, instance == index] = infinite.normal[:, None]
+    rows = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
+    instance, triangle = instance[rows], triangle[rows]
     p1, p2, p3 = world_corners(scene, instance, triangle) * 2.0**-2  # their differences are finite
     x, y, z = map(near_1, scene.instance_matrices[:3, :3].swapaxes(0, 1))  # where the axes go
     mirrored = (dot(cross(x, y), z) < 0)[instance]
     n[:, rows] = cross(near_1(p2 - p1), near_1(p3 - p1)) * np.where(mirrored, -1, 1)
     n = near_1(n)
     length = np.sqrt(dot(n, n))
-    return (n / np.where(length > 0, length, 1)).T.take(run, axis=0)
-
-
-def _runs(hits: Hits) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the first of each run of rays that see the same triangle, and each ray's run."""
-    changes = np.ones(len(hits), bool)
-    changes[1:] = hits.triangle[1:] != hits.triangle[:-1]
-    changes[1:] |= hits.instance[1:] != hits.instance[:-1]
-    return np.flatnonzero(changes), np.cumsum(changes) - 1
+    return (n / np.where(length > 0, length, 1)).T
 
 
 def near_1(v: Vectors) -> Vectors:
