@@ -58,7 +58,7 @@ class DepthBuffer:
     """
 
     def __init__(self, region: Region) -> None:
-        self.region = region
+        self.region, self.corner = region, np.array([[region.x0], [region.y0]])
         columns, rows = -(-region.width // COARSE), -(-region.height // COARSE)
         self.stride = columns * COARSE
         self.nearness = np.full(rows * COARSE * self.stride, -np.inf)  # the least of the winner

@@ -66,11 +66,11 @@ def rasterised(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Itera
 
 def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:
     """Evaluate some boxes in blocks of one size."""
-    own, region = found.take(boxes.owner), depths.region
+    own = found.take(boxes.owner)
     of_1, of_y, of_x = own.coefficients
     x, y = low = boxes.low
     last_x, last_y = boxes.high - low
-    x0, y0 = low + (np.array([[region.x0], [region.y0]]) - own.origin)
+    x0, y0 = low + (depths.corner - own.origin)
     across, upwards = (np.arange(last.max() + 1)[:, None] for last in (last_x, last_y))
     # What a block has beyond its box is not covered, as NaN is not inside.
     right = np.where(across <= last_x, x0 + across, np.nan)  # (w, b)
@@ -84,9 +84,8 @@ def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:
     inside = np.flatnonzero(least >= -own.edge_error)
     np.add(rows[3, :, None], columns[3], out=other)
     stride = np.int32(depths.stride)
-    pixel = (upwards[:, None] * stride + across).astype(np.int32) + (
-        y.astype(np.int32) * stride + x
-    )
+    first = y.astype(np.int32) * stride + x
+    pixel = (upwards[:, None] * stride + across).astype(np.int32) + first
     row = inside % len(boxes)
     nearness, error = gather(other.ravel(), inside), gather(own.nearness_error, row)
     return Covered(
@@ -128,9 +127,7 @@ def _may_be_seen(
 ) -> Index:
     """Return which boxes no edge rules out, and what is in the depth buffer does not hide."""
     of_1, of_y, of_x = gather(found.coefficients, boxes.owner)
-    region = depths.region
-    origin = gather(found.origin, boxes.owner)
-    low = boxes.low + (np.array([[region.x0], [region.y0]]) - origin)
+    low = boxes.low + (depths.corner - gather(found.origin, boxes.owner))
     high = low + (boxes.high - boxes.low)
     most = of_1 + of_y * np.where(of_y > 0, high[1], low[1])
     most = most + of_x * np.where(of_x > 0, high[0], low[0])

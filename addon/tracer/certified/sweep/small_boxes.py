@@ -156,7 +156,7 @@ def _pixels(
 ) -> tuple[Index, Index, Index]:
     """Return the pixels at places of boxes `row`, of h rows of w; only those in the region."""
     region, stride = depths.region, np.int32(depths.stride)
-    x, y = low.astype(np.int32) - np.array([[region.x0], [region.y0]], np.int32)
+    x, y = low.astype(np.int32) - depths.corner.astype(np.int32)
     ends = region.width - w, region.height - h
     if min(x.min(), y.min()) < 0 or x.max() > ends[0] or y.max() > ends[1]:
         i, j = gather(x, row) + at % w, gather(y, row) + at // w
