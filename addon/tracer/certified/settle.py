@@ -72,10 +72,8 @@ class Decisions:
         rest = found.take(np.flatnonzero(doubtful))
         found = found.take(np.flatnonzero(~doubtful))
         found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], found.ray)))
-        start = np.flatnonzero(np.diff(found.ray, prepend=-1))
-        count = np.diff(np.r_[start, len(found.ray)])
-        first, decided, tied = self._first_by_order(found, start, count)
-        of_ray = np.repeat(np.arange(len(start)), count)
+        of_ray = np.cumsum(np.diff(found.ray, prepend=-1) != 0) - 1
+        first, decided, tied = self._first_by_order(found, of_ray)
         lost = decided[of_ray]
         rest = Candidates.joined((rest, found.take(np.flatnonzero(~lost))))
         lost[first] = False
@@ -95,19 +93,19 @@ class Decisions:
         return rest
 
     def _first_by_order(
-        self, found: Candidates, start: NDArray[np.intp], count: NDArray[np.intp]
+        self, found: Candidates, of_ray: NDArray[np.intp]
     ) -> tuple[NDArray[np.intp], NDArray[np.bool_], NDArray[np.bool_]]:
         """Return the nearest of each ray's candidates, whether it is known, and what ties with it.
 
-        Candidates are sorted by ray: `count` of each, from `start` on. In every round each second
-        one that is left of a ray meets the one before it, and one of the two stays.
+        Candidates are sorted by ray, of which `of_ray` counts the different ones. In every round
+        each second one that is left of a ray meets the one before it, and one of the two stays.
         """
-        none = np.zeros_like(found.ray)
+        none, rays = np.zeros_like(found.ray), int(of_ray[-1]) + 1
         batch, _, surface = self.surfaces.integers(self.around, none, found.surface)
-        surface, of_ray = np.array(surface), np.repeat(np.arange(len(start)), count)
-        decided, tied = np.ones(len(start), bool), np.ones(len(surface), bool)
+        surface = np.array(surface)
+        decided, tied = np.ones(rays, bool), np.ones(len(surface), bool)
         left, rounds = np.arange(len(surface)), []
-        while len(left) > len(start):
+        while len(left) > rays:
             ray = of_ray[left]
             begins = np.flatnonzero(np.diff(ray, prepend=-1))
             second = np.flatnonzero((np.arange(len(left)) - begins[ray]) % 2)
