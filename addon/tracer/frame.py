@@ -176,10 +176,7 @@ class Frame:
         As t is rounded correctly, they are its neighbours. -inf to inf where nothing is certified.
         """
         known = self.certainty != Certainty.NOT_CERTIFIED
-        return (
-            np.where(known, np.nextafter(self.t, -np.inf), -np.inf),
-            np.where(known, np.nextafter(self.t, np.inf), np.inf),
-        )
+        return tuple(np.where(known, np.nextafter(self.t, end), end) for end in (-np.inf, np.inf))
 
     def wrong_against(self, certified: Frame) -> NDArray[np.bool_]:
         """Return which pixels, (h, w), see another surface than a certified frame of the scene.
