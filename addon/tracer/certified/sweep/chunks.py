@@ -49,11 +49,6 @@ class Names:
     first: int
     own: NDArray[np.int32] | None = None
 
-    @property
-    def count(self) -> int:
-        """How many triangles the chunk has."""
-        return int(self.starts[-1])
-
     def of(self, triangle: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Return instance and triangle, as the scene counts them, of triangles of the chunk."""
         which = np.zeros(len(triangle), np.intp)
@@ -76,7 +71,7 @@ class Numbering:
         """Give numbers to a chunk's surfaces; returns the first."""
         start = int(self._starts[-1])
         self._names.append(names)
-        self._starts = np.append(self._starts, start + names.count)
+        self._starts = np.append(self._starts, start + names.starts[-1])
         return start
 
     def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

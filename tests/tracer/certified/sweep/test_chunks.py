@@ -51,7 +51,7 @@ def names_of(scene: Scene, film: Film, limit: int) -> list[tuple[int, int]]:
     for chunk in all_chunks(scene, film, limit):
         expanded = expanded_of(scene, film, chunk)
         count = expanded.corners.shape[1]
-        assert count == expanded.names.count <= limit
+        assert count == expanded.names.starts[-1] <= limit
         assert expanded.corners.flags.c_contiguous  # else each small `take` copies all of them
         names += zip(*(v.tolist() for v in expanded.names.of(np.arange(count))), strict=True)
     return names
@@ -87,7 +87,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
         for limit in LIMITS:
             for chunk in all_chunks(scene, film, limit):
                 expanded = expanded_of(scene, film, chunk)
-                instance, triangle = expanded.names.of(np.arange(expanded.names.count))
+                instance, triangle = expanded.names.of(np.arange(expanded.names.starts[-1]))
                 for i in np.unique(instance).tolist():
                     own = np.flatnonzero(instance == i)
                     first, last = int(triangle[own].min()), int(triangle[own].max()) + 1
