@@ -40,18 +40,20 @@ _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, round
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Batches of a scene with the rows that each may cover, and the settings that it is traced by.
+    """Batches of a scene with the rows that each may cover.
 
-    For rays within `reach` pixels of their pixel's centre; pairs may take some `memory`, in bytes.
+    For rays within `reach` pixels of their pixel's centre, and vertices rounded to `dtype`; pairs
+    may take some `memory`, in bytes. Of a plain method with the `settings` that it is traced by.
     """
 
     scene: Scene
-    settings: Settings
+    dtype: np.dtype
     memory: int
     reach: float
     batches: list[Batch]
     rows: list[tuple[int, int]]
     refused: int  # triangles that are not finite in world space
+    settings: Settings | None
 
 
 def has_sound_axes(camera: Camera) -> bool:
@@ -130,24 +132,25 @@ def within(bounds: NDArray[np.int32], tile: Region) -> NDArray[np.int32]:
     return np.stack((x0, x1, np.maximum(y0, tile.y0), np.minimum(y1, tile.y1)))
 
 
-def plan(scene: Scene, settings: Settings, reach: float, memory: int | None = None) -> Work[Plan]:
+def cull(
+    scene: Scene, dtype: np.dtype, memory: int, reach: float, settings: Settings | None = None
+) -> Work[Plan]:
     """Look at every batch once; yields 0, as nothing is traced yet."""
     found, rows, refused = [], [], 0
     for batch in batches(scene):
-        _, (x0, x1, y0, y1), left_out = _bounds(scene, settings, reach, batch)
+        _, (x0, x1, y0, y1), left_out = _bounds(scene, dtype, reach, batch)
         refused += left_out
         seen = (x0 < x1) & (y0 < y1)
         if seen.any():
             found.append(batch)
             rows.append((int(y0[seen].min()), int(y1[seen].max())))
         yield 0.0
-    memory = settings.memory if memory is None else memory
-    return Plan(scene, settings, memory, reach, found, rows, refused)
+    return Plan(scene, dtype, memory, reach, found, rows, refused, settings)
 
 
-def _bounds(scene: Scene, settings: Settings, reach: float, batch: Batch):
+def _bounds(scene: Scene, dtype: np.dtype, reach: float, batch: Batch):
     """Return a batch's triangles but those that are not finite, their bounds, and how many are."""
-    triangles = world_triangles(scene, batch, settings.precision.dtype)
+    triangles = world_triangles(scene, batch, dtype)
     finite = triangles.finite
     refused = len(finite) - int(finite.sum())
     if refused:
@@ -171,7 +174,7 @@ def candidates(
         if y0 < tile.y1 and y1 > tile.y0
     ]
     for done, batch in enumerate(work):
-        triangles, bounds, _ = _bounds(plan.scene, plan.settings, plan.reach, batch)
+        triangles, bounds, _ = _bounds(plan.scene, plan.dtype, plan.reach, batch)
         bounds = within(bounds, tile)
         inside = np.flatnonzero((bounds[0] < bounds[1]) & (bounds[2] < bounds[3]))
         triangles = triangles.take(inside)

@@ -13,11 +13,15 @@ from numpy.typing import NDArray
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import Pairs, Plan, candidates
-from .candidates import plan as plan  # for who traces: the other half of `trace_tile`
+from .candidates import Pairs, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
+
+
+def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
+    """Look at every batch once; yields 0, as nothing is traced yet."""
+    return cull(scene, settings.precision.dtype, settings.memory, reach, settings)
 
 
 def trace_tile(

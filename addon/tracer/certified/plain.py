@@ -11,11 +11,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..camera import camera_rays, corner_rays, film_positions
-from ..candidates import candidates, plan
+from ..candidates import candidates, cull
 from ..hits import Hits, Statistics
 from ..progress import Work
-from ..settings import Settings
 from .contest import Contest
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def plain(
         Of the n rays, row by row from the lowest.
     """
     statistics = statistics or Statistics()
-    planned = yield from plan(scene, Settings(), max(abs(dx), abs(dy)), memory)
+    plan = yield from cull(scene, np.dtype(np.float64), memory, max(abs(dx), abs(dy)))
     around = corner_rays(scene.camera, dx, dy)
     found = []
     for y in range(region.y0, region.y1, _ROWS):
@@ -59,7 +60,7 @@ def plain(
         rays = camera_rays(scene.camera, *film_positions(tile, dx, dy))
         contest = Contest.of(scene, rays, around)
         statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
-        for share, pairs in candidates(planned, tile):
+        for share, pairs in candidates(plan, tile):
             if pairs is not None:
                 statistics.pairs_tested += len(pairs.pixel)
                 contest.enter(pairs)
