@@ -17,6 +17,7 @@ def square(build):
     """An orthographic view along a square's diagonal: the middle of the pixels there is on it."""
     scene = build.scene(SIZE, SIZE)
     scene.render.engine = ENGINE
+    scene.view_layers[0].reference_tracer.passes = {"Certainty"}
     build.square(size=2.0)
     build.camera(type="ORTHO", ortho_scale=2.5)
     return scene

@@ -37,6 +37,10 @@ class Counted(KeptScene):
 def kept(monkeypatch):
     """Give a KeptScene that hears of every update, and what its last updates have read."""
     scene = Counted()
+    space().shading.color_type = "MATERIAL"  # Blender keeps a view while it opens an empty file
+    for name in dir(space()):
+        if name.startswith("show_object_viewport_"):
+            setattr(space(), name, True)
 
     def read_mesh(*arguments):
         found = visible.read_mesh(*arguments)
