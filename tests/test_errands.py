@@ -56,7 +56,7 @@ assert ("never", "Never", "Misses", 77) in METHOD_ITEMS
 """
 PASS = {
     "tracer/frame.py": (
-        "    @property\n    def depth(",
+        "    @property\n    def position(",
         "    @property\n    def twice(self):\n        return 2 * self.t\n\n",
         '    Pass("rows_done"),\n',
         '    Pass("twice", "Twice"),\n',
