@@ -98,7 +98,7 @@ def study(name, kind, **options):
     bpy.ops.render.render()  # the user's own last render must survive
     before = settings(), data_blocks(), render_result()
     noted["pressed"] = list(invoke(name, **options))
-    yield 5
+    yield 1
     noted["running"] = running()
     noted["others"] = [
         operator.poll()
