@@ -20,6 +20,7 @@ from reference_tracer.blender.export import export as export_depsgraph
 from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.tracer.progress import result_of
 
+from .live import kept  # noqa: F401  # a fixture
 from .scenes import Build
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
