@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..images import curve_undone
+from ..runs import by_runs
 from ..tracer.certified.certainty import Certainty
 from .cause import Cause, Color
 
@@ -20,8 +21,10 @@ _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 def dimmed(color: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return a picture's light, dimmed."""
+    flat = color.reshape(-1, 4)
+    light = by_runs(lambda c: DIM * (np.nan_to_num(c[:, :3]) @ np.array(_LUMINANCE)), flat)
     out = np.ones(color.shape, np.float32)
-    out[..., :3] = (DIM * (np.nan_to_num(color[..., :3]) @ np.array(_LUMINANCE)))[..., None]
+    out[..., :3] = light.reshape(*color.shape[:-1], 1)
     return out
 
 

@@ -112,7 +112,7 @@ def image_metrics(
 def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]:
     """Return the mean over every size x size window; sums of 1, 2, 4... make up those of `size`."""
     for axis in (0, 1):
-        picture = np.moveaxis(picture, axis, 0)
+        picture = picture.swapaxes(axis, 0)
         count, sums, done, total = len(picture) - size + 1, picture, 0, 0.0
         for bit in range(size.bit_length()):
             step = 1 << bit
@@ -120,7 +120,7 @@ def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]
                 total = total + sums[done : done + count]
                 done += step
             sums = sums[:-step] + sums[step:]
-        picture = np.moveaxis(total / size, 0, axis)
+        picture = (total / size).swapaxes(axis, 0)
     return picture
 
 
