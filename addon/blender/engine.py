@@ -77,7 +77,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         passes = _enabled(depsgraph.view_layer)
         for share in steps(scene, settings, frame):
             if share < 1 and self.test_break():
-                frame.cancelled = True
+                frame.cancel()
                 break
             now = time.monotonic()
             self.update_progress(share)

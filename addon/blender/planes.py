@@ -23,7 +23,7 @@ from .colors import random_color
 from .temporary import STANDS_FOR, leave_out
 
 BEYOND = 2  # pixels beyond the picture: a comparison looks half a pixel beside a pixel's centre
-DEPTHS = 0.99, 1.01  # of the clip range, so that Blender's own clipping decides, in float32
+MARGIN = 0.01  # of the clip range's ends, so that Blender's own clipping decides, in float32
 
 # Of the sum of a distance's terms: 16 roundings of float32, in which a scene may be traced.
 _SLACK = 2.0**-20
@@ -32,8 +32,7 @@ _SLACK = 2.0**-20
 def volume_corners(camera: Camera) -> NDArray[np.float64]:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
     w, out = _window(camera), []
-    depths = camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]
-    for depth, y, x in product(depths, (w.bottom, w.top), (w.left, w.right)):
+    for depth, y, x in product(_depths(camera), (w.bottom, w.top), (w.left, w.right)):
         across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
         out.append(camera.origin + across + depth * camera.forward)
     return np.array(out)
@@ -81,6 +80,11 @@ def _window(camera: Camera) -> ViewWindow:
     )
 
 
+def _depths(camera: Camera) -> tuple[float, float]:
+    start, end = camera.clip_start, camera.clip_end
+    return start - MARGIN * abs(start), end + MARGIN * abs(end)
+
+
 def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return normals (6, 3) and offsets (6,): n . (p - origin) + offset >= 0 within a side."""
     # The axes need not be orthonormal: a point's coordinates are its products with their dual.
@@ -88,9 +92,9 @@ def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     w = _window(camera)
     edges = np.array((w.left, -w.right, w.bottom, -w.top))
     across = np.stack((x, -x, y, -y))
-    clip = -camera.clip_start * DEPTHS[0], camera.clip_end * DEPTHS[1]
+    start, end = _depths(camera)
     normals, offsets = camera.projection.sides(across, depth, edges)
-    return np.stack((*normals, depth, -depth)), np.array((*offsets, *clip))
+    return np.stack((*normals, depth, -depth)), np.array((*offsets, -start, end))
 
 
 def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:

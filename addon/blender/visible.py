@@ -89,7 +89,7 @@ def visible(
         owner = holder.original
         # The depsgraph hands out what only the eye of a collection hides.
         if space:
-            if obj.type in unshown or not _in_view(space, unshown, holder, layer):
+            if obj.type in unshown or not in_view(space, unshown, holder, layer):
                 continue
         elif viewport and not owner.visible_get(view_layer=layer):
             continue
@@ -141,7 +141,7 @@ def types_left_out(space: Any) -> set[str]:
     return {t for t, name in names.items() if not getattr(space, f"show_object_viewport_{name}", 1)}
 
 
-def _in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
+def in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
     """Return whether a 3D view draws an object, or the instances by it, but for their own type.
 
     It draws the instances by an object of a type that it does not show, while it says of that

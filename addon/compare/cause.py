@@ -120,7 +120,8 @@ class Causes:
     hidden: list[Hidden] = field(default_factory=list)
     transform: str = ""
     shades: list[Shade] = field(default_factory=list)
-    passed_over: int = 0  # differing pixels that no check looked at
+    # Differing pixels that no check looked at, (n,), numbered row by row.
+    passed_over: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, np.intp))
 
     @classmethod
     def none(cls, shape: tuple[int, int]) -> Causes:

@@ -83,7 +83,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
     """Give every pixel of a traced frame its cause; yields the share of the work done.
 
     No more than `at_most` differing pixels are looked at, if given, spread over the picture; the
-    others keep AGREE, and are counted in `Causes.passed_over`.
+    others keep AGREE, and are in `Causes.passed_over`.
     """
     out, shape = Causes.none(frame.shape), frame.shape
     out.blind = unmodelled.blind(case, frame)
@@ -121,12 +121,10 @@ def _open(pixels: OpenPixels) -> Work[None]:
         yield 1.0
 
 
-def _thin(open_: NDArray[np.bool_], most: int) -> int:
-    """Close open pixels but so many; return how many were closed."""
+def _thin(open_: NDArray[np.bool_], most: int) -> NDArray[np.intp]:
+    """Close open pixels but so many; return which were closed."""
     found = np.flatnonzero(open_)
-    if len(found) <= most:
-        return 0
-    kept = found[np.linspace(0, len(found) - 1, most).astype(int)]
-    open_[:] = False
-    open_.flat[kept] = True
-    return len(found) - len(kept)
+    kept = np.linspace(0, len(found) - 1, min(most, len(found))).astype(int)
+    closed = np.delete(found, kept)
+    open_.flat[closed] = False
+    return closed

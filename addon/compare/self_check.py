@@ -108,7 +108,7 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
     return row._replace(
         changed=int(changed.sum()),
-        differ=looked_at + found.passed_over,
+        differ=looked_at + len(found.passed_over),
         looked_at=looked_at,
         unexplained=int((of_fault == Cause.UNEXPLAINED).sum()),
         within_rounding=bool(np.isin(of_fault, rounding).all()),

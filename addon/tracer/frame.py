@@ -102,6 +102,12 @@ class Frame:
             Measures(scene, tuple(names)),
         )
 
+    def cancel(self) -> None:
+        """Have it end here: rows that are not done are empty, whatever was found of them."""
+        self.cancelled, rows = True, ~self.rows_done
+        self.color[rows], self.certainty[rows] = 0, Certainty.NOT_CERTIFIED
+        self.instance_index[rows] = self.triangle_index[rows] = NOTHING
+
     @property
     def shape(self) -> tuple[int, int]:
         """Height and width in pixels."""

@@ -72,7 +72,7 @@ def render(
         if progress:
             progress(share)
         if share < 1 and cancelled and cancelled():
-            frame.cancelled = True
+            frame.cancel()
             break
     return frame
 
@@ -80,7 +80,7 @@ def render(
 def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
     """Trace a scene into an empty frame; yields the share of the work done after each step.
 
-    The caller stops by not asking for more, and then sets `frame.cancelled`. What the caller does
+    The caller stops by not asking for more, and then calls `frame.cancel`. What the caller does
     between two steps does not count as time.
     """
     work, statistics = _steps(scene, settings, frame), frame.statistics

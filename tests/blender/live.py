@@ -14,7 +14,7 @@ HANDLERS = bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.frame_change
 
 def space():
     """Return a 3D view's space; in an empty file there is one, too."""
-    areas = (area for screen in bpy.data.screens for area in screen.areas)
+    areas = bpy.context.window_manager.windows[0].screen.areas
     return next(area.spaces[0] for area in areas if area.type == "VIEW_3D")
 
 
@@ -33,8 +33,7 @@ class Counted(KeptScene):
 def kept(monkeypatch):
     """Give a KeptScene that hears of every update, and what its last updates have read."""
     scene = Counted()
-    space().shading.color_type = "MATERIAL"  # Blender keeps a view while it opens an empty file
-    for name in dir(space()):
+    for name in dir(space()):  # Blender keeps a view while it opens an empty file
         if name.startswith("show_object_viewport_"):
             setattr(space(), name, True)
 
@@ -85,4 +84,4 @@ def assert_as_a_whole_export(kept):
     bpy.context.view_layer.update()
     whole, _ = export_depsgraph(bpy.context.evaluated_depsgraph_get())
     assert contents(of_view(kept)) == contents(whole)
-    assert not kept.outdated(space())
+    assert not kept.outdated(bpy.context.scene, space())

@@ -98,7 +98,7 @@ def excused(made, found):
         changed = changed & (made.frame.instance_index != NOTHING)
     count = {c: int((cause[changed] == c).sum()) for c in Cause}
     # Those that were passed over agree, as far as one knows.
-    agree = max(0, count.pop(Cause.AGREE) - found.causes.passed_over)
+    agree = max(0, count.pop(Cause.AGREE) - len(found.causes.passed_over))
     looked_at = agree + sum(count.values())
     del count[Cause.UNEXPLAINED]
     return {c.key: n for c, n in (count | {Cause.AGREE: agree}).items() if n}, looked_at

@@ -82,29 +82,31 @@ def test_a_mesh_in_the_editor_is_read_every_time(build, kept):
     assert kept.meshes_read == 0
 
 
-def test_a_view_shows_its_own_colors_types_and_background(build, kept):
+def test_a_view_shows_the_colors_of_a_render_and_its_own_background(build, kept):
     build.far_camera()
     cube = build.cube(material=build.material("Red", 1, 0, 0), color=(0, 1, 0, 1))
     build.color_attribute(cube, "CORNER")
     bpy.context.view_layer.update()
-    view = space()
+    view, scene = space(), bpy.context.scene
     depsgraph = bpy.context.evaluated_depsgraph_get()
+    shading = scene.display.shading
+    view.shading.color_type = "RANDOM"  # of solid mode, without a say
 
     def shown():
-        assert kept.outdated(view)
+        assert kept.outdated(scene, view)
         kept.update(depsgraph, view)
-        assert not kept.outdated(view)
+        assert not kept.outdated(scene, view)
         return of_view(kept)
 
-    view.shading.color_type = "OBJECT"
+    shading.color_type = "OBJECT"
     assert shown().instances[0].colors.tolist() == [[0, 1, 0, 1]]
-    view.shading.color_type = "SINGLE"
-    view.shading.single_color = (0, 0, 1)
+    shading.color_type = "SINGLE"
+    shading.single_color = (0, 0, 1)
     assert shown().instances[0].colors.tolist() == [[0, 0, 1, 1]]
     assert kept.meshes_read == 0
-    view.shading.color_type = "VERTEX"
+    shading.color_type = "VERTEX"
     assert shown().meshes[0].corner_colors is not None
-    view.shading.color_type = "MATERIAL"
+    shading.color_type = "MATERIAL"
     assert shown().meshes[0].corner_colors is None
     assert of_view(kept).background.tolist() == [0, 0, 0, 0]  # Blender's own is behind it
     view.shading.background_type = "VIEWPORT"
@@ -130,7 +132,7 @@ def test_types_that_a_view_leaves_out(build, kept):
         ("light", {"Cube", "Text", "In Kit"}),
     ):
         setattr(view, f"show_object_viewport_{kind}", False)
-        assert kept.outdated(view)
+        assert kept.outdated(bpy.context.scene, view)
         kept.update(depsgraph, view)
         assert set(of_view(kept).objects) == shown
         setattr(view, f"show_object_viewport_{kind}", True)
@@ -198,7 +200,7 @@ def instancers(build):
 )
 def test_what_seems_to_be_a_move_alone(what, build, kept):
     build.far_camera()
-    space().shading.color_type = build.scene(color_type="OBJECT").display.shading.color_type
+    build.scene(color_type="OBJECT")
     moves = instancers(build)
     assert_as_a_whole_export(kept)
     moves[what]()

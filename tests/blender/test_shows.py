@@ -91,7 +91,7 @@ def test_certainty_is_counted(scene):
     counts = [int((frame.certainty == c).sum()) for c in Certainty]
     assert counted(line) == [n for n in counts if n] and sum(counts) == 96 * 64
     line = shown("CERTAINTY", scene, LITERAL).line
-    assert line == f"not certified {96 * 64:,}"
+    assert line == f"{96 * 64:,} not proven"
 
 
 def test_a_blend_stores_numbers_that_are_told_apart():

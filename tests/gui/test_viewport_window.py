@@ -68,5 +68,9 @@ def test_what_each_method_sees_and_how_it_differs(noted):
     assert "unexplained" in noted["far DIFFERENCE textbook_literal"]["line"]
     assert sum(numbers("far CERTAINTY auto")) == total
     assert noted["drawn"] == 3
+    hair = noted.pop("hair").values()
+    assert [drawn for _, drawn in hair] == [5, 6, 7]
+    pixels = [int(line.split()[0].replace(",", "")) for line, _ in hair]
+    assert pixels[1] > 2 * pixels[2] > 0, hair  # long hair, and short
     assert noted["changed"] == noted["new"] == {}
     assert not any(found["said"] for found in noted.values() if isinstance(found, dict) and found)

@@ -324,10 +324,31 @@ def viewport_shows():
         }
     yield 1.5
     noted["drawn"] = len(drawn)  # one for each that was asked for: none is why another is
+    yield from with_hair(stored, drawn)
     stored.property_unset("show")
     after = settings(), data_blocks()
     noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
     noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
+
+
+def with_hair(stored, drawn):
+    """Add what is not modelled, and change it, while the difference is shown."""
+    stored.show = "DIFFERENCE"
+    stored.property_unset("method")
+    yield from settled()
+    hairy, found = window().scene.objects["Suzanne"], {}
+    for hair in (None, 0.5, 0.1):
+        if hair is None:
+            modifier = hairy.modifiers.new("Hair", "PARTICLE_SYSTEM")
+            settings = modifier.particle_system.settings
+            settings.type, settings.count = "HAIR", 50
+        else:
+            settings.hair_length = hair
+        yield from settled()
+        yield 0.5
+        found[str(hair)] = [live()[0].shown.picture.line, len(drawn)]
+    noted["hair"] = found
+    window().scene.objects["Suzanne"].modifiers.remove(modifier)
 
 
 def counted_drawings():

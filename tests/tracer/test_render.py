@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tracemalloc
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -221,6 +221,18 @@ def test_a_cancelled_picture_keeps_its_rows(busy, share):
             continue
         assert np.array_equal(values[:rows], getattr(whole, name)[:rows])
         assert np.array_equal(values[rows:], getattr(Frame.empty(busy), name)[rows:])
+
+
+def test_a_cancelled_picture_has_no_half_a_band(make):
+    """A certified one is coloured in steps, once it is known what all of it sees."""
+    scene = make.scene(make.camera(400, 300, half=0.5), make.quad(-9, 9, -9, 9, -3))
+    for most in range(1, 40):
+        steps = iter([False] * most + [True] * 999)
+        frame = render(scene, cancelled=partial(next, steps))
+        undone = ~frame.rows_done
+        for name in ("color", "instance_index", "triangle_index", "certainty", "t"):
+            empty = getattr(Frame.empty(scene), name)
+            assert np.array_equal(getattr(frame, name)[undone], empty[undone]), (most, name)
 
 
 def test_cancelling_a_whole_picture_does_nothing(make):

@@ -28,20 +28,22 @@ class KeptScene:
 
     def __init__(self) -> None:
         self.version = 0  # another for another scene
+        self.drawings = 0  # another where Blender may draw another picture of the same scene
         self.lines: tuple[str, ...] = ()  # what the picture lacks
         self._meshes: dict[tuple[int, bool], Read] = {}
         self._scene: Scene | None = None
         self._parts: dict[str, Any] = {}
         self._look = ()  # settings of the view
 
-    def outdated(self, space: Any) -> bool:
+    def outdated(self, scene: Any, space: Any) -> bool:
         """Return whether a `SpaceView3D` is to show other things than at the last update."""
-        return self._look != _look(space)
+        return self._look != _look(scene, space)
 
     def update(self, depsgraph: Any, space: Any) -> None:
         """Read what has changed in an evaluated depsgraph, as a `SpaceView3D` shows it."""
-        objects = (u.id for u in depsgraph.updates if u.is_updated_geometry)
-        changed = {o.original.session_uid for o in objects if isinstance(o, bpy.types.Object)}
+        ids = (u.id for u in depsgraph.updates if u.is_updated_geometry)
+        objects = [o.original for o in ids if isinstance(o, bpy.types.Object)]
+        changed = {o.session_uid for o in objects}
         known, self._meshes = self._meshes, {}
 
         def read(obj: Any, name: str, with_colors: bool) -> Read | None:
@@ -52,18 +54,21 @@ class KeptScene:
                 self._meshes[key] = found
             return found
 
-        seen, shown, meshes = visible(depsgraph, space.shading, read, space)
+        shading = depsgraph.scene.display.shading  # as a render has it
+        seen, shown, meshes = visible(depsgraph, shading, read, space)
         parts, _ = assemble(seen, shown, meshes)
         if space.shading.background_type == "VIEWPORT":
             parts["background"] = (*space.shading.background_color, 1.0)
         if not alike(tuple(parts.items()), tuple(self._parts.items())):
             self.version += 1
             self._parts, self._scene = parts, None
-        self._look = _look(space)
+        self._look = _look(depsgraph.scene, space)
         lost = [f"{e.left_out} triangles of '{n}' left out" for n, e in seen.items() if e.left_out]
         features = [u for e in seen.values() for u in e.features.values()]
         other = [f"not modelled: {u}" for u in features if u.effect is not Effect.NONE]
-        self.lines = (*lost, *other)
+        # What is not modelled may be another. (A camera is: the drawing itself has one.)
+        is_other = any(o.type != "CAMERA" for o in objects) or self.lines != (*lost, *other)
+        self.lines, self.drawings = (*lost, *other), self.drawings + is_other
 
     def scene(self, camera: Camera) -> Scene:
         """Return what has been read, as a camera sees it."""
@@ -72,9 +77,9 @@ class KeptScene:
         return self._scene
 
 
-def _look(space: Any) -> tuple:
-    """Return the settings of a view on which the scene that it shows depends."""
-    s = space.shading
-    colors = s.color_type, s.single_color[:], s.background_type, s.background_color[:]
+def _look(scene: Any, space: Any) -> tuple:
+    """Return the settings of a view, and of its scene, on which what it shows depends."""
+    s, behind = scene.display.shading, space.shading
+    colors = s.color_type, s.single_color[:], behind.background_type, behind.background_color[:]
     own = types_left_out(space), space.use_local_collections, space.local_view is None
     return colors, own

@@ -13,16 +13,17 @@ import bpy
 
 from ...compare.case import Case
 from ...compare.picture import Picture, Source
-from ...scene import Camera, Scene
+from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..camera import certify_camera
 from ..camera_object import add_camera
-from ..export import export
+from ..export import NO_SURFACE, export
 from ..judges import JUDGES
 from ..planes import stand_ins
 from ..rasteriser import snapping_of
 from ..temporary import drawn, leave_out, temporary_scene
-from ..viewport import picture, prepare_scene, use_view_shading
+from ..viewport import picture, prepare_scene
+from ..visible import in_view, types_left_out
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
 _VIEWPORT = JUDGES["viewport"]
@@ -46,12 +47,14 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     windows = bpy.context.window_manager.windows
     spaces = ((w, a.spaces.active) for w in windows for a in w.screen.areas)
     window, shown = next((w, s) for w, s in spaces if s.as_pointer() == space)
-    layer = window.view_layer.name
+    layer, own, unshown = window.view_layer.name, window.view_layer, types_left_out(shown)
+    if unshown.difference(NO_SURFACE):  # a camera's picture has them
+        raise SceneError("This view leaves out types of objects that have surfaces: show them all.")
     with temporary_scene(window.scene, layer, _VIEWPORT) as tmp:
-        evaluated = ((o, o.evaluated_get(window.view_layer.depsgraph)) for o in drawn(tmp, layer))
-        leave_out(tmp, layer, [o for o, e in evaluated if not e.visible_in_viewport_get(shown)])
-        use_view_shading(tmp, shown.shading)
+        every = ((o, o.evaluated_get(own.depsgraph)) for o in drawn(tmp, layer))
+        leave_out(tmp, layer, [o for o, e in every if not in_view(shown, unshown, e, own)])
         prepare_scene(tmp, True)
+        tmp.render.use_border = False  # it is of the camera's picture, not of this one
         looking = add_camera(tmp, _from_before(scene.camera)).data
         try:
             with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):

@@ -29,6 +29,12 @@ from ...tracer.vector import parts
 from . import like_for_like
 
 ROWS = 64  # entered together, in some milliseconds
+_DECIDED = {
+    Certainty.BOUND: "proven by an error bound",
+    Certainty.EXACT: "by integers",
+    Certainty.AMBIGUOUS: "by a rule",
+    Certainty.NOT_CERTIFIED: "not proven",
+}
 MOST_EXPLAINED = 5_000  # of the pixels that differ: in a second or two
 
 
@@ -44,6 +50,7 @@ class Picture:
     space: int  # the address of the 3D view's space
     is_coarse: bool  # whether its pixels are larger than the view's
     line: str = ""  # said in the view's corner
+    waits: bool = False  # for others
 
     @classmethod
     def empty(cls, camera: Camera, space: int = 0, is_coarse: bool = False) -> Picture:
@@ -103,8 +110,8 @@ def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[floa
         scene, settings, shown, lambda f, r: certainty_map(f.color[r], f.certainty[r])
     )
     shown.color = ringed(shown.color, frame.certainty > Certainty.BOUND)
-    counts = ((c, int((frame.certainty == c).sum())) for c in Certainty)
-    shown.line = ", ".join(f"{c.name.lower().replace('_', ' ')} {n:,}" for c, n in counts if n)
+    counts = ((words, int((frame.certainty == c).sum())) for c, words in _DECIDED.items())
+    shown.line = ", ".join(f"{n:,} {words}" for words, n in counts if n)
 
 
 def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
@@ -116,7 +123,9 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
         return
     shown.line = "Blender's viewport draws the same once the view rests"
     while like_for_like.is_busy():
+        shown.waits = True
         yield 0.5
+    shown.waits = False
     case = like_for_like.case_of(shown.space, scene, settings)
     yield 0.6
     frame = replace(frame, scene=case.scene)
@@ -129,11 +138,13 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
     for rows in parts(len(color), ROWS):
         color[rows] = cause_map(frame.color[rows], causes.cause[rows])
         yield 0.9
+    passed = len(causes.passed_over)
+    color.reshape(-1, 4)[causes.passed_over] = 1
     shown.color = ringed(color, causes.cause != Cause.AGREE)
     counts = {c: int((causes.cause == c).sum()) for c in Cause}
     found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c is not Cause.AGREE]
-    found += [f"{causes.passed_over:,} not looked at"] if causes.passed_over else []
-    differ = sum(n for c, n in counts.items() if c.differs) + causes.passed_over
+    found += [f"{passed:,} not looked at (white)"] if passed else []
+    differ = sum(n for c, n in counts.items() if c.differs) + passed
     of = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
     shown.line = f"{of}: {', '.join(found)}" if found else of
 

@@ -25,6 +25,7 @@ from .kept import KeptScene
 AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
 COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels
 SLOW = 0.025  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
+PAUSE = 0.1  # seconds until it is asked again for what nothing can be done for now
 LINES = 2  # of what the picture lacks, in the view's corner
 SHOW_EVERY = 0.3  # seconds between drawings of a picture that grows: Blender's own part takes long
 
@@ -85,7 +86,7 @@ class LiveView:
 
     def draw(self, engine: Any, context: Any, depsgraph: Any) -> None:
         """Draw the view, as well as it is known at once."""
-        if self._kept.outdated(context.space_data):
+        if self._kept.outdated(context.scene, context.space_data):
             self.update(context, depsgraph)
         until = time.perf_counter() + SLOW
         if error := self._unread or failure(self._aim, context):
@@ -102,14 +103,15 @@ class LiveView:
 
     def tick(self, engine: Any) -> float | None:
         """Work for a while; returns when to go on, in seconds, None for not."""
-        until = time.perf_counter() + AT_ONCE
-        while self._job and time.perf_counter() < until:
+        until, pause = time.perf_counter() + AT_ONCE, 0.0
+        while self._job and not pause and time.perf_counter() < until:
+            pause = PAUSE if self._job.picture.waits else 0.0
             self._step()
         rows = self._job.picture.rows_done.sum() if self._job else 0
         if not self._is_drawn or (rows > self._rows and until > self._drawn + SHOW_EVERY):
             self._rows = rows
             engine.tag_redraw()
-        return 0.0 if self._job else None
+        return pause if self._job else None
 
     def _aim(self, context: Any) -> None:
         """Find out what is wanted, and begin to make it."""
@@ -118,6 +120,8 @@ class LiveView:
         settings = scene.reference_tracer.settings()
         show = next(s for s in shows.SHOWS if s.identifier == scene.reference_tracer.show)
         version, view = self._kept.version, space.as_pointer()
+        if show.steps is shows.difference:  # of which a part is Blender's
+            version += self._kept.drawings
         wanted = Wanted(str(camera.to_dict()), version, settings, show, view)
         if self._wanted != wanted:
             self._wanted, self.camera, self.said = wanted, camera, ""
@@ -167,7 +171,8 @@ class LiveView:
             engine.tag_redraw()
         if self.said:
             draw_words(self.said, region, context.preferences.system.ui_scale)
-        own = [job.picture.line for job in (self._job, self.shown) if job and job.picture.line]
+        jobs = [job for job in (self._job, self.shown) if job and job.picture.line]
+        own = ["coarse: " * (job.factor > 1) + job.picture.line for job in jobs]
         lines = own[:1] + list(self._kept.lines[:LINES])
         more = len(self._kept.lines) - LINES
         engine.update_stats("", "; ".join(lines) + (f"; and {more} more" if more > 0 else ""))

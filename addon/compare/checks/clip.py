@@ -60,7 +60,7 @@ def _clipped(part: Part) -> Work[None]:
 def _widened(camera: Camera) -> Camera:
     """Return a camera that also sees what Blender may take to be within its clip range."""
     ends = np.array((camera.clip_start, camera.clip_end))
-    view = U32 * WIDENED * (np.abs(camera.origin).sum() + ends)
+    view = U32 * WIDENED * (np.abs(camera.origin).sum() + np.abs(ends))
     off = depth_resolution(camera, ends, view)
     start = camera.clip_start - off[0]
     if not camera.projection.is_parallel:

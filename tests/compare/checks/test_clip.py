@@ -37,6 +37,17 @@ def test_a_wall_at_the_clip_start(make, explained, orthographic, side):
 
 
 @pytest.mark.parametrize("side", [-1, 1])
+def test_a_wall_at_the_clip_start_behind_the_eye(make, explained, side):
+    """As an orthographic view has it, which looks both ways."""
+    camera = make.camera(clip_start=-50.0, clip_end=50.0, orthographic=True)
+    off = 0.2 * float(depth_resolution(camera, np.array(-50.0), np.array(0.0)))
+    scene = wall(make, camera, -50.0 + side * off)
+    other = render(wall(make, camera, -50.0 - side * off)).color
+    assert (other != render(scene).color).any()
+    assert (explained(scene, other).cause == Cause.CLIP_PLANE).all()
+
+
+@pytest.mark.parametrize("side", [-1, 1])
 def test_a_wall_at_the_clip_end(make, explained, side):
     camera = make.camera(clip_start=0.5, clip_end=5.0)
     off = 0.2 * float(depth_resolution(camera, np.array(5.0), np.array(0.0)))

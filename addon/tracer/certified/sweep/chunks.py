@@ -107,18 +107,20 @@ def chunks(
 
     `in_view`, `depth`, the least of each instance, and whether it is `dense`, are (n,).
     """
-    counts = np.array([len(m.triangles) for m in scene.meshes], np.intp)[scene.instance_meshes]
+    sizes = np.array([(len(m.triangles), len(m.vertices)) for m in scene.meshes], np.intp)
+    counts, vertices = sizes.reshape(-1, 2)[scene.instance_meshes].T
     order = np.flatnonzero(in_view & (counts > 0))
     order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
     out = []
-    large = counts[order] > limit
+    size = np.maximum(counts, vertices // 3)  # there may be many that no triangle uses
+    large = size[order] > limit
     for instance in order[large].tolist():
         count = int(counts[instance])
         for first in range(0, count, limit):
             out.append(Chunk(np.array([instance], np.int32), first, min(first + limit, count)))
     for is_dense in (False, True):
         rest = order[~large & (dense[order] == is_dense)]
-        for start, end in groups(counts[rest], limit):
+        for start, end in groups(size[rest], limit):
             group = rest[start:end]
             group = group[np.argsort(scene.instance_meshes[group], kind="stable")]
             out.append(Chunk(group, dense=is_dense))

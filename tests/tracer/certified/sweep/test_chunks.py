@@ -75,6 +75,18 @@ def test_every_triangle_is_in_one_piece(make, part):
     assert left_out > 3 and several > 20
 
 
+def test_vertices_that_no_triangle_uses_fill_no_chunk(make):
+    mesh = make.quad(-1, 1, -1, 1, -3)
+    loose = Mesh(np.vstack((mesh.vertices, np.zeros((1000, 3)))), mesh.triangles)
+    scene = make.scene(make.camera(), *[loose] * 20)
+    film = Film(scene.camera)
+    for chunk in all_chunks(scene, film, 1000):
+        assert len(expanded_of(scene, film, chunk).vertices.p) <= 3 * 1000
+    assert len(all_chunks(scene, film, 1000)) == 10
+    for chunk in all_chunks(scene, film, 300):
+        assert len(expanded_of(scene, film, chunk).vertices.p) == 4  # what is used of one
+
+
 @pytest.mark.parametrize("chunk", [1, 2, 7, 1 << 13])
 def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
     """Bit for bit, however many vertices are transformed together, and whoever shares them."""
