@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Region, Scene, ViewWindow
-from reference_tracer.tracer.camera import camera_rays, film_positions
+from reference_tracer.tracer.camera import camera_rays, corner_rays, film_positions
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.certified.contest import Contest
 from reference_tracer.tracer.hits import Hits, Statistics
@@ -167,7 +167,8 @@ def brute_force(scene: Scene, region: Region, dx: float = 0.0, dy: float = 0.0) 
     planes = [(p.point, p.normal) for p in scene.planes]
     clip = camera.clip_start, camera.clip_end
     rays = camera_rays(camera, *film_positions(region, dx, dy))
-    contest = Contest(rays, planes, len(scene.instances), *clip)
+    around = corner_rays(camera, dx, dy)  # the bounds are for all rays of the picture
+    contest = Contest(rays, planes, len(scene.instances), *clip, around)
     count = len(finite)
     ray, row = np.divmod(np.arange(region.width * region.height * count), max(count, 1))
     contest.enter(Pairs(ray, row, triangles))
