@@ -104,9 +104,11 @@ class Frame:
 
     def cancel(self) -> None:
         """Have it end here: rows that are not done are empty, whatever was found of them."""
-        self.cancelled, rows = True, ~self.rows_done
-        self.color[rows], self.certainty[rows] = 0, Certainty.NOT_CERTIFIED
-        self.instance_index[rows] = self.triangle_index[rows] = NOTHING
+        self.cancelled, (height, width) = True, self.shape
+        rows = slice(int(self.rows_done.sum()), height)  # as the lowest are the first
+        self.color[rows] = 0
+        self.ties = self.ties.below(rows.start * width)
+        self.enter(rows, Hits.none((height - rows.start) * width))
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -114,6 +114,11 @@ class Ties(Mapping[int, frozenset[Name]]):
         ray = self.ray + numbers if isinstance(numbers, int) else numbers[self.ray]
         return replace(self, ray=ray.astype(np.int64, copy=False))
 
+    def below(self, ray: int) -> Ties:
+        """Return the ties of the rays with lower numbers."""
+        some = slice(np.searchsorted(self.ray, ray))
+        return replace(self, ray=self.ray[some], start=self.start[some], count=self.count[some])
+
     def may_see(self, ray: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.bool_]:
         """Return which of these rays are ambiguous and may be said to see these surfaces, (n,)."""
         out = np.zeros(len(ray), bool)

@@ -14,6 +14,7 @@ from reference_tracer.scene import Region
 from reference_tracer.tracer import candidates
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions
@@ -223,12 +224,15 @@ def test_a_cancelled_picture_keeps_its_rows(busy, share):
         assert np.array_equal(values[rows:], getattr(Frame.empty(busy), name)[rows:])
 
 
-def test_a_cancelled_picture_has_no_half_a_band(make):
+@pytest.mark.parametrize("color", [Color.OBJECT, Color.DEPTH])
+def test_a_cancelled_picture_has_no_half_a_band(make, color):
     """A certified one is coloured in steps, once it is known what all of it sees."""
-    scene = make.scene(make.camera(400, 300, half=0.5), make.quad(-9, 9, -9, 9, -3))
-    for most in range(1, 40):
+    # Two in one place: every pixel is a tie.
+    scene = make.scene(make.camera(400, 300, half=0.5), *[make.quad(-9, 9, -9, 9, -3)] * 2)
+    for most in range(1, 80):
         steps = iter([False] * most + [True] * 999)
-        frame = render(scene, cancelled=partial(next, steps))
+        frame = render(scene, Settings(color=color), cancelled=partial(next, steps))
+        assert not any(pixel >= 400 * frame.rows_done.sum() for pixel in frame.ties)
         undone = ~frame.rows_done
         for name in ("color", "instance_index", "triangle_index", "certainty", "t"):
             empty = getattr(Frame.empty(scene), name)

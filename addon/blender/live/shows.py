@@ -29,12 +29,6 @@ from ...tracer.vector import parts
 from . import like_for_like
 
 ROWS = 64  # entered together, in some milliseconds
-_DECIDED = {
-    Certainty.BOUND: "proven by an error bound",
-    Certainty.EXACT: "by integers",
-    Certainty.AMBIGUOUS: "by a rule",
-    Certainty.NOT_CERTIFIED: "not proven",
-}
 MOST_EXPLAINED = 5_000  # of the pixels that differ: in a second or two
 
 
@@ -110,8 +104,8 @@ def certainty(scene: Scene, settings: Settings, shown: Picture) -> Iterator[floa
         scene, settings, shown, lambda f, r: certainty_map(f.color[r], f.certainty[r])
     )
     shown.color = ringed(shown.color, frame.certainty > Certainty.BOUND)
-    counts = ((words, int((frame.certainty == c).sum())) for c, words in _DECIDED.items())
-    shown.line = ", ".join(f"{n:,} {words}" for words, n in counts if n)
+    counts = ((c, int((frame.certainty == c).sum())) for c in Certainty)
+    shown.line = ", ".join(f"{n:,} {c.words}" for c, n in counts if n)
 
 
 def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:

@@ -11,26 +11,25 @@ from enum import IntEnum
 
 import numpy as np
 
+_RULE = "the ray meets an edge, a corner or two surfaces at once: a rule decided"
+
 
 class Certainty(IntEnum):
     """How the surface that a ray sees was decided; a member is a number, with these attributes."""
 
     color: str  # on a map
+    words: str  # after a number of pixels
     sentence: str
 
-    NOT_CERTIFIED = 0, "#787878", "floating point alone decided, without a proof"
-    BOUND = 1, "#2e4d59", "floating point decided, and its error bound leaves no doubt"
-    EXACT = 2, "#56b4e9", "integer arithmetic decided, where the error bound left a doubt"
-    AMBIGUOUS = (
-        3,
-        "#f0e442",
-        "the ray meets an edge, a corner or two surfaces at once: a rule decided",
-    )
+    NOT_CERTIFIED = 0, "#787878", "not proven", "floating point alone decided, without a proof"
+    BOUND = 1, "#2e4d59", "by a bound", "floating point decided: its error bound leaves no doubt"
+    EXACT = 2, "#56b4e9", "by integers", "integers decided, where the error bound left a doubt"
+    AMBIGUOUS = 3, "#f0e442", "by a rule", _RULE
 
-    def __new__(cls, number: int, color: str, sentence: str) -> Certainty:
+    def __new__(cls, number: int, color: str, words: str, sentence: str) -> Certainty:
         """Make a member of a record."""
         self = int.__new__(cls, number)
-        self._value_, self.color, self.sentence = number, color, sentence
+        self._value_, self.color, self.words, self.sentence = number, color, words, sentence
         return self
 
 
