@@ -199,9 +199,15 @@ Ltac numbers :=
 Section Pairs.
 Variable v : env.
 
+Lemma above_sign p x : above p x -> not_negative p. Proof. now intros [H _]. Qed.
+Ltac by_sign := cbn [eval];
+  first [ apply not_negative_abs | apply not_negative_max; by_sign
+        | eapply above_sign; eassumption ].
+
 Ltac pair this off :=
   apply bounds_by with (one := this);
   [ names; by_above
+  | names; by_sign | names; by_sign | names; by_sign
   | apply bound_of_code; names; by_above
   | reflexivity | numbers | reflexivity | numbers
   | apply off, real_env_floats ].

@@ -129,28 +129,88 @@ End Bound.
 (** ** From real numbers to comparisons in binary64 *)
 
 (** [bounds v E e]: E is not negative, and where it is finite, so is e, and e is off by at most three
-    quarters of E. *)
+    quarters of E. And E is never tiny: neither for float64 nor for e. *)
 Definition bounds (v : env) (E e : expr) : Prop :=
   not_negative (eval v E) /\
   (is_finite (eval v E) = true ->
    is_finite (eval v e) = true /\
-   Rabs (B2R (eval v e) - ex (real_env v) e) <= 3 / 4 * B2R (eval v E)).
+   Rabs (B2R (eval v e) - ex (real_env v) e) <= 3 / 4 * B2R (eval v E) /\
+   slack <= B2R (eval v E) /\ 11 * u * Rabs (B2R (eval v e)) <= B2R (eval v E)).
 
 Lemma real_env_floats v name : is_float (r_var (real_env v) name).
 Proof. apply B2R_is_float. Qed.
 
 (** P of the code may be larger than that of this one ray and triangle, which the theorem is about. *)
+Lemma rnd_ge_float x y : is_float x -> x <= y -> x <= rnd y.
+Proof. intros F H. rewrite <- (rnd_id x F). now apply rnd_le. Qed.
+
+(** E is at least 2^-1060, and nearly 12 u P. *)
+Lemma bound_least v p w : not_negative (eval v p) ->
+  not_negative (eval v (X w)) -> not_negative (eval v (Y w)) -> not_negative (eval v (Z' w)) ->
+  is_finite (eval v (tbound p w)) = true ->
+  is_finite (eval v p) = true /\ slack <= B2R (eval v (tbound p w)) /\
+  11 * u * B2R (eval v p) <= B2R (eval v (tbound p w)).
+Proof.
+  intros Pp Px Py Pz F. revert F. unfold tbound. cbn [eval]. intros F.
+  destruct (plus_finite _ _ F) as [F1 F2]. destruct (mult_finite _ _ F1) as [Fn Fp].
+  destruct (mult_finite _ _ F2) as [Fs F3]. destruct (plus_finite _ _ F3) as [F4 Fz].
+  destruct (plus_finite _ _ F4) as [F5 Fy]. destruct (plus_finite _ _ F5) as [Fo Fx].
+  assert (B12 : B2R (num 12 (-53)) = 12 * u).
+  { destruct (float_of_num 12 (-53)) as [_ ->]; [|apply float_12u|].
+    - rewrite Rabs_right by (generalize (bpow_ge_0 radix2 (-53)); lra).
+      apply Rlt_trans with (bpow radix2 4 * bpow radix2 (-53)); [|rewrite <- bpow_plus; now apply bpow_lt].
+      apply Rmult_lt_compat_r; [apply bpow_gt_0 | simpl; lra].
+    - unfold u. simpl. lra. }
+  assert (BS : B2R (num 1 (-1060)) = slack).
+  { destruct (float_of_num 1 (-1060)) as [_ ->]; [|apply float_slack|].
+    - rewrite Rmult_1_l, Rabs_right by apply Rle_ge, bpow_ge_0. now apply bpow_lt.
+    - apply Rmult_1_l. }
+  assert (B1 : B2R (num 1 0) = 1).
+  { destruct (float_of_num 1 0) as [_ ->]; [|apply float_one|].
+    - rewrite Rmult_1_l, Rabs_right by apply Rle_ge, bpow_ge_0. now apply bpow_lt.
+    - simpl. lra. }
+  rewrite (plus_value _ _ F), (mult_value _ _ F1), (mult_value _ _ F2), (plus_value _ _ F3),
+    (plus_value _ _ F4), (plus_value _ _ F5), B12, BS, B1.
+  assert (V := not_negative_value _ Pp Fp). assert (Vx := not_negative_value _ Px Fx).
+  assert (Vy := not_negative_value _ Py Fy). assert (Vz := not_negative_value _ Pz Fz).
+  set (P := B2R (eval v p)) in *. set (x := B2R (eval v (X w))) in *.
+  set (y := B2R (eval v (Y w))) in *. set (z := B2R (eval v (Z' w))) in *.
+  assert (One : is_float 1) by (rewrite <- B1; apply B2R_is_float).
+  assert (K1 : 1 <= rnd (1 + x)) by (apply rnd_ge_float; auto; lra).
+  assert (K2 : 1 <= rnd (rnd (1 + x) + y)) by (apply rnd_ge_float; auto; lra).
+  assert (K3 : 1 <= rnd (rnd (rnd (1 + x) + y) + z)) by (apply rnd_ge_float; auto; lra).
+  assert (S := slack_pos). assert (U := u_pos). assert (Us := u_small).
+  assert (FS : is_float slack) by (rewrite <- BS; apply B2R_is_float).
+  set (k := rnd (rnd (rnd (1 + x) + y) + z)) in *.
+  assert (K4 : slack <= rnd (slack * k)) by (apply rnd_ge_float; auto; nra).
+  assert (K5 : 0 <= rnd (12 * u * P)) by (apply rnd_pos; nra).
+  assert (K6 := rnd_err (12 * u * P)).
+  assert (K7 := rnd_err_sum (rnd (12 * u * P)) (rnd (slack * k)) (rnd_float _) (rnd_float _)).
+  split; [exact Fp|]. split; [apply rnd_ge_float; auto; lra|].
+  assert (N := eta_slack). rewrite (Rabs_right (12 * u * P)) in K6 by nra.
+  apply Rabs_le_inv in K6. rewrite (Rabs_right (rnd (12 * u * P) + rnd (slack * k))) in K7 by lra.
+  apply Rabs_le_inv in K7. assert (0 <= u * P) by nra.
+  assert (u * (u * P) <= / 1000000 * (u * P)) by (apply Rmult_le_compat_r; lra).
+  set (E := rnd (rnd (12 * u * P) + rnd (slack * k))) in *.
+  assert (u * rnd (12 * u * P) <= / 1000000 * rnd (12 * u * P)) by (apply Rmult_le_compat_r; lra).
+  assert (u * rnd (slack * k) <= / 1000000 * rnd (slack * k)) by (apply Rmult_le_compat_r; lra).
+  lra.
+Qed.
+
 Lemma bounds_by v p w e one :
-  dominates v p e -> dominates v (tbound p w) one -> arithmetic e = true -> numbers_ok e ->
-  arithmetic one = true -> numbers_ok one ->
+  dominates v p e -> not_negative (eval v (X w)) -> not_negative (eval v (Y w)) ->
+  not_negative (eval v (Z' w)) -> dominates v (tbound p w) one -> arithmetic e = true ->
+  numbers_ok e -> arithmetic one = true -> numbers_ok one ->
   Rabs (fl (real_env v) e - ex (real_env v) e) <= 3 / 4 * fl (real_env v) one ->
   bounds v (tbound p w) e.
 Proof.
-  intros [_ De] [P Do] Ae Ne Ao No H. split; [exact P|]. intros F.
-  destruct (plus_finite _ _ F) as [F1 _]. destruct (mult_finite _ _ F1) as [_ F2].
-  destruct (De F2) as [Fe _]. destruct (Do F) as [Fo L]. split; [exact Fe|].
-  rewrite (finite_value v e Ae Ne Fe). rewrite (finite_value v one Ao No Fo) in L.
-  generalize (Rle_abs (fl (real_env v) one)). lra.
+  intros [Pp De] Px Py Pz [P Do] Ae Ne Ao No H. split; [exact P|]. intros F.
+  destruct (bound_least v p w Pp Px Py Pz F) as [F2 [L1 L2]].
+  destruct (De F2) as [Fe Le]. destruct (Do F) as [Fo L]. split; [exact Fe|].
+  split; [|split; [exact L1|]].
+  - rewrite (finite_value v e Ae Ne Fe). rewrite (finite_value v one Ao No Fo) in L.
+    generalize (Rle_abs (fl (real_env v) one)). lra.
+  - eapply Rle_trans; [|exact L2]. apply Rmult_le_compat_l; [generalize u_pos; lra | exact Le].
 Qed.
 
 (** What is a bound stays one if something larger takes its place. *)
@@ -160,11 +220,11 @@ Proof.
   intros PE PF H. split; [simpl; now apply not_negative_max|]. cbn [eval]. intros Fin.
   destruct H as [H|H]; destruct H as [P B].
   - destruct (above_max (eval v E) (eval v F) (eval v E)) as [_ K]; auto using above_same.
-    destruct (K Fin) as [FE L]. destruct (B FE) as [Fe Le]. split; [exact Fe|].
-    generalize (Rle_abs (B2R (eval v E))). lra.
+    destruct (K Fin) as [FE L]. destruct (B FE) as [Fe [Le [L1 L2]]]. split; [exact Fe|].
+    generalize (Rle_abs (B2R (eval v E))). repeat split; lra.
   - destruct (above_max (eval v E) (eval v F) (eval v F)) as [_ K]; auto using above_same.
-    destruct (K Fin) as [FE L]. destruct (B FE) as [Fe Le]. split; [exact Fe|].
-    generalize (Rle_abs (B2R (eval v F))). lra.
+    destruct (K Fin) as [FE L]. destruct (B FE) as [Fe [Le [L1 L2]]]. split; [exact Fe|].
+    generalize (Rle_abs (B2R (eval v F))). repeat split; lra.
 Qed.
 
 Lemma not_below_infinity (x : float) : Bcompare (B754_infinity false) x <> Some Datatypes.Lt.
@@ -186,7 +246,7 @@ Theorem sure_positive v E e : bounds v E e -> holds v (Less E e) = true -> 0 < e
 Proof.
   intros [P B] H. simpl in H. destruct (Bcompare (eval v E) (eval v e)) as [[]|] eqn:C; try discriminate.
   assert (F : is_finite (eval v E) = true) by (eapply decided_finite; eauto).
-  destruct (B F) as [Fe L]. rewrite (Bcompare_correct prec emax _ _ F Fe) in C.
+  destruct (B F) as [Fe [L _]]. rewrite (Bcompare_correct prec emax _ _ F Fe) in C.
   injection C as C. apply Rcompare_Lt_inv in C.
   generalize (not_negative_value _ P F). apply Rabs_le_inv in L. lra.
 Qed.
@@ -196,7 +256,7 @@ Theorem sure_negative v E e : bounds v E e -> holds v (Less e (Neg E)) = true ->
 Proof.
   intros [P B] H. simpl in H. destruct (Bcompare (eval v e) (Bopp (eval v E))) as [[]|] eqn:C; try discriminate.
   assert (F : is_finite (eval v E) = true) by (eapply decided_finite; eauto).
-  destruct (B F) as [Fe L].
+  destruct (B F) as [Fe [L _]].
   rewrite (Bcompare_correct prec emax) in C by (auto; now rewrite is_finite_Bopp).
   rewrite B2R_Bopp in C. injection C as C. apply Rcompare_Lt_inv in C.
   generalize (not_negative_value _ P F). apply Rabs_le_inv in L. lra.
