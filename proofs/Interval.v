@@ -202,4 +202,57 @@ Proof.
   assert (L5 : g + slack / 2 <= error) by lra.
   unfold g in *. lra.
 Qed.
+
+(** Where D may be 0: |T| / |D| at its smallest is not above t. *)
+Lemma least_ratio : 11 * u * Rabs T <= ET -> 11 * u * Rabs D <= ED -> D0 <> 0 -> 0 <= T0 / D0 ->
+  is_float T -> 0 < rnd (Rabs T - ET) -> 0 < rnd (Rabs D + ED) ->
+  rnd (Rabs T - ET) / rnd (Rabs D + ED) * (1 + 3 * u) <= T0 / D0.
+Proof.
+  intros KT KD ND Pt FT Pn Pd. assert (S := slack_pos). assert (U := u_pos). assert (Us := u_small).
+  assert (En := rnd_err_sum (Rabs T) (- ET) (is_float_abs _ FT) (is_float_opp _ FET)).
+  fold (Rabs T - ET) in En.
+  assert (PN : 0 < Rabs T - ET).
+  { destruct (Rle_or_lt (Rabs T - ET) 0) as [L|L]; auto. generalize (rnd_le _ _ L). rewrite rnd_0. lra. }
+  rewrite (Rabs_right (Rabs T - ET)) in En by lra. apply Rabs_le_inv in En.
+  assert (Ed := rnd_err_sum (Rabs D) ED (is_float_abs _ FD) FED).
+  rewrite (Rabs_right (Rabs D + ED)) in Ed by (generalize (Rabs_pos D); lra). apply Rabs_le_inv in Ed.
+  set (n := rnd (Rabs T - ET)) in *. set (den := rnd (Rabs D + ED)) in *.
+  assert (HT0 : Rabs T - 3 / 4 * ET <= Rabs T0) by (generalize (Rabs_triang_inv T T0); lra).
+  assert (HD0 : Rabs D0 <= Rabs D + 3 / 4 * ED).
+  { generalize (Rabs_triang_inv D0 D). rewrite (Rabs_minus_sym D0 D). lra. }
+  assert (E : T0 / D0 = Rabs T0 / Rabs D0).
+  { unfold Rdiv. rewrite <- Rabs_inv, <- Rabs_mult. symmetry. apply Rabs_right. now apply Rle_ge. }
+  rewrite E. set (N0 := Rabs T - ET) in *. set (M0 := Rabs D + ED) in *.
+  assert (PM : 0 < M0) by (unfold M0; generalize (Rabs_pos D); lra).
+  assert (PD0 : 0 < Rabs D0) by now apply Rabs_pos_lt.
+  assert (uN : 0 < u * N0) by (apply Rmult_lt_0_compat; lra).
+  assert (uM : 0 < u * M0) by (apply Rmult_lt_0_compat; lra).
+  assert (T1 : N0 * (1 + 11 / 4 * u) <= Rabs T0).
+  { assert (u * N0 <= u * Rabs T) by (apply Rmult_le_compat_l; unfold N0; lra). unfold N0 in *. lra. }
+  assert (D1 : Rabs D0 <= M0 * (1 - 27 / 10 * u)).
+  { assert (K : 108 / 10 * u * M0 <= ED).
+    { assert (u * ED <= / 1000000 * ED) by (apply Rmult_le_compat_r; lra). unfold M0. lra. }
+    unfold M0 in *. lra. }
+  set (q := n / den). assert (Q : 0 < q) by (apply Rdiv_lt_0_compat; auto).
+  assert (V : q * den = n) by (unfold q; field; lra).
+  assert (q * (M0 * (1 - u)) <= n) by (rewrite <- V; apply Rmult_le_compat_l; lra).
+  set (qM := q * M0). assert (PqM : 0 < qM) by (apply Rmult_lt_0_compat; auto).
+  assert (uqM : 0 <= u * qM <= / 1000000 * qM) by (split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_r; lra]).
+  assert (uuqM : 0 <= u * (u * qM) <= / 1000000 * (u * qM)) by (split; [apply Rmult_le_pos; lra | apply Rmult_le_compat_r; lra]).
+  assert (uuN : u * (u * N0) <= / 1000000 * (u * N0)) by (apply Rmult_le_compat_r; lra).
+  assert (Q1 : qM * (1 - u) <= N0 * (1 + u)) by (unfold qM; lra).
+  assert (Q2 : qM * (1 - u) * (1 + 32 / 10 * u / 2) <= N0 * (1 + u) * (1 + 32 / 10 * u / 2)).
+  { apply Rmult_le_compat_r; lra. }
+  assert (Q3 : qM * (1 + 3 * u) * (1 - 27 / 10 * u) <= N0 * (1 + 11 / 4 * u)).
+  { replace (qM * (1 + 3 * u) * (1 - 27 / 10 * u)) with (qM + 3 / 10 * (u * qM) - 81 / 10 * (u * (u * qM))) by field.
+    replace (qM * (1 - u) * (1 + 32 / 10 * u / 2)) with (qM + 6 / 10 * (u * qM) - 16 / 10 * (u * (u * qM))) in Q2 by field.
+    replace (N0 * (1 + u) * (1 + 32 / 10 * u / 2)) with (N0 + 26 / 10 * (u * N0) + 16 / 10 * (u * (u * N0))) in Q2 by field.
+    lra. }
+  assert (Q4 : q * (1 + 3 * u) * Rabs D0 <= Rabs T0).
+  { eapply Rle_trans; [|exact T1]. eapply Rle_trans; [|exact Q3].
+    replace (qM * (1 + 3 * u) * (1 - 27 / 10 * u)) with (q * (1 + 3 * u) * (M0 * (1 - 27 / 10 * u))) by (unfold qM; ring).
+    apply Rmult_le_compat_l; [apply Rmult_le_pos; lra | exact D1]. }
+  apply Rmult_le_reg_r with (Rabs D0); [exact PD0|].
+  replace (Rabs T0 / Rabs D0 * Rabs D0) with (Rabs T0) by (field; lra). exact Q4.
+Qed.
 End Reals.
