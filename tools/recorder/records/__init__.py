@@ -1,0 +1,6 @@
+"""What is recorded: a record for each function, with the theorem that is about it."""
+
+from .record import Inputs, Output, Record, outputs
+from .table import RECORDS
+
+__all__ = ["RECORDS", "Inputs", "Output", "Record", "outputs"]

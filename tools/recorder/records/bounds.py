@@ -1,0 +1,109 @@
+"""`certified/bounds.py`: the functions of a ray and a triangle, their bounds, and t's interval."""
+
+from __future__ import annotations
+
+import numpy as np
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.certified.bounds import (
+    Fractions,
+    FromPoint,
+    Parallel,
+    plane_fractions,
+)
+
+from .record import Inputs, Kept, Record
+
+FIRST = np.zeros(1, np.intp)  # the row of the one triangle
+CORNERS = "ax ay az", "bx by bz", "cx cy cz"
+_TRIANGLE = dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
+_RAY = dict(ox=0.11, oy=0.07, oz=0.3, dx=0.01, dy=-0.02, dz=-1.0)
+_REACH = dict(rx=0.5, ry=0.4, rz=1.0)
+_BOX = dict(lx=-0.5, ly=-0.6, lz=0.2, hx=0.5, hy=0.7, hz=0.4)
+_PLANE = dict(px=0.3, py=0.2, pz=-9.0, nx=0.1, ny=0.2, nz=0.97)
+
+
+def rays(v: Inputs) -> Rays:
+    return Rays(v.vector("ox oy oz"), v.vector("dx dy dz"))
+
+
+def from_point(v: Inputs) -> FromPoint:
+    return FromPoint(v.vector("ox oy oz"), v.vector("rx ry rz"), v.matrix(*CORNERS))
+
+
+def parallel(v: Inputs) -> Parallel:
+    ends = v.vector("lx ly lz"), v.vector("hx hy hz")
+    return Parallel(v.vector("dx dy dz"), *ends, v.matrix(*CORNERS))
+
+
+def _edges(prefix: str, prepared: FromPoint | Parallel, v: Inputs) -> Kept:
+    edges, error = prepared.edges(FIRST, rays(v))
+    names = f"{prefix}_ab", f"{prefix}_bc", f"{prefix}_ca"
+    return dict(zip(names, edges, strict=True)) | {f"{prefix}_error": error}
+
+
+def fractions_of(prefix: str, found: Fractions) -> Kept:
+    return {
+        f"{prefix}_T": found.numerator,
+        f"{prefix}_T_error": found.numerator_error,
+        f"{prefix}_D": found.denominator,
+        f"{prefix}_D_error": found.denominator_error,
+    }
+
+
+def _interval(v: Inputs) -> Kept:
+    low, high = Fractions(*(v.one(name) for name in ("T", "ET", "D", "ED"))).interval()
+    return {"interval_low": low, "interval_high": high}
+
+
+def _theorems(prefix: str) -> dict[str, str]:
+    edges = dict.fromkeys((f"{prefix}_{k}" for k in ("ab", "bc", "ca", "error")), f"{prefix}_edges")
+    names = (f"{prefix}_{k}" for k in ("T", "T_error", "D", "D_error"))
+    return edges | dict.fromkeys(names, f"{prefix}_fractions")
+
+
+RECORDS = (
+    Record(
+        "from_point",
+        "bounds.FromPoint.edges",
+        _TRIANGLE | _RAY | _REACH,
+        lambda v: _edges("from_point", from_point(v), v),
+        _theorems("from_point"),
+    ),
+    Record(
+        "from_point",
+        "bounds.FromPoint.fractions",
+        _TRIANGLE | _RAY | _REACH,
+        lambda v: fractions_of("from_point", from_point(v).fractions(FIRST, rays(v))),
+        _theorems("from_point"),
+    ),
+    Record(
+        "parallel",
+        "bounds.Parallel.edges",
+        _TRIANGLE | _RAY | _BOX,
+        lambda v: _edges("parallel", parallel(v), v),
+        _theorems("parallel"),
+    ),
+    Record(
+        "parallel",
+        "bounds.Parallel.fractions",
+        _TRIANGLE | _RAY | _BOX,
+        lambda v: fractions_of("parallel", parallel(v).fractions(FIRST, rays(v))),
+        _theorems("parallel"),
+    ),
+    Record(
+        "plane",
+        "bounds.plane_fractions",
+        _PLANE | _RAY,
+        lambda v: fractions_of(
+            "plane", plane_fractions(rays(v), v.vector("px py pz"), v.vector("nx ny nz"))
+        ),
+        _theorems("plane"),
+    ),
+    Record(
+        "interval",
+        "bounds.Fractions.interval",
+        dict(T=5.0, ET=1e-15, D=2.0, ED=1e-15),
+        _interval,
+        {"interval_low": "interval_encloses", "interval_high": "interval_encloses"},
+    ),
+)

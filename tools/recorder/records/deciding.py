@@ -1,0 +1,117 @@
+"""`certified/contest.py` and `order.py`: what the bounds decide."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.certified import contest, order
+
+from .bounds import FIRST
+from .record import Inputs, Kept, Record, locals_of
+
+_EDGES = dict(e1=0.5, e2=0.25, e3=0.75, error=1e-15)
+_RANGE = dict(low=2.0, high=2.5, end=100.0, sure=True)
+_TABLE = dict(base=0.25, v1=0.5, v2=-0.75, v3=0.125, sign=1.0)
+_RAY = dict(ox=0.11, oy=0.07, oz=0.3, o0x=-0.5, o0y=-0.4, o0z=0.25, dx=0.01, dy=-0.02, dz=-1.0)
+
+
+def _sides(v: Inputs) -> Kept:
+    edges = v.vector("e1 e2 e3"), v.one("error")
+    prepared = SimpleNamespace(edges=lambda row, rays: edges)
+    sure, _ = contest.sides(prepared, FIRST, None)
+    return {"sides_possible": v.chosen(0), "sides_sure": sure}
+
+
+def _in_range(v: Inputs, prefix: str) -> Kept:
+    fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
+    ends = v.scalar("start"), v.scalar("end")
+    low, high, outside, doubt = contest.in_range(fractions, v.one("sure"), *ends)
+    names = f"{prefix}_low", f"{prefix}_high", f"{prefix}_outside", f"{prefix}_doubt"
+    return dict(zip(names, (low, high, outside, doubt), strict=True))
+
+
+def _order(v: Inputs, prefix: str, shared: bool) -> Kept:
+    """Integers make the table (`order._difference`): here its numbers are variables."""
+    many = np.zeros((3, 2))  # (3, 1) is shared by all rays
+    directions = v.vector("dx dy dz") if shared else many
+    origin = v.vector("ox oy oz")
+    around = Rays(v.vector("o0x o0y o0z") if shared else _Several(v.vector("o0x o0y o0z")), many)
+    table = tuple(v.scalar(name) for name in ("base", "v1", "v2", "v3", "sign"))
+    with (
+        mock.patch.object(order, "_difference", lambda *_: table),
+        locals_of(order.order_of) as found,
+    ):
+        out = order.order_of(around, Rays(origin, directions), None, FIRST, FIRST)
+    kept = {f"{prefix}_{name}": found[name] for name in ("value", "error", "known")}
+    return {prefix: out} | kept
+
+
+class _Several:
+    """Origins, of which the first is asked for."""
+
+    shape = (3, 2)
+
+    def __init__(self, first) -> None:
+        self._first = first
+
+    def __getitem__(self, _):
+        return self._first
+
+
+def _range_theorems(prefix: str) -> dict[str, str]:
+    return {
+        f"{prefix}_low": "in_range_low",
+        f"{prefix}_high": "in_range_low",
+        f"{prefix}_outside": "in_range_outside_right",
+        f"{prefix}_doubt": "in_range_doubt_right",
+    }
+
+
+def _order_theorems(prefix: str) -> dict[str, str]:
+    return dict.fromkeys((prefix, *(f"{prefix}_{k}" for k in ("value", "error", "known"))), prefix)
+
+
+RECORDS = (
+    Record(
+        "sides",
+        "contest.sides",
+        _EDGES,
+        _sides,
+        {"sides_possible": "sides_possible_right", "sides_sure": "sides_sure_right"},
+    ),
+    Record(
+        "in_range",
+        "contest.in_range",
+        _RANGE | {"start": 0.5},
+        lambda v: _in_range(v, "in_range"),
+        _range_theorems("in_range"),
+        "start not negative",
+    ),
+    Record(
+        "in_range_behind",
+        "contest.in_range",
+        _RANGE | {"start": -0.5},
+        lambda v: _in_range(v, "in_range_behind"),
+        _range_theorems("in_range_behind"),
+        "start negative",
+    ),
+    Record(
+        "order_from_point",
+        "order.order_of",
+        _TABLE | _RAY,
+        lambda v: _order(v, "order_from_point", True),
+        _order_theorems("order_from_point"),
+        "rays from one point",
+    ),
+    Record(
+        "order_parallel",
+        "order.order_of",
+        _TABLE | _RAY,
+        lambda v: _order(v, "order_parallel", False),
+        _order_theorems("order_parallel"),
+        "parallel rays",
+    ),
+)

@@ -1,0 +1,128 @@
+"""A function of the tracer, how it is called to be recorded, and which of its results are kept."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Choices, Recorded, lift, variable
+from ..functions import recording
+from ..nodes import Node, every, node
+
+Values = Mapping[str, float | bool]
+Kept = Mapping[str, Any]  # arrays of one number, or of none where it was not reached
+
+
+class Inputs:
+    """The variables of a record, as arrays: recorded, or plain to hold the recorder against."""
+
+    def __init__(self, values: Values, choices: Choices | None = None) -> None:
+        self._values, self._choices, self.named = values, choices, set()
+
+    def one(self, name: str):
+        """Return a variable, (1,)."""
+        value = self._values[name]
+        return np.array([value]) if self._choices is None else variable(name, value)
+
+    def scalar(self, name: str):
+        """Return a variable without axes."""
+        return self.one(name).reshape(())[()]
+
+    def vector(self, names: str):
+        """Return variables, whose names are separated by spaces, in a column, (k, 1)."""
+        return self.stacked([self.one(name) for name in names.split()])
+
+    def matrix(self, *rows: str):
+        """Return variables in rows of columns, (r, k, 1)."""
+        return self.stacked([self.vector(row) for row in rows])
+
+    def stacked(self, arrays: Sequence):
+        return np.stack(arrays) if self._choices is None else lift(list(arrays))
+
+    def chosen(self, number: int) -> Recorded | None:
+        """Return the test by which the function picked, as one of its results."""
+        if self._choices is None:
+            return None
+        self.named.add(number)
+        test, value = self._choices[number]
+        return lift(value)._each(lambda v: test if v.dtype == object else v)
+
+
+@dataclass(frozen=True)
+class Record:
+    """A call of one function.
+
+    `values` are those of its variables that it is recorded with: they decide which way it goes.
+    `theorems` has the Coq name of each result, and of the theorem about it.
+    """
+
+    name: str
+    function: str
+    values: Values
+    call: Callable[[Inputs], Kept]
+    theorems: Mapping[str, str] = field(default_factory=dict)
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Output:
+    """A result of a function, as an expression."""
+
+    name: str
+    node: Node
+    words: str
+    theorem: str
+
+
+def outputs(record: Record) -> list[Output]:
+    """Record a function."""
+    with recording() as choices, np.errstate(all="ignore"):
+        inputs = Inputs(record.values, choices)
+        kept = dict(record.call(inputs))
+        asked = [c for k, c in enumerate(choices) if k not in inputs.named]
+    found = [
+        Output(name, single(value), _words(record, name), record.theorems.get(name, ""))
+        for name, value in kept.items()
+    ]
+    if asked:
+        path = every(dict.fromkeys(t if value else node("Not", t) for t, value in asked))
+        name = f"{record.name}_path"
+        found.append(
+            Output(name, path, f"{record.function}: the path", record.theorems.get(name, ""))
+        )
+    return found
+
+
+def _words(record: Record, name: str) -> str:
+    result = name.removeprefix(record.name).strip("_").replace("_", " ")
+    note = f", {record.note}" if record.note else ""
+    return f"{record.function}{note}{f': {result}' if result else ''}"
+
+
+def single(value: Recorded) -> Node:
+    if not isinstance(value, Recorded) or value.size != 1:
+        raise TypeError(f"not one recorded number: {value}")
+    return value.nodes.reshape(-1)[0]
+
+
+@contextmanager
+def locals_of(function: Callable) -> Iterator[dict[str, Any]]:
+    """Collect the local variables that a function has when it returns."""
+    code, found = function.__code__, {}
+
+    def look(frame, event, _):
+        if event == "return" and frame.f_code is code:
+            found.clear()
+            found.update(frame.f_locals)
+
+    before = sys.getprofile()
+    sys.setprofile(look)
+    try:
+        yield found
+    finally:
+        sys.setprofile(before)
