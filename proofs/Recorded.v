@@ -304,7 +304,7 @@ Definition in_range_doubt : expr :=
   Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start") (Var "low"))
     (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0).
 
-(** contest.in_range: the path *)
+(** contest.in_range, start not negative: path *)
 Definition in_range_path : test :=
   Not (Less (Var "start") (Num 0 0)).
 
@@ -325,7 +325,7 @@ Definition in_range_behind_doubt : expr :=
   Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start") (Var "low"))
     (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0).
 
-(** contest.in_range: the path *)
+(** contest.in_range, start negative: path *)
 Definition in_range_behind_path : test :=
   Less (Var "start") (Num 0 0).
 
@@ -410,3 +410,1343 @@ Definition order_parallel_known : test :=
     (Abs (Var "v2")))) (Mul x6 (Abs (Var "v3")))))) (Mul (Num 1 (-1060)) (Add (Add (Add (Num 1 0)
     x2) x4) x6))) (Abs (Add (Var "base") (Add (Add (Mul x1 (Var "v1")) (Mul x3 (Var "v2"))) (Mul x5
     (Var "v3"))))).
+
+(** edge_functions.set_up, perspective: bc 1 *)
+Definition set_up_perspective_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  Mul x7 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x5 (Var "wc"))
+    (Mul (Var "wb") x4))) (Mul (Sub (Var "qa") (Mul x3 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x2
+    (Var "wc"))))) (Mul (Var "wa") x7)) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: bc y *)
+Definition set_up_perspective_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x6 (Var "wc"))
+    (Mul (Var "wb") x7))) (Mul (Sub (Var "qa") (Mul x5 (Var "wa"))) x4)) (Mul (Var "wa") (Sub (Mul
+    x3 x7) (Mul x6 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: bc x *)
+Definition set_up_perspective_bc_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul (Sub (Var "qa")
+    (Mul x1 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul
+    x7 x3) (Mul x2 x6)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: ca 1 *)
+Definition set_up_perspective_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x6 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x5))) (Mul x4 (Sub (Mul (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x8 x5) (Mul x7 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: ca y *)
+Definition set_up_perspective_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x6) (Mul x5 x3)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: ca x *)
+Definition set_up_perspective_ca_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x2) (Mul x5 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, perspective: ab 1 *)
+Definition set_up_perspective_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x5 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x8 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x4 (Var "wc")) (Mul
+    (Var "wb") x7))) (Mul x5 (Sub (Mul (Var "wb") x8) (Mul x6 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x6 x7) (Mul x4 x8)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: ab y *)
+Definition set_up_perspective_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul (Var "wa") x2) (Mul x3 (Var "wb"))) (Where (Less (Add (Add (Mul x3 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x7) (Mul x2 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x2 x6) (Mul x5 x7)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective: ab x *)
+Definition set_up_perspective_ab_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wb")) (Mul (Var "wa") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x5))) (Mul x2 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x5) (Mul x3 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, perspective: nearness 1 *)
+Definition set_up_perspective_nearness_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x9 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x10 := Add (Add (Mul x8 (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x4))) (Mul x9 (Sub (Mul
+    (Var "wb") x6) (Mul x2 (Var "wc"))))) (Mul (Var "wa") x7) in
+  let x11 := Where (Less x10 (Num 0 0)) (Num (-1) 0) (Num 1 0) in
+  Div (Add (Add (Mul x7 x11) (Mul (Sub (Mul x6 x9) (Mul x4 x8)) x11)) (Mul (Sub (Mul x8 x5) (Mul x9
+    x2)) x11)) (Abs x10).
+
+(** edge_functions.set_up, perspective: nearness y *)
+Definition set_up_perspective_nearness_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x6 := Add (Var "y0") (Num 1 (-1)) in
+  let x7 := Sub (Var "qb") (Mul x6 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x6 (Var "wc")) in
+  let x9 := Add (Add (Mul x5 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul (Sub (Var "qa")
+    (Mul x6 (Var "wa"))) x4)) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x2))) in
+  let x10 := Where (Less x9 (Num 0 0)) (Num (-1) 0) (Num 1 0) in
+  Div (Add (Add (Mul x4 x10) (Mul (Sub (Mul (Var "wc") x5) (Mul x2 (Var "wa"))) x10)) (Mul (Sub (Mul
+    (Var "wa") x3) (Mul x5 (Var "wb"))) x10)) (Abs x9).
+
+(** edge_functions.set_up, perspective: nearness x *)
+Definition set_up_perspective_nearness_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x8 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  let x9 := Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul x6 (Sub (Mul (Var "wb") x7)
+    (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x8 x3) (Mul x2 x7))) in
+  let x10 := Where (Less x9 (Num 0 0)) (Num (-1) 0) (Num 1 0) in
+  Div (Add (Add (Mul x4 x10) (Mul (Sub (Mul x3 (Var "wa")) (Mul (Var "wc") x6)) x10)) (Mul (Sub (Mul
+    x6 (Var "wb")) (Mul (Var "wa") x2)) x10)) (Abs x9).
+
+(** edge_functions.set_up, perspective: edge error *)
+Definition set_up_perspective_edge_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Add (Var "y0") (Num 1 (-1)) in
+  let x8 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x6 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x6 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x6 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x7 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x7 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x7 (Var "wc"))))) x3 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3 x5) (Mul x8 x4))) (Mul (Mul
+    (Num 1 2) x8) x3)) (Mul (Num 1 (-50)) (Mul x8 (Add (Mul x1 x5) (Mul (Num 1 1) x8))))))
+    (Num 1 (-1000)).
+
+(** edge_functions.set_up, perspective: sure *)
+Definition set_up_perspective_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14).
+
+(** edge_functions.set_up, perspective: nearness error *)
+Definition set_up_perspective_nearness_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Sub (Var "pa") (Mul x6 (Var "wa")) in
+  let x8 := Sub (Var "pb") (Mul x6 (Var "wb")) in
+  let x9 := Sub (Var "pc") (Mul x6 (Var "wc")) in
+  let x10 := Add (Var "y0") (Num 1 (-1)) in
+  let x11 := Sub (Var "qa") (Mul x10 (Var "wa")) in
+  let x12 := Sub (Var "qb") (Mul x10 (Var "wb")) in
+  let x13 := Sub (Var "qc") (Mul x10 (Var "wc")) in
+  let x14 := Add (Max (Max (Max (Max (Max (Abs x7) (Abs x8)) (Abs x9)) (Abs x11)) (Abs x12)) (Abs
+    x13)) x3 in
+  let x15 := Mul x14 x4 in
+  let x16 := Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x14) (Add (Mul (Mul
+    (Num 1 1) x3) x5) x15)) (Mul (Mul (Mul (Num 25 (-52)) x14) x14) x5))) (Num 1 (-1000)) in
+  let x17 := Sub (Abs (Add (Add (Mul x7 (Sub (Mul x12 (Var "wc")) (Mul (Var "wb") x13))) (Mul x11
+    (Sub (Mul (Var "wb") x9) (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x8 x13) (Mul x12
+    x9))))) x16 in
+  Mul (Add (Div (Mul (Num 3 1) (Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3
+    x5) x15)) (Mul (Mul (Num 1 2) x14) x3)) (Mul (Num 1 (-50)) (Mul x14 (Add (Mul x1 x5) (Mul
+    (Num 1 1) x14)))))) (Num 1 (-1000)))) x17) (Mul (Add (Div x16 x17) (Add (Mul (Num 1 1)
+    (Var "ray_error")) (Num 1 (-49)))) (Var "nearest"))) (Num 4548635623644201 (-52)).
+
+(** edge_functions.set_up, perspective: T *)
+Definition set_up_perspective_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Sub (Var "qb") (Mul x2 (Var "wb")) in
+  let x4 := Sub (Var "qc") (Mul x2 (Var "wc")) in
+  let x5 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x4)))
+    (Mul (Sub (Var "qa") (Mul x2 (Var "wa"))) (Sub (Mul (Var "wb") x5) (Mul x6 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x6 x4) (Mul x3 x5))).
+
+(** edge_functions.set_up, perspective: T error *)
+Definition set_up_perspective_T_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Var "weight") x3 in
+  let x7 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x6 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x5) (Add (Mul (Mul (Num 1 1) x4)
+    x7) (Mul x5 x6))) (Mul (Mul (Mul (Num 25 (-52)) x5) x5) x7))) (Num 1 (-1000)).
+
+(** edge_functions.set_up, perspective: path *)
+Definition set_up_perspective_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Not (Not (Less (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1) x11)))
+    (Num 1 1000)))) (Not (Not (And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul
+    (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52))
+    x11) x11) x13))) (Num 1 (-1000))) x14) (Finite x14)))).
+
+(** edge_functions.set_up, parallel rays: bc 1 *)
+Definition set_up_parallel_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  Mul x7 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x5 (Var "wc"))
+    (Mul (Var "wb") x4))) (Mul (Sub (Var "qa") (Mul x3 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x2
+    (Var "wc"))))) (Mul (Var "wa") x7)) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: bc y *)
+Definition set_up_parallel_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x6 (Var "wc"))
+    (Mul (Var "wb") x7))) (Mul (Sub (Var "qa") (Mul x5 (Var "wa"))) x4)) (Mul (Var "wa") (Sub (Mul
+    x3 x7) (Mul x6 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: bc x *)
+Definition set_up_parallel_bc_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul (Sub (Var "qa")
+    (Mul x1 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul
+    x7 x3) (Mul x2 x6)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: ca 1 *)
+Definition set_up_parallel_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x6 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x5))) (Mul x4 (Sub (Mul (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x8 x5) (Mul x7 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: ca y *)
+Definition set_up_parallel_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x6) (Mul x5 x3)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: ca x *)
+Definition set_up_parallel_ca_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x2) (Mul x5 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: ab 1 *)
+Definition set_up_parallel_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x5 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x8 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x4 (Var "wc")) (Mul
+    (Var "wb") x7))) (Mul x5 (Sub (Mul (Var "wb") x8) (Mul x6 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x6 x7) (Mul x4 x8)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: ab y *)
+Definition set_up_parallel_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul (Var "wa") x2) (Mul x3 (Var "wb"))) (Where (Less (Add (Add (Mul x3 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x7) (Mul x2 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x2 x6) (Mul x5 x7)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: ab x *)
+Definition set_up_parallel_ab_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wb")) (Mul (Var "wa") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x5))) (Mul x2 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x5) (Mul x3 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays: nearness 1 *)
+Definition set_up_parallel_nearness_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x9 := Add (Add (Mul x6 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x5))) (Mul x4 (Sub (Mul
+    (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x8 x5) (Mul x7 x2))) in
+  let x10 := Where (Less x9 (Num 0 0)) (Num (-1) 0) (Num 1 0) in
+  Sub (Div (Add (Mul (Mul (Sub (Mul x2 x4) (Mul x5 x6)) x10) (Sub (Var "tb") (Var "ta"))) (Mul (Mul
+    (Sub (Mul x6 x7) (Mul x4 x8)) x10) (Sub (Var "tc") (Var "ta")))) (Neg (Abs x9))) (Var "ta").
+
+(** edge_functions.set_up, parallel rays: nearness y *)
+Definition set_up_parallel_nearness_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x8 := Add (Add (Mul x2 (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa")
+    (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb") x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul
+    x7 x6) (Mul x5 x3))) in
+  let x9 := Where (Less x8 (Num 0 0)) (Num (-1) 0) (Num 1 0) in
+  Div (Add (Mul (Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) x9) (Sub (Var "tb") (Var "ta")))
+    (Mul (Mul (Sub (Mul (Var "wa") x7) (Mul x2 (Var "wb"))) x9) (Sub (Var "tc") (Var "ta")))) (Neg
+    (Abs x8)).
+
+(** edge_functions.set_up, parallel rays: nearness x *)
+Definition set_up_parallel_nearness_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  let x8 := Add (Add (Mul (Sub (Var "pa") (Mul x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul
+    (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x7 x2) (Mul x5 x6))) in
+  let x9 := Where (Less x8 (Num 0 0)) (Num (-1) 0) (Num 1 0) in
+  Div (Add (Mul (Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) x9) (Sub (Var "tb") (Var "ta")))
+    (Mul (Mul (Sub (Mul x3 (Var "wb")) (Mul (Var "wa") x5)) x9) (Sub (Var "tc") (Var "ta")))) (Neg
+    (Abs x8)).
+
+(** edge_functions.set_up, parallel rays: edge error *)
+Definition set_up_parallel_edge_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Add (Var "y0") (Num 1 (-1)) in
+  let x8 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x6 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x6 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x6 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x7 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x7 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x7 (Var "wc"))))) x3 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3 x5) (Mul x8 x4))) (Mul (Mul
+    (Num 1 2) x8) x3)) (Mul (Num 1 (-50)) (Mul x8 (Add (Mul x1 x5) (Mul (Num 1 1) x8))))))
+    (Num 1 (-1000)).
+
+(** edge_functions.set_up, parallel rays: sure *)
+Definition set_up_parallel_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14).
+
+(** edge_functions.set_up, parallel rays: nearness error *)
+Definition set_up_parallel_nearness_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Sub (Var "pa") (Mul x6 (Var "wa")) in
+  let x8 := Sub (Var "pb") (Mul x6 (Var "wb")) in
+  let x9 := Sub (Var "pc") (Mul x6 (Var "wc")) in
+  let x10 := Add (Var "y0") (Num 1 (-1)) in
+  let x11 := Sub (Var "qa") (Mul x10 (Var "wa")) in
+  let x12 := Sub (Var "qb") (Mul x10 (Var "wb")) in
+  let x13 := Sub (Var "qc") (Mul x10 (Var "wc")) in
+  let x14 := Add (Max (Max (Max (Max (Max (Abs x7) (Abs x8)) (Abs x9)) (Abs x11)) (Abs x12)) (Abs
+    x13)) x3 in
+  let x15 := Mul x14 x4 in
+  let x16 := Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x14) (Add (Mul (Mul
+    (Num 1 1) x3) x5) x15)) (Mul (Mul (Mul (Num 25 (-52)) x14) x14) x5))) (Num 1 (-1000)) in
+  let x17 := Add (Var "d0") (Mul (Var "d1") x2) in
+  Mul (Add (Mul (Div (Mul (Num 3 1) (Add (Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1
+    (Add (Mul x3 x5) x15)) (Mul (Mul (Num 1 2) x14) x3)) (Mul (Num 1 (-50)) (Mul x14 (Add (Mul x1
+    x5) (Mul (Num 1 1) x14)))))) (Num 1 (-1000))) x16)) (Sub (Abs (Add (Add (Mul x7 (Sub (Mul x12
+    (Var "wc")) (Mul (Var "wb") x13))) (Mul x11 (Sub (Mul (Var "wb") x9) (Mul x8 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x8 x13) (Mul x12 x9))))) x16)) (Add (Max (Abs (Sub (Var "tb") (Var "ta")))
+    (Abs (Sub (Var "tc") (Var "ta")))) (Mul (Num 1 1) x17))) (Mul (Num 1 2) x17))
+    (Num 4548635623644201 (-52)).
+
+(** edge_functions.set_up, parallel rays: T *)
+Definition set_up_parallel_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Sub (Var "qb") (Mul x2 (Var "wb")) in
+  let x4 := Sub (Var "qc") (Mul x2 (Var "wc")) in
+  let x5 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x4)))
+    (Mul (Sub (Var "qa") (Mul x2 (Var "wa"))) (Sub (Mul (Var "wb") x5) (Mul x6 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x6 x4) (Mul x3 x5))).
+
+(** edge_functions.set_up, parallel rays: T error *)
+Definition set_up_parallel_T_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Var "weight") x3 in
+  let x7 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x6 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x5) (Add (Mul (Mul (Num 1 1) x4)
+    x7) (Mul x5 x6))) (Mul (Mul (Mul (Num 25 (-52)) x5) x5) x7))) (Num 1 (-1000)).
+
+(** edge_functions.set_up, parallel rays: path *)
+Definition set_up_parallel_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Not (Not (Less (Mul (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1)
+    x11))) (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000)))) (Not
+    (Not (And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul
+    (Mul (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14)))).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: bc 1 *)
+Definition set_up_edge_on_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  Mul x7 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x5 (Var "wc"))
+    (Mul (Var "wb") x4))) (Mul (Sub (Var "qa") (Mul x3 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x2
+    (Var "wc"))))) (Mul (Var "wa") x7)) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: bc y *)
+Definition set_up_edge_on_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x6 (Var "wc"))
+    (Mul (Var "wb") x7))) (Mul (Sub (Var "qa") (Mul x5 (Var "wa"))) x4)) (Mul (Var "wa") (Sub (Mul
+    x3 x7) (Mul x6 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: bc x *)
+Definition set_up_edge_on_bc_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul (Sub (Var "qa")
+    (Mul x1 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul
+    x7 x3) (Mul x2 x6)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: ca 1 *)
+Definition set_up_edge_on_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x6 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x5))) (Mul x4 (Sub (Mul (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x8 x5) (Mul x7 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: ca y *)
+Definition set_up_edge_on_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x6) (Mul x5 x3)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: ca x *)
+Definition set_up_edge_on_ca_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x2) (Mul x5 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: ab 1 *)
+Definition set_up_edge_on_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x5 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x8 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x4 (Var "wc")) (Mul
+    (Var "wb") x7))) (Mul x5 (Sub (Mul (Var "wb") x8) (Mul x6 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x6 x7) (Mul x4 x8)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: ab y *)
+Definition set_up_edge_on_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul (Var "wa") x2) (Mul x3 (Var "wb"))) (Where (Less (Add (Add (Mul x3 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x7) (Mul x2 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x2 x6) (Mul x5 x7)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: ab x *)
+Definition set_up_edge_on_ab_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wb")) (Mul (Var "wa") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x5))) (Mul x2 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x5) (Mul x3 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: nearness 1 *)
+Definition set_up_edge_on_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: nearness y *)
+Definition set_up_edge_on_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: nearness x *)
+Definition set_up_edge_on_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: edge error *)
+Definition set_up_edge_on_edge_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Add (Var "y0") (Num 1 (-1)) in
+  let x8 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x6 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x6 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x6 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x7 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x7 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x7 (Var "wc"))))) x3 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3 x5) (Mul x8 x4))) (Mul (Mul
+    (Num 1 2) x8) x3)) (Mul (Num 1 (-50)) (Mul x8 (Add (Mul x1 x5) (Mul (Num 1 1) x8))))))
+    (Num 1 (-1000)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: sure *)
+Definition set_up_edge_on_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: nearness error *)
+Definition set_up_edge_on_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other bc 1 *)
+Definition set_up_edge_on_other_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  Mul (Mul x7 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x4))) (Mul (Sub (Var "qa") (Mul x3 (Var "wa"))) (Sub (Mul (Var "wb")
+    x6) (Mul x2 (Var "wc"))))) (Mul (Var "wa") x7)) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other bc y *)
+Definition set_up_edge_on_other_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  Mul (Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x6
+    (Var "wc")) (Mul (Var "wb") x7))) (Mul (Sub (Var "qa") (Mul x5 (Var "wa"))) x4)) (Mul (Var "wa")
+    (Sub (Mul x3 x7) (Mul x6 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other bc x *)
+Definition set_up_edge_on_other_bc_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  Mul (Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul (Sub
+    (Var "qa") (Mul x1 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa")
+    (Sub (Mul x7 x3) (Mul x2 x6)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other ca 1 *)
+Definition set_up_edge_on_other_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x6 (Sub (Mul x7 (Var "wc"))
+    (Mul (Var "wb") x5))) (Mul x4 (Sub (Mul (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa")
+    (Sub (Mul x8 x5) (Mul x7 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other ca y *)
+Definition set_up_edge_on_other_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x6) (Mul x5 x3)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other ca x *)
+Definition set_up_edge_on_other_ca_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa")
+    (Mul x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb")
+    x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x2) (Mul x5 x6)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other ab 1 *)
+Definition set_up_edge_on_other_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x5 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x8 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x4 (Var "wc"))
+    (Mul (Var "wb") x7))) (Mul x5 (Sub (Mul (Var "wb") x8) (Mul x6 (Var "wc"))))) (Mul (Var "wa")
+    (Sub (Mul x6 x7) (Mul x4 x8)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other ab y *)
+Definition set_up_edge_on_other_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Mul (Sub (Mul (Var "wa") x2) (Mul x3 (Var "wb"))) (Where (Less (Add (Add (Mul x3 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x7) (Mul x2 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x2 x6) (Mul x5 x7)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other ab x *)
+Definition set_up_edge_on_other_ab_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Mul (Sub (Mul x2 (Var "wb")) (Mul (Var "wa") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa")
+    (Mul x4 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x5))) (Mul x2 (Sub (Mul (Var "wb")
+    x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x5) (Mul x3 x6)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other nearness 1 *)
+Definition set_up_edge_on_other_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other nearness y *)
+Definition set_up_edge_on_other_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other nearness x *)
+Definition set_up_edge_on_other_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other edge error *)
+Definition set_up_edge_on_other_edge_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Add (Var "y0") (Num 1 (-1)) in
+  let x8 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x6 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x6 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x6 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x7 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x7 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x7 (Var "wc"))))) x3 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3 x5) (Mul x8 x4))) (Mul (Mul
+    (Num 1 2) x8) x3)) (Mul (Num 1 (-50)) (Mul x8 (Add (Mul x1 x5) (Mul (Num 1 1) x8))))))
+    (Num 1 (-1000)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other sure *)
+Definition set_up_edge_on_other_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: other nearness error *)
+Definition set_up_edge_on_other_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: T *)
+Definition set_up_edge_on_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Sub (Var "qb") (Mul x2 (Var "wb")) in
+  let x4 := Sub (Var "qc") (Mul x2 (Var "wc")) in
+  let x5 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x4)))
+    (Mul (Sub (Var "qa") (Mul x2 (Var "wa"))) (Sub (Mul (Var "wb") x5) (Mul x6 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x6 x4) (Mul x3 x5))).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: T error *)
+Definition set_up_edge_on_T_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Var "weight") x3 in
+  let x7 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x6 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x5) (Add (Mul (Mul (Num 1 1) x4)
+    x7) (Mul x5 x6))) (Mul (Mul (Mul (Num 25 (-52)) x5) x5) x7))) (Num 1 (-1000)).
+
+(** edge_functions.set_up, perspective, where the sign of T is not known: path *)
+Definition set_up_edge_on_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Not (Not (Less (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1) x11)))
+    (Num 1 1000)))) (Not (And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1)
+    x11) (Add (Mul (Mul (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11)
+    x13))) (Num 1 (-1000))) x14) (Finite x14))).
+
+(** rasterise._block: edge *)
+Definition block_edge : expr :=
+  let x1 := Add (Add (Var "y") (Sub (Var "region_y") (Var "origin_y"))) (Num 0 0) in
+  let x2 := Add (Add (Var "x") (Sub (Var "region_x") (Var "origin_x"))) (Num 0 0) in
+  Min (Min (Add (Add (Var "bc_1") (Mul (Var "bc_y") x1)) (Mul (Var "bc_x") x2)) (Add (Add
+    (Var "ca_1") (Mul (Var "ca_y") x1)) (Mul (Var "ca_x") x2))) (Add (Add (Var "ab_1") (Mul
+    (Var "ab_y") x1)) (Mul (Var "ab_x") x2)).
+
+(** rasterise._block: inside *)
+Definition block_inside : test :=
+  let x1 := Add (Add (Var "y") (Sub (Var "region_y") (Var "origin_y"))) (Num 0 0) in
+  let x2 := Add (Add (Var "x") (Sub (Var "region_x") (Var "origin_x"))) (Num 0 0) in
+  LessEq (Neg (Var "edge_error")) (Min (Min (Add (Add (Var "bc_1") (Mul (Var "bc_y") x1)) (Mul
+    (Var "bc_x") x2)) (Add (Add (Var "ca_1") (Mul (Var "ca_y") x1)) (Mul (Var "ca_x") x2))) (Add
+    (Add (Var "ab_1") (Mul (Var "ab_y") x1)) (Mul (Var "ab_x") x2))).
+
+(** rasterise._block: least *)
+Definition block_least : expr :=
+  Sub (Add (Add (Var "nearness_1") (Mul (Var "nearness_y") (Add (Add (Var "y") (Sub (Var "region_y")
+    (Var "origin_y"))) (Num 0 0)))) (Mul (Var "nearness_x") (Add (Add (Var "x") (Sub
+    (Var "region_x") (Var "origin_x"))) (Num 0 0)))) (Var "nearness_error").
+
+(** rasterise._block: most *)
+Definition block_most : expr :=
+  Min (Add (Add (Add (Var "nearness_1") (Mul (Var "nearness_y") (Add (Add (Var "y") (Sub
+    (Var "region_y") (Var "origin_y"))) (Num 0 0)))) (Mul (Var "nearness_x") (Add (Add (Var "x")
+    (Sub (Var "region_x") (Var "origin_x"))) (Num 0 0)))) (Var "nearness_error")) (Var "nearest").
+
+(** rasterise._block: sure *)
+Definition block_sure : test :=
+  let x1 := Add (Add (Var "y") (Sub (Var "region_y") (Var "origin_y"))) (Num 0 0) in
+  let x2 := Add (Add (Var "x") (Sub (Var "region_x") (Var "origin_x"))) (Num 0 0) in
+  And (Less (Var "edge_error") (Min (Min (Add (Add (Var "bc_1") (Mul (Var "bc_y") x1)) (Mul
+    (Var "bc_x") x2)) (Add (Add (Var "ca_1") (Mul (Var "ca_y") x1)) (Mul (Var "ca_x") x2))) (Add
+    (Add (Var "ab_1") (Mul (Var "ab_y") x1)) (Mul (Var "ab_x") x2)))) (Given "sure").
+
+(** rasterise._may_be_seen *)
+Definition may_be_seen : test :=
+  let x1 := Add (Var "y") (Sub (Var "region_y") (Var "origin_y")) in
+  let x2 := Add x1 (Sub (Var "y_end") (Var "y")) in
+  let x3 := Add (Var "x") (Sub (Var "region_x") (Var "origin_x")) in
+  let x4 := Add x3 (Sub (Var "x_end") (Var "x")) in
+  Not (Or (Less (Min (Min (Add (Add (Var "bc_1") (Mul (Var "bc_y") (Where (Less (Num 0 0)
+    (Var "bc_y")) x2 x1))) (Mul (Var "bc_x") (Where (Less (Num 0 0) (Var "bc_x")) x4 x3))) (Add (Add
+    (Var "ca_1") (Mul (Var "ca_y") (Where (Less (Num 0 0) (Var "ca_y")) x2 x1))) (Mul (Var "ca_x")
+    (Where (Less (Num 0 0) (Var "ca_x")) x4 x3)))) (Add (Add (Var "ab_1") (Mul (Var "ab_y") (Where
+    (Less (Num 0 0) (Var "ab_y")) x2 x1))) (Mul (Var "ab_x") (Where (Less (Num 0 0) (Var "ab_x")) x4
+    x3)))) (Neg (Var "edge_error"))) (Less (Add (Add (Add (Var "nearness_1") (Mul (Var "nearness_y")
+    (Where (Less (Num 0 0) (Var "nearness_y")) x2 x1))) (Mul (Var "nearness_x") (Where (Less
+    (Num 0 0) (Var "nearness_x")) x4 x3))) (Var "nearness_error")) (Var "farthest"))).
+
+(** small_boxes.small_pairs: T *)
+Definition small_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Var "ya") x3 in
+  let x8 := Sub (Var "xa") x1 in
+  Add (Add (Sub (Mul x2 x4) (Mul x5 x6)) (Sub (Mul x6 x7) (Mul x4 x8))) (Sub (Mul x8 x5) (Mul x7
+    x2)).
+
+(** small_boxes.small_pairs: edge *)
+Definition small_edge : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "ya") x3 in
+  let x9 := Sub (Var "xa") x1 in
+  let x10 := Sub (Mul x6 x8) (Mul x4 x9) in
+  let x11 := Sub (Mul x9 x5) (Mul x8 x2) in
+  let x12 := CopySign (Num 1 0) (Add (Add x7 x10) x11) in
+  Min (Min (Add (Add (Mul x7 x12) (Mul (Mul (Sub x6 x2) x12) (Var "up"))) (Mul (Mul (Sub x5 x4) x12)
+    (Var "right"))) (Add (Add (Mul x10 x12) (Mul (Mul (Sub x9 x6) x12) (Var "up"))) (Mul (Mul (Sub
+    x4 x8) x12) (Var "right")))) (Add (Add (Mul x11 x12) (Mul (Mul (Sub x2 x9) x12) (Var "up")))
+    (Mul (Mul (Sub x8 x5) x12) (Var "right"))).
+
+(** small_boxes.small_pairs: inside *)
+Definition small_inside : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "ya") x3 in
+  let x9 := Sub (Var "xa") x1 in
+  let x10 := Sub (Mul x6 x8) (Mul x4 x9) in
+  let x11 := Sub (Mul x9 x5) (Mul x8 x2) in
+  let x12 := CopySign (Num 1 0) (Add (Add x7 x10) x11) in
+  LessEq (Num (-2345391125639987) (-69)) (Min (Min (Add (Add (Mul x7 x12) (Mul (Mul (Sub x6 x2) x12)
+    (Var "up"))) (Mul (Mul (Sub x5 x4) x12) (Var "right"))) (Add (Add (Mul x10 x12) (Mul (Mul (Sub
+    x9 x6) x12) (Var "up"))) (Mul (Mul (Sub x4 x8) x12) (Var "right")))) (Add (Add (Mul x11 x12)
+    (Mul (Mul (Sub x2 x9) x12) (Var "up"))) (Mul (Mul (Sub x8 x5) x12) (Var "right")))).
+
+(** small_boxes.small_pairs: least *)
+Definition small_least : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xc") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "ya") x3 in
+  let x5 := Sub (Var "yc") x3 in
+  let x6 := Sub (Var "xa") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "xb") x1 in
+  let x9 := Sub (Var "yb") x3 in
+  let x10 := Sub (Mul x6 x9) (Mul x4 x8) in
+  let x11 := Add (Add (Sub (Mul x8 x5) (Mul x9 x2)) x7) x10 in
+  let x12 := CopySign (Num 1 0) x11 in
+  let x13 := Sub (Var "nb") (Var "na") in
+  let x14 := Div (Num 1 0) (Max (Abs x11) (Num 7249389938113249 (-69))) in
+  let x15 := Sub (Var "nc") (Var "na") in
+  Sub (Add (Add (Mul (Add (Add (Mul x7 x12) (Mul (Mul (Sub x6 x2) x12) (Var "up"))) (Mul (Mul (Sub
+    x5 x4) x12) (Var "right"))) (Mul x13 x14)) (Mul (Add (Add (Mul x10 x12) (Mul (Mul (Sub x8 x6)
+    x12) (Var "up"))) (Mul (Mul (Sub x4 x9) x12) (Var "right"))) (Mul x15 x14))) (Var "na")) (Add
+    (Mul (Mul (Max (Abs x13) (Abs x15)) x14) (Num 1130585054183171 (-63))) (Mul
+    (Num 6756061982938979 (-48)) (Var "own"))).
+
+(** small_boxes.small_pairs: most *)
+Definition small_most : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xc") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "ya") x3 in
+  let x5 := Sub (Var "yc") x3 in
+  let x6 := Sub (Var "xa") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "xb") x1 in
+  let x9 := Sub (Var "yb") x3 in
+  let x10 := Sub (Mul x6 x9) (Mul x4 x8) in
+  let x11 := Add (Add (Sub (Mul x8 x5) (Mul x9 x2)) x7) x10 in
+  let x12 := CopySign (Num 1 0) x11 in
+  let x13 := Sub (Var "nb") (Var "na") in
+  let x14 := Div (Num 1 0) (Max (Abs x11) (Num 7249389938113249 (-69))) in
+  let x15 := Sub (Var "nc") (Var "na") in
+  Add (Add (Add (Mul (Add (Add (Mul x7 x12) (Mul (Mul (Sub x6 x2) x12) (Var "up"))) (Mul (Mul (Sub
+    x5 x4) x12) (Var "right"))) (Mul x13 x14)) (Mul (Add (Add (Mul x10 x12) (Mul (Mul (Sub x8 x6)
+    x12) (Var "up"))) (Mul (Mul (Sub x4 x9) x12) (Var "right"))) (Mul x15 x14))) (Var "na")) (Add
+    (Mul (Mul (Max (Abs x13) (Abs x15)) x14) (Num 1130585054183171 (-63))) (Mul
+    (Num 6756061982938979 (-48)) (Var "own"))).
+
+(** small_boxes.small_pairs: sure *)
+Definition small_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "ya") x3 in
+  let x9 := Sub (Var "xa") x1 in
+  let x10 := Sub (Mul x6 x8) (Mul x4 x9) in
+  let x11 := Sub (Mul x9 x5) (Mul x8 x2) in
+  let x12 := CopySign (Num 1 0) (Add (Add x7 x10) x11) in
+  Less (Num 2345391125639987 (-69)) (Min (Min (Add (Add (Mul x7 x12) (Mul (Mul (Sub x6 x2) x12)
+    (Var "up"))) (Mul (Mul (Sub x5 x4) x12) (Var "right"))) (Add (Add (Mul x10 x12) (Mul (Mul (Sub
+    x9 x6) x12) (Var "up"))) (Mul (Mul (Sub x4 x8) x12) (Var "right")))) (Add (Add (Mul x11 x12)
+    (Mul (Mul (Sub x2 x9) x12) (Var "up"))) (Mul (Mul (Sub x8 x5) x12) (Var "right")))).
+
+(** small_boxes.small_pairs: path *)
+Definition small_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Var "ya") x3 in
+  let x8 := Sub (Var "xa") x1 in
+  Not (LessEq (Abs (Add (Add (Sub (Mul x2 x4) (Mul x5 x6)) (Sub (Mul x6 x7) (Mul x4 x8))) (Sub (Mul
+    x8 x5) (Mul x7 x2)))) (Num 7249389938113249 (-69))).
+
+(** small_boxes.small_pairs, a box of one pixel: T *)
+Definition small_one_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Var "ya") x3 in
+  let x8 := Sub (Var "xa") x1 in
+  Add (Add (Sub (Mul x2 x4) (Mul x5 x6)) (Sub (Mul x6 x7) (Mul x4 x8))) (Sub (Mul x8 x5) (Mul x7
+    x2)).
+
+(** small_boxes.small_pairs, a box of one pixel: edge *)
+Definition small_one_edge : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "ya") x3 in
+  let x9 := Sub (Var "xa") x1 in
+  let x10 := Sub (Mul x6 x8) (Mul x4 x9) in
+  let x11 := Sub (Mul x9 x5) (Mul x8 x2) in
+  let x12 := CopySign (Num 1 0) (Add (Add x7 x10) x11) in
+  Min (Min (Mul x7 x12) (Mul x10 x12)) (Mul x11 x12).
+
+(** small_boxes.small_pairs, a box of one pixel: inside *)
+Definition small_one_inside : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "ya") x3 in
+  let x9 := Sub (Var "xa") x1 in
+  let x10 := Sub (Mul x6 x8) (Mul x4 x9) in
+  let x11 := Sub (Mul x9 x5) (Mul x8 x2) in
+  let x12 := CopySign (Num 1 0) (Add (Add x7 x10) x11) in
+  LessEq (Num (-2345391125639987) (-69)) (Min (Min (Mul x7 x12) (Mul x10 x12)) (Mul x11 x12)).
+
+(** small_boxes.small_pairs, a box of one pixel: least *)
+Definition small_one_least : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xc") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "ya") x3 in
+  let x5 := Sub (Var "yc") x3 in
+  let x6 := Sub (Var "xa") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "xb") x1 in
+  let x9 := Sub (Var "yb") x3 in
+  let x10 := Sub (Mul x6 x9) (Mul x4 x8) in
+  let x11 := Add (Add (Sub (Mul x8 x5) (Mul x9 x2)) x7) x10 in
+  let x12 := CopySign (Num 1 0) x11 in
+  let x13 := Sub (Var "nb") (Var "na") in
+  let x14 := Div (Num 1 0) (Max (Abs x11) (Num 7249389938113249 (-69))) in
+  let x15 := Sub (Var "nc") (Var "na") in
+  Sub (Add (Add (Mul (Mul x7 x12) (Mul x13 x14)) (Mul (Mul x10 x12) (Mul x15 x14))) (Var "na")) (Add
+    (Mul (Mul (Max (Abs x13) (Abs x15)) x14) (Num 1130585054183171 (-63))) (Mul
+    (Num 6756061982938979 (-48)) (Var "own"))).
+
+(** small_boxes.small_pairs, a box of one pixel: most *)
+Definition small_one_most : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xc") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "ya") x3 in
+  let x5 := Sub (Var "yc") x3 in
+  let x6 := Sub (Var "xa") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "xb") x1 in
+  let x9 := Sub (Var "yb") x3 in
+  let x10 := Sub (Mul x6 x9) (Mul x4 x8) in
+  let x11 := Add (Add (Sub (Mul x8 x5) (Mul x9 x2)) x7) x10 in
+  let x12 := CopySign (Num 1 0) x11 in
+  let x13 := Sub (Var "nb") (Var "na") in
+  let x14 := Div (Num 1 0) (Max (Abs x11) (Num 7249389938113249 (-69))) in
+  let x15 := Sub (Var "nc") (Var "na") in
+  Add (Add (Add (Mul (Mul x7 x12) (Mul x13 x14)) (Mul (Mul x10 x12) (Mul x15 x14))) (Var "na")) (Add
+    (Mul (Mul (Max (Abs x13) (Abs x15)) x14) (Num 1130585054183171 (-63))) (Mul
+    (Num 6756061982938979 (-48)) (Var "own"))).
+
+(** small_boxes.small_pairs, a box of one pixel: sure *)
+Definition small_one_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Sub (Var "ya") x3 in
+  let x9 := Sub (Var "xa") x1 in
+  let x10 := Sub (Mul x6 x8) (Mul x4 x9) in
+  let x11 := Sub (Mul x9 x5) (Mul x8 x2) in
+  let x12 := CopySign (Num 1 0) (Add (Add x7 x10) x11) in
+  Less (Num 2345391125639987 (-69)) (Min (Min (Mul x7 x12) (Mul x10 x12)) (Mul x11 x12)).
+
+(** small_boxes.small_pairs, a box of one pixel: path *)
+Definition small_one_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "xb") x1 in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "yc") x3 in
+  let x5 := Sub (Var "yb") x3 in
+  let x6 := Sub (Var "xc") x1 in
+  let x7 := Sub (Var "ya") x3 in
+  let x8 := Sub (Var "xa") x1 in
+  Not (LessEq (Abs (Add (Add (Sub (Mul x2 x4) (Mul x5 x6)) (Sub (Mul x6 x7) (Mul x4 x8))) (Sub (Mul
+    x8 x5) (Mul x7 x2)))) (Num 7249389938113249 (-69))).
+
+(** depth_buffer.ClipRange, perspective: inside *)
+Definition clip_perspective_inside : test :=
+  And (Less (Div (Num 2251799813685249 (-51)) (Var "end")) (Var "least")) (Less (Var "most") (Div
+    (Num 2251799813685247 (-51)) (Max (Var "start") (Num 0 0)))).
+
+(** depth_buffer.ClipRange, perspective: outside *)
+Definition clip_perspective_outside : test :=
+  Or (Less (Var "most") (Div (Num 2251799813685247 (-51)) (Var "end"))) (Less (Div
+    (Num 2251799813685249 (-51)) (Max (Var "start") (Num 0 0))) (Var "least")).
+
+(** depth_buffer.ClipRange, orthographic: inside *)
+Definition clip_parallel_inside : test :=
+  And (Less (Neg (Var "end")) (Var "least")) (Less (Var "most") (Where (Finite (Var "end")) (Neg
+    (Var "start")) Inf)).
+
+(** depth_buffer.ClipRange, orthographic: outside *)
+Definition clip_parallel_outside : test :=
+  Or (Less (Var "most") (Neg (Var "end"))) (Less (Where (Finite (Var "end")) (Neg (Var "start"))
+    Inf) (Var "least")).
+
+(** sweep.Sweep.enter_planes, perspective: least *)
+Definition plane_pixel_perspective_least : expr :=
+  Div (Num 2251799813685247 (-51)) (Var "high").
+
+(** sweep.Sweep.enter_planes, perspective: most *)
+Definition plane_pixel_perspective_most : expr :=
+  Div (Num 2251799813685249 (-51)) (Max (Var "low") (Num 0 0)).
+
+(** sweep.Sweep.enter_planes, perspective: sure *)
+Definition plane_pixel_perspective_sure : test :=
+  Finite (Var "high").
+
+(** sweep.Sweep.enter_planes, orthographic: least *)
+Definition plane_pixel_parallel_least : expr :=
+  Neg (Var "high").
+
+(** sweep.Sweep.enter_planes, orthographic: most *)
+Definition plane_pixel_parallel_most : expr :=
+  Where (Finite (Var "high")) (Neg (Var "low")) Inf.
+
+(** sweep.Sweep.enter_planes, orthographic: sure *)
+Definition plane_pixel_parallel_sure : test :=
+  Finite (Var "high").
+
+(** depth_buffer.DepthBuffer.enter: nearer *)
+Definition enter_nearer : test :=
+  Less (Var "winner_least") (Var "least").
+
+(** depth_buffer.DepthBuffer.enter: winner may be nearer *)
+Definition enter_winner_may_be_nearer : test :=
+  Not (Less (Var "winner_most") (Var "least")).
+
+(** depth_buffer.DepthBuffer.enter: nearness *)
+Definition enter_nearness : expr :=
+  Var "least".

@@ -74,8 +74,9 @@ class Recorded(NDArrayOperatorsMixin):
         if isinstance(parts[-1], Recorded):  # a mask: where it holds, the value; else as it was
             mask, target = parts[-1], self[(*parts[:-1], slice(None))]
             value = lift(value)
-            if value.size != 1 or mask.dtype != bool:
-                raise RefusedError("only one value can be assigned where a recorded mask holds")
+            if value.size != 1:  # as many as there are places: those of the path that is taken
+                self[(*parts[:-1], mask.nonzero()[0])] = value
+                return
             old = paired(target.values.copy(), target.nodes.copy())
             target[...] = where(mask, value, old)
             return

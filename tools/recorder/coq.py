@@ -82,7 +82,9 @@ def _wrapped(line: str) -> list[str]:
     return [line.replace(_JOINED, " ") for line in lines]
 
 
-_DEFINITION = re.compile(r"^\(\*\* ((?:(?!\*\)).)*) \*\)\nDefinition (\w+) : (\w+) :=\n(.*?)\.$", re.S | re.M)
+_DEFINITION = re.compile(
+    r"^\(\*\* ((?:(?!\*\)).)*) \*\)\nDefinition (\w+) : (\w+) :=\n(.*?)\.$", re.S | re.M
+)
 
 
 def differences(committed: str, outputs: Sequence[Output]) -> list[str]:

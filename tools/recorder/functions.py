@@ -13,6 +13,7 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import Choices, Recorded, apply, choices, holds, lift, paired, where
 from .nodes import RefusedError, number, truth
@@ -59,9 +60,11 @@ class Numpy:
 _MADE = frozenset({"empty", "zeros", "ones", "full", "empty_like", "zeros_like", "ones_like"})
 
 
-def _made(function: Callable, *args, **options) -> Recorded:
+def _made(function: Callable, *args, **options) -> Recorded | NDArray:
     args = tuple(v.values if isinstance(v, Recorded) else v for v in args)
     values = function(*args, **options)
+    if np.issubdtype(values.dtype, np.integer) and "empty" not in function.__name__:
+        return values  # to count with; of integers, only what is computed last is recorded
     if "empty" in function.__name__:  # what is read before it is written shows
         values.fill(False if values.dtype == bool else 0)
     leaf = truth if values.dtype == bool else number

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
+from unittest import mock
 
 import numpy as np
 
@@ -48,9 +49,12 @@ class Inputs:
         """Return the test by which the function picked, as one of its results."""
         if self._choices is None:
             return None
-        self.named.add(number)
         test, value = self._choices[number]
+        self.named.add(test)
         return lift(value)._each(lambda v: test if v.dtype == object else v)
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._values
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,7 @@ def outputs(record: Record) -> list[Output]:
     with recording() as choices, np.errstate(all="ignore"):
         inputs = Inputs(record.values, choices)
         kept = dict(record.call(inputs))
-        asked = [c for k, c in enumerate(choices) if k not in inputs.named]
+        asked = [(test, value) for test, value in choices if test not in inputs.named]
     found = [
         Output(name, single(value), _words(record, name), record.theorems.get(name, ""))
         for name, value in kept.items()
@@ -92,9 +96,7 @@ def outputs(record: Record) -> list[Output]:
     if asked:
         path = every(dict.fromkeys(t if value else node("Not", t) for t, value in asked))
         name = f"{record.name}_path"
-        found.append(
-            Output(name, path, f"{record.function}: the path", record.theorems.get(name, ""))
-        )
+        found.append(Output(name, path, _words(record, name), record.theorems.get(name, "")))
     return found
 
 
@@ -108,6 +110,23 @@ def single(value: Recorded) -> Node:
     if not isinstance(value, Recorded) or value.size != 1:
         raise TypeError(f"not one recorded number: {value}")
     return value.nodes.reshape(-1)[0]
+
+
+class _Other:
+    """numpy as a module has it, some names replaced."""
+
+    def __init__(self, module: Any, replaced: Mapping[str, Any]) -> None:
+        self._module, self._replaced = module, replaced
+
+    def __getattr__(self, name: str) -> Any:
+        return self._replaced[name] if name in self._replaced else getattr(self._module, name)
+
+
+@contextmanager
+def numpy_with(module: Any, **replaced: Any) -> Iterator[None]:
+    """Let a module have other functions of numpy: what is made there becomes a variable."""
+    with mock.patch.object(module, "np", _Other(module.np, replaced)):
+        yield
 
 
 @contextmanager

@@ -1,5 +1,5 @@
 """All records, in the order of `proofs/Recorded.v`."""
 
-from . import bounds, deciding
+from . import bounds, deciding, edges, pixels
 
-RECORDS = (*bounds.RECORDS, *deciding.RECORDS)
+RECORDS = (*bounds.RECORDS, *deciding.RECORDS, *edges.RECORDS, *pixels.RECORDS)

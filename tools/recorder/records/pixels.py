@@ -1,0 +1,195 @@
+"""`sweep/`: what is asked at a pixel, and in a box of pixels, of triangles and planes.
+
+Numbers of pixels are integers, without rounding. Which of them a box has is no matter of floats.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
+from reference_tracer.scene import Region
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.certified.sweep import rasterise, small_boxes, sweep
+from reference_tracer.tracer.certified.sweep.depth_buffer import ROUNDING, ClipRange, DepthBuffer
+from reference_tracer.tracer.certified.sweep.rasterise import Boxes
+
+from . import edges
+from .bounds import FIRST
+from .record import Inputs, Kept, Record, locals_of, numpy_with
+
+_SMALL = dict(
+    **dict(xa=5.25, xb=9.5, xc=6.0, ya=7.5, yb=8.25, yc=12.5, x0=5.0, y0=7.0),
+    **dict(na=0.5, nb=0.25, nc=0.375, own=1e-9, up=2.0, right=1.0),
+)
+
+
+class _Extent:
+    """The upper end of a box of one pixel: one pixel's, wherever the lower is."""
+
+    def __sub__(self, _):
+        return np.zeros((2, 1), np.int32)
+
+
+def _block(v: Inputs) -> Kept:
+    depths = SimpleNamespace(corner=v.vector("region_x region_y"), stride=64)
+    boxes = Boxes(FIRST, v.vector("x y"), _Extent())
+    found = edges.variables(v)
+    with locals_of(rasterise._block) as local:
+        out = rasterise._block(found, boxes, depths)
+    return {
+        "block_edge": local["least"].reshape(-1),
+        "block_inside": v.chosen(0),
+        "block_least": out.least,
+        "block_most": out.most,
+        "block_sure": out.sure,
+    }
+
+
+def _may_be_seen(v: Inputs) -> Kept:
+    depths = SimpleNamespace(corner=v.vector("region_x region_y"))
+    boxes = Boxes(FIRST, v.vector("x y"), v.vector("x_end y_end"))
+    rasterise._may_be_seen(edges.variables(v), boxes, v.one("farthest"), depths)
+    return {"may_be_seen": v.chosen(0)}
+
+
+def _small(v: Inputs, prefix: str, width: int) -> Kept:
+    """A box of one pixel is its own case; of another, any pixel: `up` and `right` say which."""
+    depths = {"x": "xa xb xc", "y": "ya yb yc", "depth": "na nb nc"}
+    vertices = SimpleNamespace(**{k: v.vector(names).reshape(-1) for k, names in depths.items()})
+    expanded = SimpleNamespace(vertices=vertices, corners=np.array([[0], [1], [2]]))
+    film = SimpleNamespace(
+        certain_nearness=lambda depth: depth.copy(), certain_error=lambda nearest: v.one("own")
+    )
+    places = iter(("up", "right"))
+    with (
+        numpy_with(small_boxes, arange=lambda _: v.one(next(places))),
+        mock.patch.object(small_boxes, "_blocks", lambda *_: [(FIRST, 1, width)]),
+        mock.patch.object(small_boxes, "_pixels", lambda *some: (some[4], some[6], some[5])),
+        locals_of(small_boxes.small_pairs) as local,
+    ):
+        every = dict(left=[], culling={"computed": 0}, depths=None)
+        low = v.vector("x0 y0")
+        pairs = small_boxes.small_pairs(film, expanded, low, None, FIRST, **every)
+        out = next(pairs)
+        kept = {f"{prefix}_T": local["volume"], f"{prefix}_edge": local["least"][:1]}
+    kept[f"{prefix}_inside"] = v.chosen(1)
+    found = {f"{prefix}_least": out.least, f"{prefix}_most": out.most, f"{prefix}_sure": out.sure}
+    return kept | {name: value[:1] for name, value in found.items()}
+
+
+def _clip(v: Inputs, prefix: str, projection: Projection) -> Kept:
+    ends = dict(clip_start=v.scalar("start"), clip_end=v.scalar("end"))
+    clip = ClipRange(SimpleNamespace(projection=projection, **ends))
+    between = v.one("least"), v.one("most")
+    return {f"{prefix}_inside": clip.inside(*between), f"{prefix}_outside": clip.outside(*between)}
+
+
+def _plane(v: Inputs, prefix: str, projection: Projection) -> Kept:
+    """The plane's interval of t is variables: `bounds.plane_fractions` is recorded by itself."""
+    region, kept = Region(0, 0, 1, 1), []
+    infinite = SimpleNamespace(point=np.zeros(3), normal=np.ones(3))
+    this = SimpleNamespace(
+        _scene=SimpleNamespace(planes=[infinite], instances=[]),
+        _film=SimpleNamespace(camera=SimpleNamespace(projection=projection), dx=0.0, dy=0.0),
+        _depths=SimpleNamespace(region=region, places=lambda pixel: pixel),
+        _numbers=SimpleNamespace(enter=lambda _: 0),
+        _keep=lambda _: None,
+        of_pairs=lambda pairs, of: kept.append(pairs),
+    )
+    interval = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
+    with (
+        mock.patch.object(sweep, "camera_rays", lambda *_: Rays(None, None)),
+        mock.patch.object(sweep, "plane_fractions", lambda *_: interval),
+    ):
+        for _ in sweep.Sweep.enter_planes(this):
+            pass
+    [pairs] = kept
+    names = f"{prefix}_least", f"{prefix}_most", f"{prefix}_sure"
+    return dict(zip(names, (pairs.least, pairs.most, pairs.sure), strict=True))
+
+
+def _enter(v: Inputs) -> Kept:
+    """The depth buffer has a winner there, whose nearness is variables."""
+    depths = DepthBuffer.__new__(DepthBuffer)
+    depths.nearness, depths._most = v.one("winner_least"), v.one("winner_most")
+    depths._surface, depths._stale = np.zeros(1, np.int64), np.zeros((1, 1), bool)
+    with locals_of(DepthBuffer.enter):
+        depths.enter(FIRST, np.ones(1, np.int64), v.one("least"), v.one("most"))
+    return {
+        "enter_nearer": v.chosen(0),
+        "enter_winner_may_be_nearer": v.chosen(1),
+        "enter_nearness": depths.nearness,
+    }
+
+
+def _theorems(prefix: str, names: str) -> dict[str, str]:
+    return {f"{prefix}_{name}": f"{prefix}_right" for name in names.split()}
+
+
+_PAIRS = "edge inside least most sure"
+_PROJECTIONS = (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC))
+
+RECORDS = (
+    Record(
+        "block",
+        "rasterise._block",
+        edges.VALUES | dict(x=5.0, y=6.0, region_x=7.0, region_y=8.0),
+        _block,
+        _theorems("block", _PAIRS),
+    ),
+    Record(
+        "may_be_seen",
+        "rasterise._may_be_seen",
+        edges.VALUES
+        | dict(x=5.0, y=6.0, x_end=9.0, y_end=9.0, region_x=7.0, region_y=8.0, farthest=-1.0),
+        _may_be_seen,
+        {"may_be_seen": "may_be_seen_right"},
+    ),
+    Record(
+        "small",
+        "small_boxes.small_pairs",
+        _SMALL,
+        lambda v: _small(v, "small", 2),
+        _theorems("small", f"T {_PAIRS}"),
+    ),
+    Record(
+        "small_one",
+        "small_boxes.small_pairs",
+        _SMALL | dict(x0=6.0, y0=9.0),
+        lambda v: _small(v, "small_one", 1),
+        _theorems("small_one", f"T {_PAIRS}"),
+        "a box of one pixel",
+    ),
+    *(
+        Record(
+            f"clip_{name}",
+            "depth_buffer.ClipRange",
+            dict(start=0.5, end=100.0, least=0.25, most=0.5),
+            lambda v, name=name, of=of: _clip(v, f"clip_{name}", of),
+            _theorems(f"clip_{name}", "inside outside"),
+            of.name,
+        )
+        for name, of in _PROJECTIONS
+    ),
+    *(
+        Record(
+            f"plane_pixel_{name}",
+            "sweep.Sweep.enter_planes",
+            dict(low=2.0, high=2.5),
+            lambda v, name=name, of=of: _plane(v, f"plane_pixel_{name}", of),
+            _theorems(f"plane_pixel_{name}", "least most sure"),
+            of.name,
+        )
+        for name, of in _PROJECTIONS
+    ),
+    Record(
+        "enter",
+        "depth_buffer.DepthBuffer.enter",
+        dict(winner_least=0.25, winner_most=0.5, least=0.375, most=0.75),
+        _enter,
+        _theorems("enter", "nearer winner_may_be_nearer nearness"),
+    ),
+)
