@@ -1739,14 +1739,19 @@ Definition plane_pixel_parallel_most : expr :=
 Definition plane_pixel_parallel_sure : test :=
   Finite (Var "high").
 
-(** depth_buffer.DepthBuffer.enter: nearer *)
+(** depth_buffer.DepthBuffer.enter, where it wins, and the winner before is a rival: nearer *)
 Definition enter_nearer : test :=
   Less (Var "winner_least") (Var "least").
 
-(** depth_buffer.DepthBuffer.enter: winner may be nearer *)
+(** depth_buffer.DepthBuffer.enter, where it wins, and the winner before is a rival: winner may be
+    nearer *)
 Definition enter_winner_may_be_nearer : test :=
   Not (Less (Var "winner_most") (Var "least")).
 
-(** depth_buffer.DepthBuffer.enter: nearness *)
+(** depth_buffer.DepthBuffer.enter, where it wins, and the winner before is a rival: nearness *)
 Definition enter_nearness : expr :=
   Var "least".
+
+(** depth_buffer.DepthBuffer.enter, where it wins, and the winner before is a rival: path *)
+Definition enter_path : test :=
+  And (Less (Var "winner_least") (Var "least")) (Not (Less (Var "winner_most") (Var "least"))).

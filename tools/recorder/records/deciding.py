@@ -15,6 +15,7 @@ from .record import Inputs, Kept, Record, locals_of
 _EDGES = dict(e1=0.5, e2=0.25, e3=0.75, error=1e-15)
 _RANGE = dict(low=2.0, high=2.5, end=100.0, sure=True)
 _TABLE = dict(base=0.25, v1=0.5, v2=-0.75, v3=0.125, sign=1.0)
+_SIGN = {"sign": (-1.0, 1.0)}
 _RAY = dict(ox=0.11, oy=0.07, oz=0.3, o0x=-0.5, o0y=-0.4, o0z=0.25, dx=0.01, dy=-0.02, dz=-1.0)
 
 
@@ -105,6 +106,7 @@ RECORDS = (
         lambda v: _order(v, "order_from_point", True),
         _order_theorems("order_from_point"),
         "rays from one point",
+        _SIGN,
     ),
     Record(
         "order_parallel",
@@ -113,5 +115,6 @@ RECORDS = (
         lambda v: _order(v, "order_parallel", False),
         _order_theorems("order_parallel"),
         "parallel rays",
+        _SIGN,
     ),
 )

@@ -13,13 +13,14 @@ from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from reference_tracer.scene import Region
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified.sweep import rasterise, small_boxes, sweep
-from reference_tracer.tracer.certified.sweep.depth_buffer import ROUNDING, ClipRange, DepthBuffer
+from reference_tracer.tracer.certified.sweep.depth_buffer import ClipRange, DepthBuffer
 from reference_tracer.tracer.certified.sweep.rasterise import Boxes
 
 from . import edges
 from .bounds import FIRST
 from .record import Inputs, Kept, Record, locals_of, numpy_with
 
+_PIXELS = tuple(map(float, range(-64, 65)))
 _SMALL = dict(
     **dict(xa=5.25, xb=9.5, xc=6.0, ya=7.5, yb=8.25, yc=12.5, x0=5.0, y0=7.0),
     **dict(na=0.5, nb=0.25, nc=0.375, own=1e-9, up=2.0, right=1.0),
@@ -116,11 +117,10 @@ def _enter(v: Inputs) -> Kept:
     depths = DepthBuffer.__new__(DepthBuffer)
     depths.nearness, depths._most = v.one("winner_least"), v.one("winner_most")
     depths._surface, depths._stale = np.zeros(1, np.int64), np.zeros((1, 1), bool)
-    with locals_of(DepthBuffer.enter):
-        depths.enter(FIRST, np.ones(1, np.int64), v.one("least"), v.one("most"))
+    depths.enter(FIRST, np.ones(1, np.int64), v.one("least"), v.one("most"))
     return {
-        "enter_nearer": v.chosen(0),
-        "enter_winner_may_be_nearer": v.chosen(1),
+        "enter_nearer": v.chosen(0, is_path=True),
+        "enter_winner_may_be_nearer": v.chosen(1, is_path=True),
         "enter_nearness": depths.nearness,
     }
 
@@ -139,6 +139,7 @@ RECORDS = (
         edges.VALUES | dict(x=5.0, y=6.0, region_x=7.0, region_y=8.0),
         _block,
         _theorems("block", _PAIRS),
+        domain=dict.fromkeys(("x", "y", "region_x", "region_y", "origin_x", "origin_y"), _PIXELS),
     ),
     Record(
         "may_be_seen",
@@ -191,5 +192,6 @@ RECORDS = (
         dict(winner_least=0.25, winner_most=0.5, least=0.375, most=0.75),
         _enter,
         _theorems("enter", "nearer winner_may_be_nearer nearness"),
+        "where it wins, and the winner before is a rival",
     ),
 )

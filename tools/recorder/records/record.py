@@ -10,6 +10,7 @@ from typing import Any
 from unittest import mock
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..arrays import Choices, Recorded, lift, variable
 from ..functions import recording
@@ -45,24 +46,29 @@ class Inputs:
     def stacked(self, arrays: Sequence):
         return np.stack(arrays) if self._choices is None else lift(list(arrays))
 
-    def chosen(self, number: int) -> Recorded | None:
-        """Return the test by which the function picked, as one of its results."""
+    def chosen(self, number: int, is_path: bool = False) -> Recorded | None:
+        """Return a test by which the function picked, as one of its results.
+
+        It is not of the path, unless it is said to be: no other result depends on it.
+        """
         if self._choices is None:
             return None
         test, value = self._choices[number]
-        self.named.add(test)
+        if not is_path:
+            self.named.add(test)
         return lift(value)._each(lambda v: test if v.dtype == object else v)
 
     def __contains__(self, name: str) -> bool:
         return name in self._values
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Record:
     """A call of one function.
 
     `values` are those of its variables that it is recorded with: they decide which way it goes.
-    `theorems` has the Coq name of each result, and of the theorem about it.
+    `theorems` has the Coq name of each result, and of the theorem about it. Of a variable that is
+    no number of any size, `domain` has some values.
     """
 
     name: str
@@ -71,6 +77,7 @@ class Record:
     call: Callable[[Inputs], Kept]
     theorems: Mapping[str, str] = field(default_factory=dict)
     note: str = ""
+    domain: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -85,19 +92,29 @@ class Output:
 
 def outputs(record: Record) -> list[Output]:
     """Record a function."""
+    return [output for output, _ in recorded(record, record.values)]
+
+
+def recorded(record: Record, values: Values) -> list[tuple[Output, NDArray]]:
+    """Record a function for values of its variables; return its results with what they are."""
     with recording() as choices, np.errstate(all="ignore"):
-        inputs = Inputs(record.values, choices)
+        inputs = Inputs(values, choices)
         kept = dict(record.call(inputs))
         asked = [(test, value) for test, value in choices if test not in inputs.named]
-    found = [
-        Output(name, single(value), _words(record, name), record.theorems.get(name, ""))
-        for name, value in kept.items()
-    ]
     if asked:
-        path = every(dict.fromkeys(t if value else node("Not", t) for t, value in asked))
-        name = f"{record.name}_path"
-        found.append(Output(name, path, _words(record, name), record.theorems.get(name, "")))
+        test = every(dict.fromkeys(t if value else node("Not", t) for t, value in asked))
+        kept[f"{record.name}_path"] = lift(True)._each(lambda v: test if v.dtype == object else v)
+    found = []
+    for name, value in kept.items():
+        theorem = record.theorems.get(name, "")
+        found.append((Output(name, single(value), _words(record, name), theorem), value.values))
     return found
+
+
+def computed(record: Record, values: Values) -> dict[str, NDArray | None]:
+    """Call a function on plain numbers; a result is empty, or None, where it cannot be seen."""
+    with np.errstate(all="ignore"):
+        return dict(record.call(Inputs(values)))
 
 
 def _words(record: Record, name: str) -> str:

@@ -1,0 +1,138 @@
+"""What `proofs/` is about is what the tracer computes: every operation, in its order."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from record_trees import RECORDED
+from recorder import coq
+from recorder.arrays import Recorded, variable
+from recorder.evaluate import evaluate
+from recorder.functions import Numpy, recording
+from recorder.nodes import RefusedError
+from recorder.records import RECORDS, computed, outputs, recorded
+
+ORDINARY, HOSTILE = 24, 24  # values of the variables that each function is called with
+
+
+@pytest.fixture(scope="module")
+def found():
+    return {record: outputs(record) for record in RECORDS}
+
+
+def test_the_proofs_are_about_what_is_computed(found):
+    """If not: `python tools/record_trees.py`, and prove the theorems that it names."""
+    every = [output for some in found.values() for output in some]
+    assert len({output.name for output in every}) == len(every)
+    changed = coq.differences(RECORDED.read_text(encoding="utf-8"), every)
+    assert not changed, "\n\n".join(["proofs/Recorded.v is not what the tracer computes", *changed])
+
+
+def test_a_difference_is_told_in_words(found):
+    """Which function, which result, what it was and is, and the theorem."""
+    every = [output for some in found.values() for output in some]
+    other = coq.text(every).replace("(Num 3 (-51))", "(Num 3 (-52))", 1)
+    [said] = coq.differences(other, every)
+    assert "bounds.FromPoint.edges: error" in said and "theorem concerned: from_point" in said
+    assert "Num 3 (-52)" in said and "Num 3 (-51)" in said
+    assert "recorded now is" in coq.differences(other.replace("Add", "Sub"), every)[0]
+    [said] = coq.differences(coq.text(every[1:]), every)
+    assert every[0].name in said and "does not have it" in said
+    [said] = coq.differences(coq.text(every), every[1:])
+    assert every[0].name in said and "nothing records it" in said
+
+
+@pytest.mark.parametrize("record", RECORDS, ids=lambda r: f"{r.function} {r.note}")
+def test_an_expression_is_worth_what_the_function_returns(record, found, rng):
+    """To the bit, also for numbers that a function was not recorded with: then it is the same."""
+    some = samples(record, rng)
+    values = {name: np.array([sample[name] for sample in some]) for name in record.values}
+    results = evaluate([output.node for output in found[record]], values)
+    worth = {output.name: result for output, result in zip(found[record], results, strict=True)}
+    on_path = worth.pop(f"{record.name}_path", np.ones(len(some), bool))
+    assert on_path[0]
+    seen, whole = {output.name for output in found[record]}, []
+    for k in np.flatnonzero(on_path):
+        results = {n: v for n, v in computed(record, some[k]).items() if v is not None}
+        whole += [k] if all(map(np.size, results.values())) else []
+        seen -= set(results)
+        for name, value in results.items():
+            assert not np.size(value) or same(value, worth[name][k]), (name, some[k])
+    assert whole[0] == 0
+    for k in whole[:3]:
+        again = recorded(record, some[k])
+        seen -= {output.name for output, _ in again}
+        assert [output for output, _ in again] == found[record]
+        for output, value in again:
+            assert output.name not in worth or same(value, worth[output.name][k])
+    assert not seen
+
+
+def samples(record, rng):
+    """The values of a record; some near them; and some of any size, and small integers."""
+    values = record.values
+    names = [name for name in values if not isinstance(values[name], bool)]
+    given = {name: value for name, value in values.items() if isinstance(value, bool)}
+    out = [dict(values)]
+    for k in range(ORDINARY):
+        size = 10.0 ** -rng.integers(1, 16)
+        near = {name: values[name] * (1 + size * rng.normal()) for name in names}
+        out.append(near | {name: bool(k % 2) for name in given})
+    for k in range(HOSTILE):
+        exponents = rng.integers(-300, 300, len(names)) if k % 3 else np.zeros(len(names))
+        numbers = rng.normal(size=len(names)) if k % 2 else rng.integers(-2, 3, len(names))
+        some = dict(zip(names, (numbers * 2.0**exponents).tolist(), strict=True))
+        out.append(some | {name: bool(k % 2) for name in given})
+    for name, domain in record.domain.items():
+        for sample in out[1:]:
+            sample[name] = float(rng.choice(domain))
+    return out
+
+
+def same(value, worth):
+    value = np.asarray(value).reshape(-1)[0]
+    if np.isnan(worth):
+        return np.isnan(value)
+    return value == worth and np.signbit(np.float64(value)) == np.signbit(np.float64(worth))
+
+
+@pytest.fixture
+def x():
+    with recording():
+        yield Recorded(*(np.concatenate([k] * 3) for k in vars(variable("x", 2.0)).values()))
+
+
+REFUSED = {
+    "@": lambda x, np: x @ x,
+    "plain @": lambda x, _: np.ones((2, 3)) @ x,
+    "einsum": lambda x, np: np.einsum("i,i", x, x),
+    "dot": lambda x, np: np.dot(x, x),
+    ".dot": lambda x, np: x.dot(x),
+    "inner": lambda x, np: np.inner(x, x),
+    "matmul": lambda x, np: np.matmul(x, x),
+    "tensordot": lambda x, np: np.tensordot(x, x, 1),
+    "sum": lambda x, np: np.sum(x),
+    ".sum": lambda x, np: x.sum(),
+    "prod": lambda x, np: np.prod(x),
+    ".mean": lambda x, np: x.mean(),
+    "cumsum": lambda x, np: np.cumsum(x),
+    "add.reduce": lambda x, np: np.add.reduce(x),
+    "linalg": lambda x, np: np.linalg.norm(x),
+    "sqrt": lambda x, np: np.sqrt(x),
+    "power": lambda x, np: x**2,
+    "float32": lambda x, np: x.astype(np.float32),
+    "a float32 number": lambda x, _: x * np.float32(2),
+    "a plain array for the result": lambda x, _: np.add(x, x, out=np.ones(3)),
+    "a plain array += it": lambda x, _: np.ones(3).__iadd__(x),
+    "a plain array of it": lambda x, _: np.asarray(x),
+    "numpy's own, which would lose it": lambda x, _: np.abs([x, x]),
+    "what was not written": lambda x, np: np.empty(3) + x,
+    "a mask that keeps no high digits": lambda x, _: x.view(np.int64) & np.int64(0xFF),
+    "rint": lambda x, np: np.rint(x),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_what_has_no_word_is_refused(what, x):
+    with pytest.raises(RefusedError):
+        REFUSED[what](x, Numpy())
