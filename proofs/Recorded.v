@@ -1755,3 +1755,394 @@ Definition enter_nearness : expr :=
 (** depth_buffer.DepthBuffer.enter, where it wins, and the winner before is a rival: path *)
 Definition enter_path : test :=
   And (Less (Var "winner_least") (Var "least")) (Not (Less (Var "winner_most") (Var "least"))).
+
+(** film.Film.enter, perspective: p *)
+Definition film_perspective_p : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x1) (Mul (Var "right_y") x2)) (Mul (Var "right_z")
+    x3)) (Mul (Var "left") x4)) (Div (Num 1 0) (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Mul (Var "dx") x4).
+
+(** film.Film.enter, perspective: q *)
+Definition film_perspective_q : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  Sub (Mul (Sub (Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2)) (Mul (Var "up_z") x3)) (Mul
+    (Var "bottom") x4)) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom")) (Var "height")))) (Mul
+    (Var "dy") x4).
+
+(** film.Film.enter, perspective: w *)
+Definition film_perspective_w : expr :=
+  Add (Add (Mul (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "depth_y") (Sub (Var "vy")
+    (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz"))).
+
+(** film.Film.enter, perspective: depth *)
+Definition film_perspective_depth : expr :=
+  Add (Add (Mul (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "depth_y") (Sub (Var "vy")
+    (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz"))).
+
+(** film.Film.enter, perspective: size *)
+Definition film_perspective_size : expr :=
+  Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs (Var "ox"))
+    (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))).
+
+(** film.Film.enter, perspective: x *)
+Definition film_perspective_x : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x1) (Mul (Var "right_y") x2)) (Mul
+    (Var "right_z") x3)) (Mul (Var "left") x4)) (Div (Num 1 0) (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Mul (Var "dx") x4)) x4.
+
+(** film.Film.enter, perspective: y *)
+Definition film_perspective_y : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  Div (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2)) (Mul (Var "up_z") x3))
+    (Mul (Var "bottom") x4)) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom")) (Var "height"))))
+    (Mul (Var "dy") x4)) x4.
+
+(** film.Film.enter, perspective: nearest *)
+Definition film_perspective_nearest : expr :=
+  Div (Add (Num 281474976710657 (-48)) (Mul (Num 1 1) (Var "ray_error"))) (Max (Sub (Add (Add (Mul
+    (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "depth_y") (Sub (Var "vy") (Var "oy"))))
+    (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz")))) (Mul (Var "weight") (Add (Max (Max (Abs
+    (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs (Var "ox")) (Abs
+    (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960)))))) (Var "clip_start")).
+
+(** film.Film.enter, perspective: ahead *)
+Definition film_perspective_ahead : test :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  And (And (Less (Mul (Mul (Num 1 10) (Var "weight")) (Add (Max (Max (Abs (Var "vx")) (Abs
+    (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz"))) (Num 1 (-960))))) x4) (Finite (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x")
+    x1) (Mul (Var "right_y") x2)) (Mul (Var "right_z") x3)) (Mul (Var "left") x4)) (Div (Num 1 0)
+    (Div (Sub (Var "right") (Var "left")) (Var "width")))) (Mul (Var "dx") x4)) x4))) (Finite (Div
+    (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2)) (Mul (Var "up_z") x3))
+    (Mul (Var "bottom") x4)) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom")) (Var "height"))))
+    (Mul (Var "dy") x4)) x4)).
+
+(** film.Film.enter, perspective: certain *)
+Definition film_perspective_certain : test :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  let x2 := Mul (Num 1 1) (Max (Var "width") (Var "height")) in
+  let x3 := Sub (Var "vx") (Var "ox") in
+  let x4 := Sub (Var "vy") (Var "oy") in
+  let x5 := Sub (Var "vz") (Var "oz") in
+  let x6 := Add (Add (Mul (Var "depth_x") x3) (Mul (Var "depth_y") x4)) (Mul (Var "depth_z") x5) in
+  And (LessEq (Mul (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul
+    (Mul x2 (Var "weight")) x1)) x6)) (Num 1 (-26))) (And (And (Less (Mul (Mul (Num 1 10)
+    (Var "weight")) x1) x6) (LessEq (Max (Abs (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x3)
+    (Mul (Var "right_y") x4)) (Mul (Var "right_z") x5)) (Mul (Var "left") x6)) (Div (Num 1 0) (Div
+    (Sub (Var "right") (Var "left")) (Var "width")))) (Mul (Var "dx") x6)) x6)) (Abs (Div (Sub (Mul
+    (Sub (Add (Add (Mul (Var "up_x") x3) (Mul (Var "up_y") x4)) (Mul (Var "up_z") x5)) (Mul
+    (Var "bottom") x6)) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom")) (Var "height")))) (Mul
+    (Var "dy") x6)) x6))) x2)) (Less x1 (Num 1 900))).
+
+(** film.Film.enter, perspective: finite *)
+Definition film_perspective_finite : test :=
+  Finite (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))).
+
+(** film.Film.enter, perspective: lowest x *)
+Definition film_perspective_lowest_x : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Ceil (Sub (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x1) (Mul (Var "right_y")
+    x2)) (Mul (Var "right_z") x3)) (Mul (Var "left") x4)) (Div (Num 1 0) (Div (Sub (Var "right")
+    (Var "left")) (Var "width")))) (Mul (Var "dx") x4)) x4) (Add (Mul (Num 4548635623644201 (-52))
+    (Div (Add (Add (Var "c0") (Mul (Var "c1") x5)) (Mul (Mul (Mul (Num 1 1) (Max (Var "width")
+    (Var "height"))) (Var "weight")) x5)) x4)) (Num 1 (-1))))) (Num (-1) 1)) (Add (Var "width")
+    (Num 1 1)).
+
+(** film.Film.enter, perspective: lowest y *)
+Definition film_perspective_lowest_y : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Ceil (Sub (Div (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2))
+    (Mul (Var "up_z") x3)) (Mul (Var "bottom") x4)) (Div (Num 1 0) (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Mul (Var "dy") x4)) x4) (Add (Mul
+    (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x5)) (Mul (Mul (Mul
+    (Num 1 1) (Max (Var "width") (Var "height"))) (Var "weight")) x5)) x4)) (Num 1 (-1)))))
+    (Num (-1) 1)) (Add (Var "height") (Num 1 1)).
+
+(** film.Film.enter, perspective: minus highest x *)
+Definition film_perspective_minus_highest_x : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Sub (Num 1 0) (Floor (Add (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x1) (Mul
+    (Var "right_y") x2)) (Mul (Var "right_z") x3)) (Mul (Var "left") x4)) (Div (Num 1 0) (Div (Sub
+    (Var "right") (Var "left")) (Var "width")))) (Mul (Var "dx") x4)) x4) (Add (Mul
+    (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x5)) (Mul (Mul (Mul
+    (Num 1 1) (Max (Var "width") (Var "height"))) (Var "weight")) x5)) x4)) (Num 1 (-1)))))) (Sub
+    (Neg (Var "width")) (Num 1 1))) (Num 1 1).
+
+(** film.Film.enter, perspective: minus highest y *)
+Definition film_perspective_minus_highest_y : expr :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Sub (Num 1 0) (Floor (Add (Div (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") x1) (Mul
+    (Var "up_y") x2)) (Mul (Var "up_z") x3)) (Mul (Var "bottom") x4)) (Div (Num 1 0) (Div (Sub
+    (Var "top") (Var "bottom")) (Var "height")))) (Mul (Var "dy") x4)) x4) (Add (Mul
+    (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x5)) (Mul (Mul (Mul
+    (Num 1 1) (Max (Var "width") (Var "height"))) (Var "weight")) x5)) x4)) (Num 1 (-1)))))) (Sub
+    (Neg (Var "height")) (Num 1 1))) (Num 1 1).
+
+(** film.Film.enter, perspective: margin *)
+Definition film_perspective_margin : expr :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Add (Mul (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Mul
+    (Mul (Num 1 1) (Max (Var "width") (Var "height"))) (Var "weight")) x1)) (Add (Add (Mul
+    (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "depth_y") (Sub (Var "vy") (Var "oy"))))
+    (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz")))))) (Num 1 (-1)).
+
+(** film.Film.ray_error, perspective *)
+Definition film_ray_error_perspective : expr :=
+  Mul (Mul (Num 3 (-49)) (Var "spread")) (Mul (Max (Max (Max (Max (Max (Max (Max (Max (Abs
+    (Var "rx")) (Abs (Var "ry"))) (Abs (Var "rz"))) (Abs (Var "ux"))) (Abs (Var "uy"))) (Abs
+    (Var "uz"))) (Abs (Var "fx"))) (Abs (Var "fy"))) (Abs (Var "fz"))) (Add (Num 1 0) (Add (Max (Abs
+    (Var "left")) (Abs (Var "right"))) (Max (Abs (Var "bottom")) (Abs (Var "top")))))).
+
+(** film.Film.place, perspective: constant *)
+Definition film_place_perspective_constant : expr :=
+  Num 0 0.
+
+(** film.Film.place, perspective: slope *)
+Definition film_place_perspective_slope : expr :=
+  let x1 := Abs (Var "left") in
+  let x2 := Div (Sub (Var "right") (Var "left")) (Var "width") in
+  let x3 := Mul (Num 1 1) (Var "ray_error") in
+  let x4 := Abs (Var "bottom") in
+  let x5 := Div (Sub (Var "top") (Var "bottom")) (Var "height") in
+  Max (Max (Num 0 0) (Mul (Var "spread") (Add (Add (Div (Mul (Num 9 (-49)) (Add (Num 1 0) x1)) x2)
+    (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "left") x2)) (Var "width")) (Var "height")))) (Div
+    (Mul x3 (Add (Num 1 0) (Max x1 (Abs (Var "right"))))) x2)))) (Mul (Var "spread") (Add (Add (Div
+    (Mul (Num 9 (-49)) (Add (Num 1 0) x4)) x5) (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "bottom")
+    x5)) (Var "width")) (Var "height")))) (Div (Mul x3 (Add (Num 1 0) (Max x4 (Abs (Var "top")))))
+    x5))).
+
+(** film.Film.certain_error, perspective *)
+Definition film_certain_error_perspective : expr :=
+  Mul (Add (Add (Div (Num 1 (-25)) (Max (Var "width") (Var "height"))) (Mul (Num 1 1)
+    (Var "ray_error"))) (Num 1 (-50))) (Var "nearness").
+
+(** film.Film.certain_nearness, perspective *)
+Definition film_certain_nearness_perspective : expr :=
+  Div (Num 1 0) (Var "depth").
+
+(** film.Film.enter, orthographic: p *)
+Definition film_parallel_p : expr :=
+  Sub (Mul (Sub (Add (Add (Mul (Var "right_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "right_y")
+    (Sub (Var "vy") (Var "oy")))) (Mul (Var "right_z") (Sub (Var "vz") (Var "oz")))) (Mul
+    (Var "left") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "right") (Var "left")) (Var "width"))))
+    (Mul (Var "dx") (Num 1 0)).
+
+(** film.Film.enter, orthographic: q *)
+Definition film_parallel_q : expr :=
+  Sub (Mul (Sub (Add (Add (Mul (Var "up_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "up_y") (Sub
+    (Var "vy") (Var "oy")))) (Mul (Var "up_z") (Sub (Var "vz") (Var "oz")))) (Mul (Var "bottom")
+    (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom")) (Var "height")))) (Mul
+    (Var "dy") (Num 1 0)).
+
+(** film.Film.enter, orthographic: w *)
+Definition film_parallel_w : expr :=
+  Num 1 0.
+
+(** film.Film.enter, orthographic: depth *)
+Definition film_parallel_depth : expr :=
+  Add (Add (Mul (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "depth_y") (Sub (Var "vy")
+    (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz"))).
+
+(** film.Film.enter, orthographic: size *)
+Definition film_parallel_size : expr :=
+  Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs (Var "ox"))
+    (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))).
+
+(** film.Film.enter, orthographic: x *)
+Definition film_parallel_x : expr :=
+  Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") (Sub (Var "vx") (Var "ox"))) (Mul
+    (Var "right_y") (Sub (Var "vy") (Var "oy")))) (Mul (Var "right_z") (Sub (Var "vz") (Var "oz"))))
+    (Mul (Var "left") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Mul (Var "dx") (Num 1 0))) (Num 1 0).
+
+(** film.Film.enter, orthographic: y *)
+Definition film_parallel_y : expr :=
+  Div (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "up_y") (Sub
+    (Var "vy") (Var "oy")))) (Mul (Var "up_z") (Sub (Var "vz") (Var "oz")))) (Mul (Var "bottom")
+    (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom")) (Var "height")))) (Mul
+    (Var "dy") (Num 1 0))) (Num 1 0).
+
+(** film.Film.enter, orthographic: nearest *)
+Definition film_parallel_nearest : expr :=
+  Sub (Add (Var "d0") (Mul (Var "d1") (Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs
+    (Var "vz"))) (Add (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz")))
+    (Num 1 (-960)))))) (Add (Add (Mul (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul
+    (Var "depth_y") (Sub (Var "vy") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz")))).
+
+(** film.Film.enter, orthographic: ahead *)
+Definition film_parallel_ahead : test :=
+  let x1 := Sub (Var "vx") (Var "ox") in
+  let x2 := Sub (Var "vy") (Var "oy") in
+  let x3 := Sub (Var "vz") (Var "oz") in
+  And (And (Less (Mul (Num 0 0) (Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))
+    (Add (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))))) (Num 1 0))
+    (Finite (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x1) (Mul (Var "right_y") x2)) (Mul
+    (Var "right_z") x3)) (Mul (Var "left") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "right")
+    (Var "left")) (Var "width")))) (Mul (Var "dx") (Num 1 0))) (Num 1 0)))) (Finite (Div (Sub (Mul
+    (Sub (Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2)) (Mul (Var "up_z") x3)) (Mul
+    (Var "bottom") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom"))
+    (Var "height")))) (Mul (Var "dy") (Num 1 0))) (Num 1 0))).
+
+(** film.Film.enter, orthographic: certain *)
+Definition film_parallel_certain : test :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  let x2 := Mul (Num 1 1) (Max (Var "width") (Var "height")) in
+  let x3 := Sub (Var "vx") (Var "ox") in
+  let x4 := Sub (Var "vy") (Var "oy") in
+  let x5 := Sub (Var "vz") (Var "oz") in
+  And (LessEq (Mul (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul
+    (Mul x2 (Num 0 0)) x1)) (Num 1 0))) (Num 1 (-26))) (And (And (Less (Mul (Num 0 0) x1) (Num 1 0))
+    (LessEq (Max (Abs (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") x3) (Mul (Var "right_y")
+    x4)) (Mul (Var "right_z") x5)) (Mul (Var "left") (Num 1 0))) (Div (Num 1 0) (Div (Sub
+    (Var "right") (Var "left")) (Var "width")))) (Mul (Var "dx") (Num 1 0))) (Num 1 0))) (Abs (Div
+    (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") x3) (Mul (Var "up_y") x4)) (Mul (Var "up_z") x5))
+    (Mul (Var "bottom") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom"))
+    (Var "height")))) (Mul (Var "dy") (Num 1 0))) (Num 1 0)))) x2)) (Less x1 (Num 1 900))).
+
+(** film.Film.enter, orthographic: finite *)
+Definition film_parallel_finite : test :=
+  Finite (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))).
+
+(** film.Film.enter, orthographic: lowest x *)
+Definition film_parallel_lowest_x : expr :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Ceil (Sub (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") (Sub (Var "vx")
+    (Var "ox"))) (Mul (Var "right_y") (Sub (Var "vy") (Var "oy")))) (Mul (Var "right_z") (Sub
+    (Var "vz") (Var "oz")))) (Mul (Var "left") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "right")
+    (Var "left")) (Var "width")))) (Mul (Var "dx") (Num 1 0))) (Num 1 0)) (Add (Mul
+    (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Mul (Mul
+    (Num 1 1) (Max (Var "width") (Var "height"))) (Num 0 0)) x1)) (Num 1 0))) (Num 1 (-1)))))
+    (Num (-1) 1)) (Add (Var "width") (Num 1 1)).
+
+(** film.Film.enter, orthographic: lowest y *)
+Definition film_parallel_lowest_y : expr :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Ceil (Sub (Div (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") (Sub (Var "vx") (Var "ox")))
+    (Mul (Var "up_y") (Sub (Var "vy") (Var "oy")))) (Mul (Var "up_z") (Sub (Var "vz") (Var "oz"))))
+    (Mul (Var "bottom") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "top") (Var "bottom"))
+    (Var "height")))) (Mul (Var "dy") (Num 1 0))) (Num 1 0)) (Add (Mul (Num 4548635623644201 (-52))
+    (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Mul (Mul (Num 1 1) (Max (Var "width")
+    (Var "height"))) (Num 0 0)) x1)) (Num 1 0))) (Num 1 (-1))))) (Num (-1) 1)) (Add (Var "height")
+    (Num 1 1)).
+
+(** film.Film.enter, orthographic: minus highest x *)
+Definition film_parallel_minus_highest_x : expr :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Sub (Num 1 0) (Floor (Add (Div (Sub (Mul (Sub (Add (Add (Mul (Var "right_x") (Sub
+    (Var "vx") (Var "ox"))) (Mul (Var "right_y") (Sub (Var "vy") (Var "oy")))) (Mul (Var "right_z")
+    (Sub (Var "vz") (Var "oz")))) (Mul (Var "left") (Num 1 0))) (Div (Num 1 0) (Div (Sub
+    (Var "right") (Var "left")) (Var "width")))) (Mul (Var "dx") (Num 1 0))) (Num 1 0)) (Add (Mul
+    (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Mul (Mul
+    (Num 1 1) (Max (Var "width") (Var "height"))) (Num 0 0)) x1)) (Num 1 0))) (Num 1 (-1)))))) (Sub
+    (Neg (Var "width")) (Num 1 1))) (Num 1 1).
+
+(** film.Film.enter, orthographic: minus highest y *)
+Definition film_parallel_minus_highest_y : expr :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Min (Max (Sub (Num 1 0) (Floor (Add (Div (Sub (Mul (Sub (Add (Add (Mul (Var "up_x") (Sub
+    (Var "vx") (Var "ox"))) (Mul (Var "up_y") (Sub (Var "vy") (Var "oy")))) (Mul (Var "up_z") (Sub
+    (Var "vz") (Var "oz")))) (Mul (Var "bottom") (Num 1 0))) (Div (Num 1 0) (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Mul (Var "dy") (Num 1 0))) (Num 1 0)) (Add (Mul
+    (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Mul (Mul
+    (Num 1 1) (Max (Var "width") (Var "height"))) (Num 0 0)) x1)) (Num 1 0))) (Num 1 (-1)))))) (Sub
+    (Neg (Var "height")) (Num 1 1))) (Num 1 1).
+
+(** film.Film.enter, orthographic: margin *)
+Definition film_parallel_margin : expr :=
+  let x1 := Add (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))) (Add (Max (Max (Abs
+    (Var "ox")) (Abs (Var "oy"))) (Abs (Var "oz"))) (Num 1 (-960))) in
+  Add (Mul (Num 4548635623644201 (-52)) (Div (Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Mul
+    (Mul (Num 1 1) (Max (Var "width") (Var "height"))) (Num 0 0)) x1)) (Num 1 0))) (Num 1 (-1)).
+
+(** film.Film.ray_error, orthographic *)
+Definition film_ray_error_parallel : expr :=
+  Mul (Mul (Num 3 (-49)) (Var "spread")) (Add (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz"))) (Mul (Max (Max (Max (Max (Max (Max (Max (Max (Abs (Var "rx")) (Abs (Var "ry")))
+    (Abs (Var "rz"))) (Abs (Var "ux"))) (Abs (Var "uy"))) (Abs (Var "uz"))) (Abs (Var "fx"))) (Abs
+    (Var "fy"))) (Abs (Var "fz"))) (Add (Max (Abs (Var "left")) (Abs (Var "right"))) (Max (Abs
+    (Var "bottom")) (Abs (Var "top")))))).
+
+(** film.Film.place, orthographic: constant *)
+Definition film_place_parallel_constant : expr :=
+  let x1 := Div (Sub (Var "right") (Var "left")) (Var "width") in
+  let x2 := Mul (Num 1 1) (Var "ray_error") in
+  let x3 := Div (Sub (Var "top") (Var "bottom")) (Var "height") in
+  Max (Max (Num 0 0) (Add (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "left") x1)) (Var "width"))
+    (Var "height"))) (Div x2 x1))) (Add (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "bottom") x3))
+    (Var "width")) (Var "height"))) (Div x2 x3)).
+
+(** film.Film.place, orthographic: slope *)
+Definition film_place_parallel_slope : expr :=
+  let x1 := Mul (Num 9 (-49)) (Var "spread") in
+  Max (Max (Num 0 0) (Div x1 (Div (Sub (Var "right") (Var "left")) (Var "width")))) (Div x1 (Div
+    (Sub (Var "top") (Var "bottom")) (Var "height"))).
+
+(** film.Film.certain_error, orthographic *)
+Definition film_certain_error_parallel : expr :=
+  Add (Var "d0") (Mul (Var "d1") (Div (Num 1 (-25)) (Var "c1"))).
+
+(** film.Film.certain_nearness, orthographic *)
+Definition film_certain_nearness_parallel : expr :=
+  Neg (Var "depth").
+
+(** film.Film._spread *)
+Definition film_spread : expr :=
+  Add (Add (Add (Add (Abs (Var "right_x")) (Abs (Var "right_y"))) (Add (Abs (Var "right_z")) (Abs
+    (Var "up_x")))) (Add (Add (Abs (Var "up_y")) (Abs (Var "up_z"))) (Add (Abs (Var "depth_x")) (Abs
+    (Var "depth_y"))))) (Abs (Var "depth_z")).
+
+(** film.Film.weight *)
+Definition film_weight : expr :=
+  Mul (Num 1 (-46)) (Var "spread").
+
+(** film.Film.depth_error: constant *)
+Definition film_depth_error_constant : expr :=
+  Mul (Num 1 1) (Var "ray_error").
+
+(** film.Film.depth_error: slope *)
+Definition film_depth_error_slope : expr :=
+  Mul (Num 1 (-46)) (Var "spread").

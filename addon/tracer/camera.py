@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .vector import Vectors
+from .vector import Vectors, cross, dot
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region
@@ -99,8 +99,8 @@ def camera_rays(
 def dual_axes(camera: Camera) -> NDArray[np.float64]:
     """Return the rows of the inverse of the axes right, up, forward, (3, 3)."""
     axes = np.stack((camera.right, camera.up, camera.forward))
-    dual = np.cross(axes[[1, 2, 0]], axes[[2, 0, 1]])
-    return dual / (axes[0] * dual[0]).sum()
+    dual = np.stack([cross(axes[k - 2], axes[k - 1]) for k in range(3)])
+    return dual / dot(axes[0], dual[0])
 
 
 def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:

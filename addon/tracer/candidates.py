@@ -90,7 +90,8 @@ def pixel_bounds(
         return np.repeat(everywhere[:, None], count, axis=1)
     flat = np.concatenate(list(corners), axis=1).astype(np.float64)
     xyz, magnitude = project(camera, flat)
-    error = SAFETY * np.finfo(corners.dtype).eps * magnitude.sum(axis=0) + _TINY
+    magnitude = magnitude[0] + magnitude[1] + magnitude[2]
+    error = SAFETY * np.finfo(corners.dtype).eps * magnitude + _TINY
     error = error.reshape(3, count)
     x, y, depth = xyz.reshape(3, 3, count)
     error = error.max(axis=0)

@@ -12,6 +12,7 @@ asked, and the answer, are `choices` of the recording: the expressions hold on t
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -221,6 +222,12 @@ def where(test, yes, no) -> Recorded:
     yes, no = lift(yes), lift(no)
     nodes = _each(_where, test.nodes, yes.nodes, no.nodes)
     return paired(np.where(test.values, yes.values, no.values), nodes)
+
+
+def most(*values):
+    """Return what Python's `max` returns."""
+    some = [lift(v) for v in values]
+    return reduce(lambda a, b: apply(np.maximum, "__call__", (a, b), (), {}), some)
 
 
 def _where(test: Node, yes: Node, no: Node) -> Node:

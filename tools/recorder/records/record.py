@@ -106,7 +106,7 @@ def recorded(record: Record, values: Values) -> list[tuple[Output, NDArray]]:
         kept[f"{record.name}_path"] = lift(True)._each(lambda v: test if v.dtype == object else v)
     found = []
     for name, value in kept.items():
-        theorem = record.theorems.get(name, "")
+        theorem, value = record.theorems.get(name, ""), lift(value)
         found.append((Output(name, single(value), _words(record, name), theorem), value.values))
     return found
 
@@ -124,8 +124,8 @@ def _words(record: Record, name: str) -> str:
 
 
 def single(value: Recorded) -> Node:
-    if not isinstance(value, Recorded) or value.size != 1:
-        raise TypeError(f"not one recorded number: {value}")
+    if value.size != 1:
+        raise TypeError(f"{value.size} numbers are kept as one result")
     return value.nodes.reshape(-1)[0]
 
 

@@ -1,5 +1,5 @@
 """All records, in the order of `proofs/Recorded.v`."""
 
-from . import bounds, deciding, edges, pixels
+from . import bounds, deciding, edges, film, pixels
 
-RECORDS = (*bounds.RECORDS, *deciding.RECORDS, *edges.RECORDS, *pixels.RECORDS)
+RECORDS = (*bounds.RECORDS, *deciding.RECORDS, *edges.RECORDS, *pixels.RECORDS, *film.RECORDS)

@@ -191,7 +191,8 @@ class Film:
 
     @property
     def _spread(self) -> float:
-        return float(np.abs(self.dual).sum())
+        a, b, c, d, e, f, g, h, i = np.abs(self.dual).ravel()
+        return float(((a + b) + (c + d)) + ((e + f) + (g + h)) + i)
 
     @property
     def _reach(self) -> tuple[float, float]:

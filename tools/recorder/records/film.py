@@ -1,0 +1,205 @@
+"""`sweep/film.py`: where vertices are on the film, and the bounds on that."""
+
+from __future__ import annotations
+
+import builtins
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
+from reference_tracer.tracer.certified.sweep import film
+from reference_tracer.tracer.certified.sweep.film import Film, Vertices
+
+from ..arrays import holds, most
+from .record import Inputs, Kept, Record, locals_of
+
+_WINDOW = dict(left=-0.5, right=0.5, bottom=-0.4, top=0.4, width=640.0, height=480.0)
+_PLACE = dict(ox=0.5, oy=-0.25, oz=1.5)
+_DUAL = dict(
+    **dict(right_x=1.0, right_y=0.125, right_z=-0.125, up_x=-0.125, up_y=1.0, up_z=0.25),
+    **dict(depth_x=0.125, depth_y=-0.25, depth_z=-1.0),
+)
+_AXES = dict(
+    **dict(rx=1.0, ry=0.1, rz=-0.1, ux=-0.1, uy=0.9, uz=0.2, fx=0.05, fy=-0.1, fz=-1.0),
+)
+_BOUNDS = dict(c0=1e-12, c1=1e-13, ray_error=1e-14, d0=1e-14, d1=1e-15)
+_ENTER = (
+    _WINDOW | _PLACE | _DUAL | _BOUNDS | dict(dx=0.125, dy=-0.25, vx=0.75, vy=0.5, vz=-2.0)
+) | dict(weight=1e-14, clip_start=0.1)
+_SIZES = tuple(map(float, range(1, 4096)))
+_DOMAIN = dict(width=_SIZES, height=_SIZES)
+_FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "certain", "finite")
+
+
+def camera(v: Inputs, projection: Projection) -> SimpleNamespace:
+    """A camera of those variables that there are."""
+    vectors = dict(origin="ox oy oz", right="rx ry rz", up="ux uy uz", forward="fx fy fz")
+    known = {k: v.vector(n).reshape(-1) for k, n in vectors.items() if n.split()[0] in v}
+    window = ("left", "right", "bottom", "top")
+    known["window"] = SimpleNamespace(**{k: v.scalar(k) for k in window if k in v})
+    known |= {k: v.scalar(k) for k in ("width", "height", "clip_start", "clip_end") if k in v}
+    return SimpleNamespace(projection=projection, **known)
+
+
+@contextmanager
+def python(module) -> Iterator[None]:
+    """Let a module's `max` and `float` of recorded numbers be recorded."""
+
+    def largest(*values, **options):
+        return most(*values) if holds(values) else builtins.max(*values, **options)
+
+    def same(value):
+        return value if holds(value) else builtins.float(value)
+
+    with (
+        mock.patch.object(module, "max", largest, create=True),
+        mock.patch.object(module, "float", same, create=True),
+    ):
+        yield
+
+
+def _film(v: Inputs, projection: Projection, *known: str) -> Film:
+    """A film, some of whose numbers are variables; it is sound."""
+    out = Film(camera(v, projection), *(v.scalar(k) if k in v else 0.0 for k in ("dx", "dy")))
+    numbers = {
+        "place": lambda: (v.scalar("c0"), v.scalar("c1")),
+        "depth_error": lambda: (v.scalar("d0"), v.scalar("d1")),
+        "weight": lambda: 0.0 if projection.is_parallel else v.scalar("weight"),
+        "ray_error": lambda: v.scalar("ray_error"),
+        "dual": lambda: v.stacked(
+            [v.vector(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
+        ),
+    }
+    out.__dict__.update({k: numbers[k]() for k in known}, is_sound=True)
+    return out
+
+
+def _enter(v: Inputs, prefix: str, projection: Projection) -> Kept:
+    own = _film(v, projection, "dual", "place", "weight", "ray_error", "depth_error")
+    with python(film), locals_of(Film.enter) as local:
+        vertices = Vertices.empty(1, np.int32)
+        own.enter(vertices, 0, v.vector("vx vy vz"))
+    kept = {f"{prefix}_{name}": getattr(vertices, name) for name in _FIELDS}
+    ends = ("lowest_x", "lowest_y", "minus_highest_x", "minus_highest_y")
+    kept |= {f"{prefix}_{name}": vertices.box[0, k : k + 1] for k, name in enumerate(ends)}
+    return kept | {f"{prefix}_margin": local["margin"]}
+
+
+def _of_film(
+    find: Callable[[Film, Inputs], Kept], projection: Projection, *known: str
+) -> Callable[[Inputs], Kept]:
+    def call(v: Inputs) -> Kept:
+        with python(film):
+            if "spread" not in v:
+                return find(_film(v, projection, *known), v)
+            with mock.patch.object(Film, "_spread", property(lambda _: v.scalar("spread"))):
+                return find(_film(v, projection, *known), v)
+
+    return call
+
+
+def _place(prefix: str) -> Callable[[Film, Inputs], Kept]:
+    return lambda f, _: {f"{prefix}_constant": f.place[0], f"{prefix}_slope": f.place[1]}
+
+
+def _pairs() -> Iterator[Record]:
+    """Records of what differs between the projections."""
+    for name, of in (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC)):
+        prefix = f"film_{name}"
+        yield Record(
+            prefix,
+            "film.Film.enter",
+            {k: v for k, v in _ENTER.items() if not (of.is_parallel and k == "weight")},
+            lambda v, prefix=prefix, of=of: _enter(v, prefix, of),
+            dict.fromkeys((f"{prefix}_{k}" for k in ("p", "q", "w", "depth")), f"{prefix}_place"),
+            of.name,
+            _DOMAIN,
+        )
+        reach = dict(spread=4.5) | _WINDOW
+        yield Record(
+            f"film_ray_error_{name}",
+            "film.Film.ray_error",
+            reach | _AXES | (_PLACE if of.is_parallel else {}),
+            _of_film(lambda f, _, name=name: {f"film_ray_error_{name}": f.ray_error}, of),
+            {f"film_ray_error_{name}": f"film_ray_error_{name}_right"},
+            of.name,
+            _DOMAIN,
+        )
+        yield Record(
+            f"film_place_{name}",
+            "film.Film.place",
+            reach | dict(ray_error=1e-14),
+            _of_film(_place(f"film_place_{name}"), of, "ray_error"),
+            dict.fromkeys(
+                (f"film_place_{name}_constant", f"film_place_{name}_slope"),
+                f"film_{name}_place",
+            ),
+            of.name,
+            _DOMAIN,
+        )
+        yield Record(
+            f"film_certain_error_{name}",
+            "film.Film.certain_error",
+            _BOUNDS | dict(width=640.0, height=480.0, nearness=0.5),
+            _of_film(
+                lambda f, v, name=name: {
+                    f"film_certain_error_{name}": f.certain_error(v.one("nearness"))
+                },
+                of,
+                *("place", "ray_error", "depth_error"),
+            ),
+            {f"film_certain_error_{name}": f"film_certain_{name}"},
+            of.name,
+            _DOMAIN,
+        )
+        yield Record(
+            f"film_certain_nearness_{name}",
+            "film.Film.certain_nearness",
+            dict(depth=2.0),
+            _of_film(
+                lambda f, v, name=name: {
+                    f"film_certain_nearness_{name}": f.certain_nearness(v.one("depth"))
+                },
+                of,
+            ),
+            {f"film_certain_nearness_{name}": f"film_certain_{name}"},
+            of.name,
+        )
+
+
+RECORDS = (
+    *_pairs(),
+    Record(
+        "film_spread",
+        "film.Film._spread",
+        _DUAL,
+        _of_film(lambda f, _: {"film_spread": f._spread}, PERSPECTIVE, "dual"),
+        {"film_spread": "film_spread_right"},
+    ),
+    Record(
+        "film_weight",
+        "film.Film.weight",
+        dict(spread=4.5),
+        _of_film(lambda f, _: {"film_weight": f.weight}, PERSPECTIVE),
+        {"film_weight": "film_perspective_place"},
+    ),
+    Record(
+        "film_depth_error",
+        "film.Film.depth_error",
+        dict(spread=4.5, ray_error=1e-14),
+        _of_film(
+            lambda f, _: {
+                "film_depth_error_constant": f.depth_error[0],
+                "film_depth_error_slope": f.depth_error[1],
+            },
+            ORTHOGRAPHIC,
+            "ray_error",
+        ),
+        dict.fromkeys(
+            ("film_depth_error_constant", "film_depth_error_slope"), "film_parallel_place"
+        ),
+    ),
+)
