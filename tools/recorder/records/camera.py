@@ -1,0 +1,145 @@
+"""`camera.py`, `candidates.py` and `vector.py`: rays, and the box of pixels of a triangle."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
+from reference_tracer.tracer import camera, candidates, vector
+
+from .bounds import CORNERS
+from .film import _AXES, _DOMAIN, _DUAL, _PLACE, _WINDOW, camera as camera_of
+from .record import Inputs, Kept, Record
+
+_XYZ = "xyz"
+_PIXELS = tuple(map(float, range(-64, 65)))
+_REGION = dict(region_x=3.0, region_y=4.0, region_x_end=600.0, region_y_end=400.0)
+_BOX = (
+    dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
+    | _WINDOW
+    | _PLACE
+    | _DUAL
+    | _REGION
+    | dict(reach=0.5, clip_start=0.1, clip_end=100.0)
+)
+_MATRIX = {f"m{i}{k}": 0.5 + 0.25 * i - 0.125 * k for i in range(3) for k in range(4)}
+
+
+def _rays(v: Inputs, prefix: str, projection: Projection) -> Kept:
+    found = camera.camera_rays(camera_of(v, projection), v.one("px"), v.one("py"))
+    ends = {f"{prefix}_origin": found.origins, f"{prefix}_direction": found.directions}
+    return {f"{name}_{k}": row for name, rows in ends.items() for k, row in zip(_XYZ, rows)}
+
+
+def _positions(v: Inputs) -> Kept:
+    """Of the first pixel of a region: which one it is, is counted in integers."""
+    tile = SimpleNamespace(width=640, x0=v.scalar("region_x"), y0=v.scalar("region_y"))
+    px, py = camera.film_positions(tile, v.scalar("dx"), v.scalar("dy"), np.zeros(1, np.int32))
+    return {"film_position_x": px, "film_position_y": py}
+
+
+def _dual(v: Inputs) -> Kept:
+    dual = camera.dual_axes(camera_of(v, PERSPECTIVE))
+    rows = ("right", "up", "depth")
+    return {f"dual_{row}_{k}": dual[i, n] for i, row in enumerate(rows) for n, k in enumerate(_XYZ)}
+
+
+def _dual_axes(v: Inputs):
+    """In place of `dual_axes`, which is recorded by itself."""
+    rows = [v.vector(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
+    return mock.patch.object(camera, "dual_axes", lambda _: v.stacked(rows))
+
+
+def _project(v: Inputs) -> Kept:
+    with _dual_axes(v):
+        found = camera.project(camera_of(v, PERSPECTIVE), v.vector("vx vy vz"))
+    names = "project", "project_magnitude"
+    return {
+        f"{name}_{k}": row
+        for name, rows in zip(names, found, strict=True)
+        for k, row in zip(("right", "up", "depth"), rows, strict=True)
+    }
+
+
+def _pixel_bounds(v: Inputs, prefix: str, projection: Projection) -> Kept:
+    own = camera_of(v, projection)
+    ends = {k: v.scalar(f"region_{k[0]}{'_end' * (k[1] == '1')}") for k in ("x0", "x1", "y0", "y1")}
+    own.region = SimpleNamespace(**ends)
+    with _dual_axes(v), mock.patch.object(candidates, "has_sound_axes", lambda _: True):
+        bounds = candidates.pixel_bounds(own, v.matrix(*CORNERS), v.scalar("reach"))
+    names = f"{prefix}_x0", f"{prefix}_x1", f"{prefix}_y0", f"{prefix}_y1"
+    return dict(zip(names, bounds, strict=True))
+
+
+def _transform(v: Inputs) -> Kept:
+    rows = [[v.scalar(f"m{i}{k}") for k in range(4)] for i in range(3)]
+    matrix = v.stacked([v.stacked(row) for row in rows])
+    found = vector.transform_points(matrix, v.vector("vx vy vz"))
+    return {f"transform_{k}": row for k, row in zip(_XYZ, found, strict=True)}
+
+
+def _named(prefix: str, names: str, theorem: str) -> dict[str, str]:
+    return {f"{prefix}_{name}": theorem for name in names.split()}
+
+
+_PROJECTIONS = (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC))
+_VECTORS = "origin_x origin_y origin_z direction_x direction_y direction_z"
+
+RECORDS = (
+    *(
+        Record(
+            f"ray_{name}",
+            "camera.camera_rays",
+            _WINDOW | _AXES | _PLACE | dict(px=100.5, py=99.5),
+            lambda v, name=name, of=of: _rays(v, f"ray_{name}", of),
+            _named(f"ray_{name}", _VECTORS, f"film_ray_error_{name}_right"),
+            of.name,
+            _DOMAIN,
+        )
+        for name, of in _PROJECTIONS
+    ),
+    Record(
+        "film_position",
+        "camera.film_positions",
+        dict(region_x=3.0, region_y=4.0, dx=0.125, dy=-0.25),
+        _positions,
+        _named("film_position", "x y", "film_position_right"),
+        domain=dict(region_x=_PIXELS, region_y=_PIXELS),
+    ),
+    Record(
+        "dual",
+        "camera.dual_axes",
+        _AXES,
+        _dual,
+        _named("dual", " ".join(_DUAL), "dual_axes_right"),
+    ),
+    Record(
+        "project",
+        "camera.project",
+        _PLACE | _DUAL | dict(vx=0.75, vy=0.5, vz=-2.0),
+        _project,
+        _named("project", "right up depth", "project_right")
+        | _named("project_magnitude", "right up depth", "project_right"),
+    ),
+    *(
+        Record(
+            f"pixel_bounds_{name}",
+            "candidates.pixel_bounds",
+            _BOX,
+            lambda v, name=name, of=of: _pixel_bounds(v, f"pixel_bounds_{name}", of),
+            _named(f"pixel_bounds_{name}", "x0 x1 y0 y1", f"pixel_bounds_{name}_right"),
+            of.name,
+            _DOMAIN | dict.fromkeys(_REGION, _PIXELS),
+        )
+        for name, of in _PROJECTIONS
+    ),
+    Record(
+        "transform",
+        "vector.transform_points",
+        _MATRIX | dict(vx=0.75, vy=0.5, vz=-2.0),
+        _transform,
+        _named("transform", "x y z", ""),
+    ),
+)
