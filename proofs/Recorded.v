@@ -2146,3 +2146,677 @@ Definition film_depth_error_constant : expr :=
 (** film.Film.depth_error: slope *)
 Definition film_depth_error_slope : expr :=
   Mul (Num 1 (-46)) (Var "spread").
+
+(** camera.camera_rays, perspective: origin x *)
+Definition ray_perspective_origin_x : expr :=
+  Var "ox".
+
+(** camera.camera_rays, perspective: origin y *)
+Definition ray_perspective_origin_y : expr :=
+  Var "oy".
+
+(** camera.camera_rays, perspective: origin z *)
+Definition ray_perspective_origin_z : expr :=
+  Var "oz".
+
+(** camera.camera_rays, perspective: direction x *)
+Definition ray_perspective_direction_x : expr :=
+  Add (Add (Mul (Add (Var "left") (Mul (Var "px") (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Var "rx")) (Mul (Add (Var "bottom") (Mul (Var "py") (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Var "ux"))) (Var "fx").
+
+(** camera.camera_rays, perspective: direction y *)
+Definition ray_perspective_direction_y : expr :=
+  Add (Add (Mul (Add (Var "left") (Mul (Var "px") (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Var "ry")) (Mul (Add (Var "bottom") (Mul (Var "py") (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Var "uy"))) (Var "fy").
+
+(** camera.camera_rays, perspective: direction z *)
+Definition ray_perspective_direction_z : expr :=
+  Add (Add (Mul (Add (Var "left") (Mul (Var "px") (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Var "rz")) (Mul (Add (Var "bottom") (Mul (Var "py") (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Var "uz"))) (Var "fz").
+
+(** camera.camera_rays, orthographic: origin x *)
+Definition ray_parallel_origin_x : expr :=
+  Add (Var "ox") (Add (Mul (Add (Var "left") (Mul (Var "px") (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Var "rx")) (Mul (Add (Var "bottom") (Mul (Var "py") (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Var "ux"))).
+
+(** camera.camera_rays, orthographic: origin y *)
+Definition ray_parallel_origin_y : expr :=
+  Add (Var "oy") (Add (Mul (Add (Var "left") (Mul (Var "px") (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Var "ry")) (Mul (Add (Var "bottom") (Mul (Var "py") (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Var "uy"))).
+
+(** camera.camera_rays, orthographic: origin z *)
+Definition ray_parallel_origin_z : expr :=
+  Add (Var "oz") (Add (Mul (Add (Var "left") (Mul (Var "px") (Div (Sub (Var "right") (Var "left"))
+    (Var "width")))) (Var "rz")) (Mul (Add (Var "bottom") (Mul (Var "py") (Div (Sub (Var "top")
+    (Var "bottom")) (Var "height")))) (Var "uz"))).
+
+(** camera.camera_rays, orthographic: direction x *)
+Definition ray_parallel_direction_x : expr :=
+  Var "fx".
+
+(** camera.camera_rays, orthographic: direction y *)
+Definition ray_parallel_direction_y : expr :=
+  Var "fy".
+
+(** camera.camera_rays, orthographic: direction z *)
+Definition ray_parallel_direction_z : expr :=
+  Var "fz".
+
+(** camera.film_positions: x *)
+Definition film_position_x : expr :=
+  Add (Add (Add (Num 0 0) (Var "region_x")) (Num 1 (-1))) (Var "dx").
+
+(** camera.film_positions: y *)
+Definition film_position_y : expr :=
+  Add (Add (Add (Num 0 0) (Var "region_y")) (Num 1 (-1))) (Var "dy").
+
+(** camera.dual_axes: right x *)
+Definition dual_right_x : expr :=
+  let x1 := Sub (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")) in
+  Div x1 (Add (Add (Mul (Var "rx") x1) (Mul (Var "ry") (Sub (Mul (Var "uz") (Var "fx")) (Mul
+    (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul (Var "uy")
+    (Var "fx"))))).
+
+(** camera.dual_axes: right y *)
+Definition dual_right_y : expr :=
+  let x1 := Sub (Mul (Var "uz") (Var "fx")) (Mul (Var "ux") (Var "fz")) in
+  Div x1 (Add (Add (Mul (Var "rx") (Sub (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy"))))
+    (Mul (Var "ry") x1)) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul (Var "uy")
+    (Var "fx"))))).
+
+(** camera.dual_axes: right z *)
+Definition dual_right_z : expr :=
+  let x1 := Sub (Mul (Var "ux") (Var "fy")) (Mul (Var "uy") (Var "fx")) in
+  Div x1 (Add (Add (Mul (Var "rx") (Sub (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy"))))
+    (Mul (Var "ry") (Sub (Mul (Var "uz") (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz")
+    x1)).
+
+(** camera.dual_axes: up x *)
+Definition dual_up_x : expr :=
+  Div (Sub (Mul (Var "fy") (Var "rz")) (Mul (Var "fz") (Var "ry"))) (Add (Add (Mul (Var "rx") (Sub
+    (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")))) (Mul (Var "ry") (Sub (Mul (Var "uz")
+    (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul
+    (Var "uy") (Var "fx"))))).
+
+(** camera.dual_axes: up y *)
+Definition dual_up_y : expr :=
+  Div (Sub (Mul (Var "fz") (Var "rx")) (Mul (Var "fx") (Var "rz"))) (Add (Add (Mul (Var "rx") (Sub
+    (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")))) (Mul (Var "ry") (Sub (Mul (Var "uz")
+    (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul
+    (Var "uy") (Var "fx"))))).
+
+(** camera.dual_axes: up z *)
+Definition dual_up_z : expr :=
+  Div (Sub (Mul (Var "fx") (Var "ry")) (Mul (Var "fy") (Var "rx"))) (Add (Add (Mul (Var "rx") (Sub
+    (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")))) (Mul (Var "ry") (Sub (Mul (Var "uz")
+    (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul
+    (Var "uy") (Var "fx"))))).
+
+(** camera.dual_axes: depth x *)
+Definition dual_depth_x : expr :=
+  Div (Sub (Mul (Var "ry") (Var "uz")) (Mul (Var "rz") (Var "uy"))) (Add (Add (Mul (Var "rx") (Sub
+    (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")))) (Mul (Var "ry") (Sub (Mul (Var "uz")
+    (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul
+    (Var "uy") (Var "fx"))))).
+
+(** camera.dual_axes: depth y *)
+Definition dual_depth_y : expr :=
+  Div (Sub (Mul (Var "rz") (Var "ux")) (Mul (Var "rx") (Var "uz"))) (Add (Add (Mul (Var "rx") (Sub
+    (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")))) (Mul (Var "ry") (Sub (Mul (Var "uz")
+    (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul
+    (Var "uy") (Var "fx"))))).
+
+(** camera.dual_axes: depth z *)
+Definition dual_depth_z : expr :=
+  Div (Sub (Mul (Var "rx") (Var "uy")) (Mul (Var "ry") (Var "ux"))) (Add (Add (Mul (Var "rx") (Sub
+    (Mul (Var "uy") (Var "fz")) (Mul (Var "uz") (Var "fy")))) (Mul (Var "ry") (Sub (Mul (Var "uz")
+    (Var "fx")) (Mul (Var "ux") (Var "fz"))))) (Mul (Var "rz") (Sub (Mul (Var "ux") (Var "fy")) (Mul
+    (Var "uy") (Var "fx"))))).
+
+(** camera.project: right *)
+Definition project_right : expr :=
+  Add (Add (Mul (Var "right_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "right_y") (Sub (Var "vy")
+    (Var "oy")))) (Mul (Var "right_z") (Sub (Var "vz") (Var "oz"))).
+
+(** camera.project: up *)
+Definition project_up : expr :=
+  Add (Add (Mul (Var "up_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "up_y") (Sub (Var "vy")
+    (Var "oy")))) (Mul (Var "up_z") (Sub (Var "vz") (Var "oz"))).
+
+(** camera.project: depth *)
+Definition project_depth : expr :=
+  Add (Add (Mul (Var "depth_x") (Sub (Var "vx") (Var "ox"))) (Mul (Var "depth_y") (Sub (Var "vy")
+    (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "vz") (Var "oz"))).
+
+(** camera.project: magnitude right *)
+Definition project_magnitude_right : expr :=
+  Add (Add (Mul (Abs (Var "right_x")) (Add (Abs (Var "vx")) (Abs (Var "ox")))) (Mul (Abs
+    (Var "right_y")) (Add (Abs (Var "vy")) (Abs (Var "oy"))))) (Mul (Abs (Var "right_z")) (Add (Abs
+    (Var "vz")) (Abs (Var "oz")))).
+
+(** camera.project: magnitude up *)
+Definition project_magnitude_up : expr :=
+  Add (Add (Mul (Abs (Var "up_x")) (Add (Abs (Var "vx")) (Abs (Var "ox")))) (Mul (Abs (Var "up_y"))
+    (Add (Abs (Var "vy")) (Abs (Var "oy"))))) (Mul (Abs (Var "up_z")) (Add (Abs (Var "vz")) (Abs
+    (Var "oz")))).
+
+(** camera.project: magnitude depth *)
+Definition project_magnitude_depth : expr :=
+  Add (Add (Mul (Abs (Var "depth_x")) (Add (Abs (Var "vx")) (Abs (Var "ox")))) (Mul (Abs
+    (Var "depth_y")) (Add (Abs (Var "vy")) (Abs (Var "oy"))))) (Mul (Abs (Var "depth_z")) (Add (Abs
+    (Var "vz")) (Abs (Var "oz")))).
+
+(** candidates.pixel_bounds, perspective: x0 *)
+Definition pixel_bounds_perspective_x0 : expr :=
+  let x1 := Sub (Var "ax") (Var "ox") in
+  let x2 := Sub (Var "ay") (Var "oy") in
+  let x3 := Sub (Var "az") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Sub (Var "bx") (Var "ox") in
+  let x6 := Sub (Var "by") (Var "oy") in
+  let x7 := Sub (Var "bz") (Var "oz") in
+  let x8 := Add (Add (Mul (Var "depth_x") x5) (Mul (Var "depth_y") x6)) (Mul (Var "depth_z") x7) in
+  let x9 := Sub (Var "cx") (Var "ox") in
+  let x10 := Sub (Var "cy") (Var "oy") in
+  let x11 := Sub (Var "cz") (Var "oz") in
+  let x12 := Add (Add (Mul (Var "depth_x") x9) (Mul (Var "depth_y") x10)) (Mul (Var "depth_z") x11)
+    in
+  let x13 := Abs (Var "right_x") in
+  let x14 := Abs (Var "ox") in
+  let x15 := Add (Abs (Var "ax")) x14 in
+  let x16 := Abs (Var "right_y") in
+  let x17 := Abs (Var "oy") in
+  let x18 := Add (Abs (Var "ay")) x17 in
+  let x19 := Abs (Var "right_z") in
+  let x20 := Abs (Var "oz") in
+  let x21 := Add (Abs (Var "az")) x20 in
+  let x22 := Abs (Var "up_x") in
+  let x23 := Abs (Var "up_y") in
+  let x24 := Abs (Var "up_z") in
+  let x25 := Abs (Var "depth_x") in
+  let x26 := Abs (Var "depth_y") in
+  let x27 := Abs (Var "depth_z") in
+  let x28 := Add (Abs (Var "bx")) x14 in
+  let x29 := Add (Abs (Var "by")) x17 in
+  let x30 := Add (Abs (Var "bz")) x20 in
+  let x31 := Add (Abs (Var "cx")) x14 in
+  let x32 := Add (Abs (Var "cy")) x17 in
+  let x33 := Add (Abs (Var "cz")) x20 in
+  let x34 := Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13 x15) (Mul x16 x18)) (Mul
+    x19 x21)) (Add (Add (Mul x22 x15) (Mul x23 x18)) (Mul x24 x21))) (Add (Add (Mul x25 x15) (Mul
+    x26 x18)) (Mul x27 x21)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13
+    x28) (Mul x16 x29)) (Mul x19 x30)) (Add (Add (Mul x22 x28) (Mul x23 x29)) (Mul x24 x30))) (Add
+    (Add (Mul x25 x28) (Mul x26 x29)) (Mul x27 x30)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46))
+    (Add (Add (Add (Add (Mul x13 x31) (Mul x16 x32)) (Mul x19 x33)) (Add (Add (Mul x22 x31) (Mul x23
+    x32)) (Mul x24 x33))) (Add (Add (Mul x25 x31) (Mul x26 x32)) (Mul x27 x33)))) (Num 1 (-1000)))
+    in
+  let x35 := Sub (Min (Min x4 x8) x12) x34 in
+  let x36 := Add (Add (Mul (Var "right_x") x1) (Mul (Var "right_y") x2)) (Mul (Var "right_z") x3) in
+  let x37 := Div x36 x4 in
+  let x38 := Add (Add (Mul (Var "right_x") x5) (Mul (Var "right_y") x6)) (Mul (Var "right_z") x7) in
+  let x39 := Div x38 x8 in
+  let x40 := Add (Add (Mul (Var "right_x") x9) (Mul (Var "right_y") x10)) (Mul (Var "right_z") x11)
+    in
+  let x41 := Div x40 x12 in
+  let x42 := Sub (Min (Min x36 x38) x40) x34 in
+  let x43 := Max x35 (Var "clip_start") in
+  let x44 := Div (Sub (Var "right") (Var "left")) (Var "width") in
+  let x45 := Ceil (Sub (Sub (Div (Sub (Where (LessEq (Var "clip_start") x35) (Min (Min (Sub x37 (Div
+    (Mul x34 (Add (Num 1 0) (Abs x37))) (Sub x4 x34))) (Sub x39 (Div (Mul x34 (Add (Num 1 0) (Abs
+    x39))) (Sub x8 x34)))) (Sub x41 (Div (Mul x34 (Add (Num 1 0) (Abs x41))) (Sub x12 x34)))) (Where
+    (Less x42 (Num 0 0)) (Div x42 x43) (Div x42 (Max (Add (Max (Max x4 x8) x12) x34) x43))))
+    (Var "left")) x44) (Num 1 (-1))) (Add (Var "reach") (Mul (Num 1 (-46)) (Add (Add (Abs (Div
+    (Var "left") x44)) (Var "width")) (Var "height"))))) in
+  Where (Not (Same x45 x45)) (Var "region_x") (Min (Max x45 (Var "region_x")) (Var "region_x_end")).
+
+(** candidates.pixel_bounds, perspective: x1 *)
+Definition pixel_bounds_perspective_x1 : expr :=
+  let x1 := Sub (Var "ax") (Var "ox") in
+  let x2 := Sub (Var "ay") (Var "oy") in
+  let x3 := Sub (Var "az") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Sub (Var "bx") (Var "ox") in
+  let x6 := Sub (Var "by") (Var "oy") in
+  let x7 := Sub (Var "bz") (Var "oz") in
+  let x8 := Add (Add (Mul (Var "depth_x") x5) (Mul (Var "depth_y") x6)) (Mul (Var "depth_z") x7) in
+  let x9 := Sub (Var "cx") (Var "ox") in
+  let x10 := Sub (Var "cy") (Var "oy") in
+  let x11 := Sub (Var "cz") (Var "oz") in
+  let x12 := Add (Add (Mul (Var "depth_x") x9) (Mul (Var "depth_y") x10)) (Mul (Var "depth_z") x11)
+    in
+  let x13 := Abs (Var "right_x") in
+  let x14 := Abs (Var "ox") in
+  let x15 := Add (Abs (Var "ax")) x14 in
+  let x16 := Abs (Var "right_y") in
+  let x17 := Abs (Var "oy") in
+  let x18 := Add (Abs (Var "ay")) x17 in
+  let x19 := Abs (Var "right_z") in
+  let x20 := Abs (Var "oz") in
+  let x21 := Add (Abs (Var "az")) x20 in
+  let x22 := Abs (Var "up_x") in
+  let x23 := Abs (Var "up_y") in
+  let x24 := Abs (Var "up_z") in
+  let x25 := Abs (Var "depth_x") in
+  let x26 := Abs (Var "depth_y") in
+  let x27 := Abs (Var "depth_z") in
+  let x28 := Add (Abs (Var "bx")) x14 in
+  let x29 := Add (Abs (Var "by")) x17 in
+  let x30 := Add (Abs (Var "bz")) x20 in
+  let x31 := Add (Abs (Var "cx")) x14 in
+  let x32 := Add (Abs (Var "cy")) x17 in
+  let x33 := Add (Abs (Var "cz")) x20 in
+  let x34 := Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13 x15) (Mul x16 x18)) (Mul
+    x19 x21)) (Add (Add (Mul x22 x15) (Mul x23 x18)) (Mul x24 x21))) (Add (Add (Mul x25 x15) (Mul
+    x26 x18)) (Mul x27 x21)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13
+    x28) (Mul x16 x29)) (Mul x19 x30)) (Add (Add (Mul x22 x28) (Mul x23 x29)) (Mul x24 x30))) (Add
+    (Add (Mul x25 x28) (Mul x26 x29)) (Mul x27 x30)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46))
+    (Add (Add (Add (Add (Mul x13 x31) (Mul x16 x32)) (Mul x19 x33)) (Add (Add (Mul x22 x31) (Mul x23
+    x32)) (Mul x24 x33))) (Add (Add (Mul x25 x31) (Mul x26 x32)) (Mul x27 x33)))) (Num 1 (-1000)))
+    in
+  let x35 := Sub (Min (Min x4 x8) x12) x34 in
+  let x36 := Add (Add (Mul (Var "right_x") x1) (Mul (Var "right_y") x2)) (Mul (Var "right_z") x3) in
+  let x37 := Div x36 x4 in
+  let x38 := Add (Add (Mul (Var "right_x") x5) (Mul (Var "right_y") x6)) (Mul (Var "right_z") x7) in
+  let x39 := Div x38 x8 in
+  let x40 := Add (Add (Mul (Var "right_x") x9) (Mul (Var "right_y") x10)) (Mul (Var "right_z") x11)
+    in
+  let x41 := Div x40 x12 in
+  let x42 := Add (Max (Max x36 x38) x40) x34 in
+  let x43 := Max x35 (Var "clip_start") in
+  let x44 := Div (Sub (Var "right") (Var "left")) (Var "width") in
+  let x45 := Add (Floor (Add (Sub (Div (Sub (Where (LessEq (Var "clip_start") x35) (Max (Max (Add
+    x37 (Div (Mul x34 (Add (Num 1 0) (Abs x37))) (Sub x4 x34))) (Add x39 (Div (Mul x34 (Add
+    (Num 1 0) (Abs x39))) (Sub x8 x34)))) (Add x41 (Div (Mul x34 (Add (Num 1 0) (Abs x41))) (Sub x12
+    x34)))) (Where (Less (Num 0 0) x42) (Div x42 x43) (Div x42 (Max (Add (Max (Max x4 x8) x12) x34)
+    x43)))) (Var "left")) x44) (Num 1 (-1))) (Add (Var "reach") (Mul (Num 1 (-46)) (Add (Add (Abs
+    (Div (Var "left") x44)) (Var "width")) (Var "height")))))) (Num 1 0) in
+  Where (Not (Same x45 x45)) (Var "region_x_end") (Min (Max x45 (Var "region_x"))
+    (Var "region_x_end")).
+
+(** candidates.pixel_bounds, perspective: y0 *)
+Definition pixel_bounds_perspective_y0 : expr :=
+  let x1 := Sub (Var "ax") (Var "ox") in
+  let x2 := Sub (Var "ay") (Var "oy") in
+  let x3 := Sub (Var "az") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Sub (Var "bx") (Var "ox") in
+  let x6 := Sub (Var "by") (Var "oy") in
+  let x7 := Sub (Var "bz") (Var "oz") in
+  let x8 := Add (Add (Mul (Var "depth_x") x5) (Mul (Var "depth_y") x6)) (Mul (Var "depth_z") x7) in
+  let x9 := Sub (Var "cx") (Var "ox") in
+  let x10 := Sub (Var "cy") (Var "oy") in
+  let x11 := Sub (Var "cz") (Var "oz") in
+  let x12 := Add (Add (Mul (Var "depth_x") x9) (Mul (Var "depth_y") x10)) (Mul (Var "depth_z") x11)
+    in
+  let x13 := Abs (Var "right_x") in
+  let x14 := Abs (Var "ox") in
+  let x15 := Add (Abs (Var "ax")) x14 in
+  let x16 := Abs (Var "right_y") in
+  let x17 := Abs (Var "oy") in
+  let x18 := Add (Abs (Var "ay")) x17 in
+  let x19 := Abs (Var "right_z") in
+  let x20 := Abs (Var "oz") in
+  let x21 := Add (Abs (Var "az")) x20 in
+  let x22 := Abs (Var "up_x") in
+  let x23 := Abs (Var "up_y") in
+  let x24 := Abs (Var "up_z") in
+  let x25 := Abs (Var "depth_x") in
+  let x26 := Abs (Var "depth_y") in
+  let x27 := Abs (Var "depth_z") in
+  let x28 := Add (Abs (Var "bx")) x14 in
+  let x29 := Add (Abs (Var "by")) x17 in
+  let x30 := Add (Abs (Var "bz")) x20 in
+  let x31 := Add (Abs (Var "cx")) x14 in
+  let x32 := Add (Abs (Var "cy")) x17 in
+  let x33 := Add (Abs (Var "cz")) x20 in
+  let x34 := Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13 x15) (Mul x16 x18)) (Mul
+    x19 x21)) (Add (Add (Mul x22 x15) (Mul x23 x18)) (Mul x24 x21))) (Add (Add (Mul x25 x15) (Mul
+    x26 x18)) (Mul x27 x21)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13
+    x28) (Mul x16 x29)) (Mul x19 x30)) (Add (Add (Mul x22 x28) (Mul x23 x29)) (Mul x24 x30))) (Add
+    (Add (Mul x25 x28) (Mul x26 x29)) (Mul x27 x30)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46))
+    (Add (Add (Add (Add (Mul x13 x31) (Mul x16 x32)) (Mul x19 x33)) (Add (Add (Mul x22 x31) (Mul x23
+    x32)) (Mul x24 x33))) (Add (Add (Mul x25 x31) (Mul x26 x32)) (Mul x27 x33)))) (Num 1 (-1000)))
+    in
+  let x35 := Sub (Min (Min x4 x8) x12) x34 in
+  let x36 := Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2)) (Mul (Var "up_z") x3) in
+  let x37 := Div x36 x4 in
+  let x38 := Add (Add (Mul (Var "up_x") x5) (Mul (Var "up_y") x6)) (Mul (Var "up_z") x7) in
+  let x39 := Div x38 x8 in
+  let x40 := Add (Add (Mul (Var "up_x") x9) (Mul (Var "up_y") x10)) (Mul (Var "up_z") x11) in
+  let x41 := Div x40 x12 in
+  let x42 := Sub (Min (Min x36 x38) x40) x34 in
+  let x43 := Max x35 (Var "clip_start") in
+  let x44 := Div (Sub (Var "top") (Var "bottom")) (Var "height") in
+  let x45 := Ceil (Sub (Sub (Div (Sub (Where (LessEq (Var "clip_start") x35) (Min (Min (Sub x37 (Div
+    (Mul x34 (Add (Num 1 0) (Abs x37))) (Sub x4 x34))) (Sub x39 (Div (Mul x34 (Add (Num 1 0) (Abs
+    x39))) (Sub x8 x34)))) (Sub x41 (Div (Mul x34 (Add (Num 1 0) (Abs x41))) (Sub x12 x34)))) (Where
+    (Less x42 (Num 0 0)) (Div x42 x43) (Div x42 (Max (Add (Max (Max x4 x8) x12) x34) x43))))
+    (Var "bottom")) x44) (Num 1 (-1))) (Add (Var "reach") (Mul (Num 1 (-46)) (Add (Add (Abs (Div
+    (Var "bottom") x44)) (Var "width")) (Var "height"))))) in
+  Where (Not (Same x45 x45)) (Var "region_y") (Min (Max x45 (Var "region_y")) (Var "region_y_end")).
+
+(** candidates.pixel_bounds, perspective: y1 *)
+Definition pixel_bounds_perspective_y1 : expr :=
+  let x1 := Sub (Var "ax") (Var "ox") in
+  let x2 := Sub (Var "ay") (Var "oy") in
+  let x3 := Sub (Var "az") (Var "oz") in
+  let x4 := Add (Add (Mul (Var "depth_x") x1) (Mul (Var "depth_y") x2)) (Mul (Var "depth_z") x3) in
+  let x5 := Sub (Var "bx") (Var "ox") in
+  let x6 := Sub (Var "by") (Var "oy") in
+  let x7 := Sub (Var "bz") (Var "oz") in
+  let x8 := Add (Add (Mul (Var "depth_x") x5) (Mul (Var "depth_y") x6)) (Mul (Var "depth_z") x7) in
+  let x9 := Sub (Var "cx") (Var "ox") in
+  let x10 := Sub (Var "cy") (Var "oy") in
+  let x11 := Sub (Var "cz") (Var "oz") in
+  let x12 := Add (Add (Mul (Var "depth_x") x9) (Mul (Var "depth_y") x10)) (Mul (Var "depth_z") x11)
+    in
+  let x13 := Abs (Var "right_x") in
+  let x14 := Abs (Var "ox") in
+  let x15 := Add (Abs (Var "ax")) x14 in
+  let x16 := Abs (Var "right_y") in
+  let x17 := Abs (Var "oy") in
+  let x18 := Add (Abs (Var "ay")) x17 in
+  let x19 := Abs (Var "right_z") in
+  let x20 := Abs (Var "oz") in
+  let x21 := Add (Abs (Var "az")) x20 in
+  let x22 := Abs (Var "up_x") in
+  let x23 := Abs (Var "up_y") in
+  let x24 := Abs (Var "up_z") in
+  let x25 := Abs (Var "depth_x") in
+  let x26 := Abs (Var "depth_y") in
+  let x27 := Abs (Var "depth_z") in
+  let x28 := Add (Abs (Var "bx")) x14 in
+  let x29 := Add (Abs (Var "by")) x17 in
+  let x30 := Add (Abs (Var "bz")) x20 in
+  let x31 := Add (Abs (Var "cx")) x14 in
+  let x32 := Add (Abs (Var "cy")) x17 in
+  let x33 := Add (Abs (Var "cz")) x20 in
+  let x34 := Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13 x15) (Mul x16 x18)) (Mul
+    x19 x21)) (Add (Add (Mul x22 x15) (Mul x23 x18)) (Mul x24 x21))) (Add (Add (Mul x25 x15) (Mul
+    x26 x18)) (Mul x27 x21)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x13
+    x28) (Mul x16 x29)) (Mul x19 x30)) (Add (Add (Mul x22 x28) (Mul x23 x29)) (Mul x24 x30))) (Add
+    (Add (Mul x25 x28) (Mul x26 x29)) (Mul x27 x30)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46))
+    (Add (Add (Add (Add (Mul x13 x31) (Mul x16 x32)) (Mul x19 x33)) (Add (Add (Mul x22 x31) (Mul x23
+    x32)) (Mul x24 x33))) (Add (Add (Mul x25 x31) (Mul x26 x32)) (Mul x27 x33)))) (Num 1 (-1000)))
+    in
+  let x35 := Sub (Min (Min x4 x8) x12) x34 in
+  let x36 := Add (Add (Mul (Var "up_x") x1) (Mul (Var "up_y") x2)) (Mul (Var "up_z") x3) in
+  let x37 := Div x36 x4 in
+  let x38 := Add (Add (Mul (Var "up_x") x5) (Mul (Var "up_y") x6)) (Mul (Var "up_z") x7) in
+  let x39 := Div x38 x8 in
+  let x40 := Add (Add (Mul (Var "up_x") x9) (Mul (Var "up_y") x10)) (Mul (Var "up_z") x11) in
+  let x41 := Div x40 x12 in
+  let x42 := Add (Max (Max x36 x38) x40) x34 in
+  let x43 := Max x35 (Var "clip_start") in
+  let x44 := Div (Sub (Var "top") (Var "bottom")) (Var "height") in
+  let x45 := Add (Floor (Add (Sub (Div (Sub (Where (LessEq (Var "clip_start") x35) (Max (Max (Add
+    x37 (Div (Mul x34 (Add (Num 1 0) (Abs x37))) (Sub x4 x34))) (Add x39 (Div (Mul x34 (Add
+    (Num 1 0) (Abs x39))) (Sub x8 x34)))) (Add x41 (Div (Mul x34 (Add (Num 1 0) (Abs x41))) (Sub x12
+    x34)))) (Where (Less (Num 0 0) x42) (Div x42 x43) (Div x42 (Max (Add (Max (Max x4 x8) x12) x34)
+    x43)))) (Var "bottom")) x44) (Num 1 (-1))) (Add (Var "reach") (Mul (Num 1 (-46)) (Add (Add (Abs
+    (Div (Var "bottom") x44)) (Var "width")) (Var "height")))))) (Num 1 0) in
+  Where (Not (Same x45 x45)) (Var "region_y_end") (Min (Max x45 (Var "region_y"))
+    (Var "region_y_end")).
+
+(** candidates.pixel_bounds, perspective: path *)
+Definition pixel_bounds_perspective_path : test :=
+  let x1 := Add (Add (Mul (Var "depth_x") (Sub (Var "ax") (Var "ox"))) (Mul (Var "depth_y") (Sub
+    (Var "ay") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "az") (Var "oz"))) in
+  let x2 := Add (Add (Mul (Var "depth_x") (Sub (Var "bx") (Var "ox"))) (Mul (Var "depth_y") (Sub
+    (Var "by") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "bz") (Var "oz"))) in
+  let x3 := Add (Add (Mul (Var "depth_x") (Sub (Var "cx") (Var "ox"))) (Mul (Var "depth_y") (Sub
+    (Var "cy") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "cz") (Var "oz"))) in
+  let x4 := Abs (Var "right_x") in
+  let x5 := Abs (Var "ox") in
+  let x6 := Add (Abs (Var "ax")) x5 in
+  let x7 := Abs (Var "right_y") in
+  let x8 := Abs (Var "oy") in
+  let x9 := Add (Abs (Var "ay")) x8 in
+  let x10 := Abs (Var "right_z") in
+  let x11 := Abs (Var "oz") in
+  let x12 := Add (Abs (Var "az")) x11 in
+  let x13 := Abs (Var "up_x") in
+  let x14 := Abs (Var "up_y") in
+  let x15 := Abs (Var "up_z") in
+  let x16 := Abs (Var "depth_x") in
+  let x17 := Abs (Var "depth_y") in
+  let x18 := Abs (Var "depth_z") in
+  let x19 := Add (Abs (Var "bx")) x5 in
+  let x20 := Add (Abs (Var "by")) x8 in
+  let x21 := Add (Abs (Var "bz")) x11 in
+  let x22 := Add (Abs (Var "cx")) x5 in
+  let x23 := Add (Abs (Var "cy")) x8 in
+  let x24 := Add (Abs (Var "cz")) x11 in
+  let x25 := Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x4 x6) (Mul x7 x9)) (Mul x10
+    x12)) (Add (Add (Mul x13 x6) (Mul x14 x9)) (Mul x15 x12))) (Add (Add (Mul x16 x6) (Mul x17 x9))
+    (Mul x18 x12)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x4 x19) (Mul
+    x7 x20)) (Mul x10 x21)) (Add (Add (Mul x13 x19) (Mul x14 x20)) (Mul x15 x21))) (Add (Add (Mul
+    x16 x19) (Mul x17 x20)) (Mul x18 x21)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46)) (Add (Add
+    (Add (Add (Mul x4 x22) (Mul x7 x23)) (Mul x10 x24)) (Add (Add (Mul x13 x22) (Mul x14 x23)) (Mul
+    x15 x24))) (Add (Add (Mul x16 x22) (Mul x17 x23)) (Mul x18 x24)))) (Num 1 (-1000))) in
+  Not (Or (Less (Add (Max (Max x1 x2) x3) x25) (Var "clip_start")) (Less (Var "clip_end") (Sub (Min
+    (Min x1 x2) x3) x25))).
+
+(** candidates.pixel_bounds, orthographic: x0 *)
+Definition pixel_bounds_parallel_x0 : expr :=
+  let x1 := Abs (Var "right_x") in
+  let x2 := Abs (Var "ox") in
+  let x3 := Add (Abs (Var "ax")) x2 in
+  let x4 := Abs (Var "right_y") in
+  let x5 := Abs (Var "oy") in
+  let x6 := Add (Abs (Var "ay")) x5 in
+  let x7 := Abs (Var "right_z") in
+  let x8 := Abs (Var "oz") in
+  let x9 := Add (Abs (Var "az")) x8 in
+  let x10 := Abs (Var "up_x") in
+  let x11 := Abs (Var "up_y") in
+  let x12 := Abs (Var "up_z") in
+  let x13 := Abs (Var "depth_x") in
+  let x14 := Abs (Var "depth_y") in
+  let x15 := Abs (Var "depth_z") in
+  let x16 := Add (Abs (Var "bx")) x2 in
+  let x17 := Add (Abs (Var "by")) x5 in
+  let x18 := Add (Abs (Var "bz")) x8 in
+  let x19 := Add (Abs (Var "cx")) x2 in
+  let x20 := Add (Abs (Var "cy")) x5 in
+  let x21 := Add (Abs (Var "cz")) x8 in
+  let x22 := Div (Sub (Var "right") (Var "left")) (Var "width") in
+  let x23 := Ceil (Sub (Sub (Div (Sub (Sub (Min (Min (Add (Add (Mul (Var "right_x") (Sub (Var "ax")
+    (Var "ox"))) (Mul (Var "right_y") (Sub (Var "ay") (Var "oy")))) (Mul (Var "right_z") (Sub
+    (Var "az") (Var "oz")))) (Add (Add (Mul (Var "right_x") (Sub (Var "bx") (Var "ox"))) (Mul
+    (Var "right_y") (Sub (Var "by") (Var "oy")))) (Mul (Var "right_z") (Sub (Var "bz")
+    (Var "oz"))))) (Add (Add (Mul (Var "right_x") (Sub (Var "cx") (Var "ox"))) (Mul (Var "right_y")
+    (Sub (Var "cy") (Var "oy")))) (Mul (Var "right_z") (Sub (Var "cz") (Var "oz"))))) (Max (Max (Add
+    (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x3) (Mul x4 x6)) (Mul x7 x9)) (Add (Add (Mul x10
+    x3) (Mul x11 x6)) (Mul x12 x9))) (Add (Add (Mul x13 x3) (Mul x14 x6)) (Mul x15 x9))))
+    (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x16) (Mul x4 x17)) (Mul x7
+    x18)) (Add (Add (Mul x10 x16) (Mul x11 x17)) (Mul x12 x18))) (Add (Add (Mul x13 x16) (Mul x14
+    x17)) (Mul x15 x18)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1
+    x19) (Mul x4 x20)) (Mul x7 x21)) (Add (Add (Mul x10 x19) (Mul x11 x20)) (Mul x12 x21))) (Add
+    (Add (Mul x13 x19) (Mul x14 x20)) (Mul x15 x21)))) (Num 1 (-1000))))) (Var "left")) x22)
+    (Num 1 (-1))) (Add (Var "reach") (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "left") x22))
+    (Var "width")) (Var "height"))))) in
+  Where (Not (Same x23 x23)) (Var "region_x") (Min (Max x23 (Var "region_x")) (Var "region_x_end")).
+
+(** candidates.pixel_bounds, orthographic: x1 *)
+Definition pixel_bounds_parallel_x1 : expr :=
+  let x1 := Abs (Var "right_x") in
+  let x2 := Abs (Var "ox") in
+  let x3 := Add (Abs (Var "ax")) x2 in
+  let x4 := Abs (Var "right_y") in
+  let x5 := Abs (Var "oy") in
+  let x6 := Add (Abs (Var "ay")) x5 in
+  let x7 := Abs (Var "right_z") in
+  let x8 := Abs (Var "oz") in
+  let x9 := Add (Abs (Var "az")) x8 in
+  let x10 := Abs (Var "up_x") in
+  let x11 := Abs (Var "up_y") in
+  let x12 := Abs (Var "up_z") in
+  let x13 := Abs (Var "depth_x") in
+  let x14 := Abs (Var "depth_y") in
+  let x15 := Abs (Var "depth_z") in
+  let x16 := Add (Abs (Var "bx")) x2 in
+  let x17 := Add (Abs (Var "by")) x5 in
+  let x18 := Add (Abs (Var "bz")) x8 in
+  let x19 := Add (Abs (Var "cx")) x2 in
+  let x20 := Add (Abs (Var "cy")) x5 in
+  let x21 := Add (Abs (Var "cz")) x8 in
+  let x22 := Div (Sub (Var "right") (Var "left")) (Var "width") in
+  let x23 := Add (Floor (Add (Sub (Div (Sub (Add (Max (Max (Add (Add (Mul (Var "right_x") (Sub
+    (Var "ax") (Var "ox"))) (Mul (Var "right_y") (Sub (Var "ay") (Var "oy")))) (Mul (Var "right_z")
+    (Sub (Var "az") (Var "oz")))) (Add (Add (Mul (Var "right_x") (Sub (Var "bx") (Var "ox"))) (Mul
+    (Var "right_y") (Sub (Var "by") (Var "oy")))) (Mul (Var "right_z") (Sub (Var "bz")
+    (Var "oz"))))) (Add (Add (Mul (Var "right_x") (Sub (Var "cx") (Var "ox"))) (Mul (Var "right_y")
+    (Sub (Var "cy") (Var "oy")))) (Mul (Var "right_z") (Sub (Var "cz") (Var "oz"))))) (Max (Max (Add
+    (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x3) (Mul x4 x6)) (Mul x7 x9)) (Add (Add (Mul x10
+    x3) (Mul x11 x6)) (Mul x12 x9))) (Add (Add (Mul x13 x3) (Mul x14 x6)) (Mul x15 x9))))
+    (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x16) (Mul x4 x17)) (Mul x7
+    x18)) (Add (Add (Mul x10 x16) (Mul x11 x17)) (Mul x12 x18))) (Add (Add (Mul x13 x16) (Mul x14
+    x17)) (Mul x15 x18)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1
+    x19) (Mul x4 x20)) (Mul x7 x21)) (Add (Add (Mul x10 x19) (Mul x11 x20)) (Mul x12 x21))) (Add
+    (Add (Mul x13 x19) (Mul x14 x20)) (Mul x15 x21)))) (Num 1 (-1000))))) (Var "left")) x22)
+    (Num 1 (-1))) (Add (Var "reach") (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "left") x22))
+    (Var "width")) (Var "height")))))) (Num 1 0) in
+  Where (Not (Same x23 x23)) (Var "region_x_end") (Min (Max x23 (Var "region_x"))
+    (Var "region_x_end")).
+
+(** candidates.pixel_bounds, orthographic: y0 *)
+Definition pixel_bounds_parallel_y0 : expr :=
+  let x1 := Abs (Var "right_x") in
+  let x2 := Abs (Var "ox") in
+  let x3 := Add (Abs (Var "ax")) x2 in
+  let x4 := Abs (Var "right_y") in
+  let x5 := Abs (Var "oy") in
+  let x6 := Add (Abs (Var "ay")) x5 in
+  let x7 := Abs (Var "right_z") in
+  let x8 := Abs (Var "oz") in
+  let x9 := Add (Abs (Var "az")) x8 in
+  let x10 := Abs (Var "up_x") in
+  let x11 := Abs (Var "up_y") in
+  let x12 := Abs (Var "up_z") in
+  let x13 := Abs (Var "depth_x") in
+  let x14 := Abs (Var "depth_y") in
+  let x15 := Abs (Var "depth_z") in
+  let x16 := Add (Abs (Var "bx")) x2 in
+  let x17 := Add (Abs (Var "by")) x5 in
+  let x18 := Add (Abs (Var "bz")) x8 in
+  let x19 := Add (Abs (Var "cx")) x2 in
+  let x20 := Add (Abs (Var "cy")) x5 in
+  let x21 := Add (Abs (Var "cz")) x8 in
+  let x22 := Div (Sub (Var "top") (Var "bottom")) (Var "height") in
+  let x23 := Ceil (Sub (Sub (Div (Sub (Sub (Min (Min (Add (Add (Mul (Var "up_x") (Sub (Var "ax")
+    (Var "ox"))) (Mul (Var "up_y") (Sub (Var "ay") (Var "oy")))) (Mul (Var "up_z") (Sub (Var "az")
+    (Var "oz")))) (Add (Add (Mul (Var "up_x") (Sub (Var "bx") (Var "ox"))) (Mul (Var "up_y") (Sub
+    (Var "by") (Var "oy")))) (Mul (Var "up_z") (Sub (Var "bz") (Var "oz"))))) (Add (Add (Mul
+    (Var "up_x") (Sub (Var "cx") (Var "ox"))) (Mul (Var "up_y") (Sub (Var "cy") (Var "oy")))) (Mul
+    (Var "up_z") (Sub (Var "cz") (Var "oz"))))) (Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add
+    (Add (Mul x1 x3) (Mul x4 x6)) (Mul x7 x9)) (Add (Add (Mul x10 x3) (Mul x11 x6)) (Mul x12 x9)))
+    (Add (Add (Mul x13 x3) (Mul x14 x6)) (Mul x15 x9)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46))
+    (Add (Add (Add (Add (Mul x1 x16) (Mul x4 x17)) (Mul x7 x18)) (Add (Add (Mul x10 x16) (Mul x11
+    x17)) (Mul x12 x18))) (Add (Add (Mul x13 x16) (Mul x14 x17)) (Mul x15 x18)))) (Num 1 (-1000))))
+    (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x19) (Mul x4 x20)) (Mul x7 x21)) (Add (Add
+    (Mul x10 x19) (Mul x11 x20)) (Mul x12 x21))) (Add (Add (Mul x13 x19) (Mul x14 x20)) (Mul x15
+    x21)))) (Num 1 (-1000))))) (Var "bottom")) x22) (Num 1 (-1))) (Add (Var "reach") (Mul
+    (Num 1 (-46)) (Add (Add (Abs (Div (Var "bottom") x22)) (Var "width")) (Var "height"))))) in
+  Where (Not (Same x23 x23)) (Var "region_y") (Min (Max x23 (Var "region_y")) (Var "region_y_end")).
+
+(** candidates.pixel_bounds, orthographic: y1 *)
+Definition pixel_bounds_parallel_y1 : expr :=
+  let x1 := Abs (Var "right_x") in
+  let x2 := Abs (Var "ox") in
+  let x3 := Add (Abs (Var "ax")) x2 in
+  let x4 := Abs (Var "right_y") in
+  let x5 := Abs (Var "oy") in
+  let x6 := Add (Abs (Var "ay")) x5 in
+  let x7 := Abs (Var "right_z") in
+  let x8 := Abs (Var "oz") in
+  let x9 := Add (Abs (Var "az")) x8 in
+  let x10 := Abs (Var "up_x") in
+  let x11 := Abs (Var "up_y") in
+  let x12 := Abs (Var "up_z") in
+  let x13 := Abs (Var "depth_x") in
+  let x14 := Abs (Var "depth_y") in
+  let x15 := Abs (Var "depth_z") in
+  let x16 := Add (Abs (Var "bx")) x2 in
+  let x17 := Add (Abs (Var "by")) x5 in
+  let x18 := Add (Abs (Var "bz")) x8 in
+  let x19 := Add (Abs (Var "cx")) x2 in
+  let x20 := Add (Abs (Var "cy")) x5 in
+  let x21 := Add (Abs (Var "cz")) x8 in
+  let x22 := Div (Sub (Var "top") (Var "bottom")) (Var "height") in
+  let x23 := Add (Floor (Add (Sub (Div (Sub (Add (Max (Max (Add (Add (Mul (Var "up_x") (Sub
+    (Var "ax") (Var "ox"))) (Mul (Var "up_y") (Sub (Var "ay") (Var "oy")))) (Mul (Var "up_z") (Sub
+    (Var "az") (Var "oz")))) (Add (Add (Mul (Var "up_x") (Sub (Var "bx") (Var "ox"))) (Mul
+    (Var "up_y") (Sub (Var "by") (Var "oy")))) (Mul (Var "up_z") (Sub (Var "bz") (Var "oz"))))) (Add
+    (Add (Mul (Var "up_x") (Sub (Var "cx") (Var "ox"))) (Mul (Var "up_y") (Sub (Var "cy")
+    (Var "oy")))) (Mul (Var "up_z") (Sub (Var "cz") (Var "oz"))))) (Max (Max (Add (Mul (Num 1 (-46))
+    (Add (Add (Add (Add (Mul x1 x3) (Mul x4 x6)) (Mul x7 x9)) (Add (Add (Mul x10 x3) (Mul x11 x6))
+    (Mul x12 x9))) (Add (Add (Mul x13 x3) (Mul x14 x6)) (Mul x15 x9)))) (Num 1 (-1000))) (Add (Mul
+    (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x16) (Mul x4 x17)) (Mul x7 x18)) (Add (Add (Mul x10
+    x16) (Mul x11 x17)) (Mul x12 x18))) (Add (Add (Mul x13 x16) (Mul x14 x17)) (Mul x15 x18))))
+    (Num 1 (-1000)))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x1 x19) (Mul x4 x20)) (Mul x7
+    x21)) (Add (Add (Mul x10 x19) (Mul x11 x20)) (Mul x12 x21))) (Add (Add (Mul x13 x19) (Mul x14
+    x20)) (Mul x15 x21)))) (Num 1 (-1000))))) (Var "bottom")) x22) (Num 1 (-1))) (Add (Var "reach")
+    (Mul (Num 1 (-46)) (Add (Add (Abs (Div (Var "bottom") x22)) (Var "width")) (Var "height"))))))
+    (Num 1 0) in
+  Where (Not (Same x23 x23)) (Var "region_y_end") (Min (Max x23 (Var "region_y"))
+    (Var "region_y_end")).
+
+(** candidates.pixel_bounds, orthographic: path *)
+Definition pixel_bounds_parallel_path : test :=
+  let x1 := Add (Add (Mul (Var "depth_x") (Sub (Var "ax") (Var "ox"))) (Mul (Var "depth_y") (Sub
+    (Var "ay") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "az") (Var "oz"))) in
+  let x2 := Add (Add (Mul (Var "depth_x") (Sub (Var "bx") (Var "ox"))) (Mul (Var "depth_y") (Sub
+    (Var "by") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "bz") (Var "oz"))) in
+  let x3 := Add (Add (Mul (Var "depth_x") (Sub (Var "cx") (Var "ox"))) (Mul (Var "depth_y") (Sub
+    (Var "cy") (Var "oy")))) (Mul (Var "depth_z") (Sub (Var "cz") (Var "oz"))) in
+  let x4 := Abs (Var "right_x") in
+  let x5 := Abs (Var "ox") in
+  let x6 := Add (Abs (Var "ax")) x5 in
+  let x7 := Abs (Var "right_y") in
+  let x8 := Abs (Var "oy") in
+  let x9 := Add (Abs (Var "ay")) x8 in
+  let x10 := Abs (Var "right_z") in
+  let x11 := Abs (Var "oz") in
+  let x12 := Add (Abs (Var "az")) x11 in
+  let x13 := Abs (Var "up_x") in
+  let x14 := Abs (Var "up_y") in
+  let x15 := Abs (Var "up_z") in
+  let x16 := Abs (Var "depth_x") in
+  let x17 := Abs (Var "depth_y") in
+  let x18 := Abs (Var "depth_z") in
+  let x19 := Add (Abs (Var "bx")) x5 in
+  let x20 := Add (Abs (Var "by")) x8 in
+  let x21 := Add (Abs (Var "bz")) x11 in
+  let x22 := Add (Abs (Var "cx")) x5 in
+  let x23 := Add (Abs (Var "cy")) x8 in
+  let x24 := Add (Abs (Var "cz")) x11 in
+  let x25 := Max (Max (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x4 x6) (Mul x7 x9)) (Mul x10
+    x12)) (Add (Add (Mul x13 x6) (Mul x14 x9)) (Mul x15 x12))) (Add (Add (Mul x16 x6) (Mul x17 x9))
+    (Mul x18 x12)))) (Num 1 (-1000))) (Add (Mul (Num 1 (-46)) (Add (Add (Add (Add (Mul x4 x19) (Mul
+    x7 x20)) (Mul x10 x21)) (Add (Add (Mul x13 x19) (Mul x14 x20)) (Mul x15 x21))) (Add (Add (Mul
+    x16 x19) (Mul x17 x20)) (Mul x18 x21)))) (Num 1 (-1000)))) (Add (Mul (Num 1 (-46)) (Add (Add
+    (Add (Add (Mul x4 x22) (Mul x7 x23)) (Mul x10 x24)) (Add (Add (Mul x13 x22) (Mul x14 x23)) (Mul
+    x15 x24))) (Add (Add (Mul x16 x22) (Mul x17 x23)) (Mul x18 x24)))) (Num 1 (-1000))) in
+  Not (Or (Less (Add (Max (Max x1 x2) x3) x25) (Var "clip_start")) (Less (Var "clip_end") (Sub (Min
+    (Min x1 x2) x3) x25))).
+
+(** vector.transform_points: x *)
+Definition transform_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "vx")) (Mul (Var "m01") (Var "vy"))) (Mul (Var "m02")
+    (Var "vz"))) (Var "m03").
+
+(** vector.transform_points: y *)
+Definition transform_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "vx")) (Mul (Var "m11") (Var "vy"))) (Mul (Var "m12")
+    (Var "vz"))) (Var "m13").
+
+(** vector.transform_points: z *)
+Definition transform_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "vx")) (Mul (Var "m21") (Var "vy"))) (Mul (Var "m22")
+    (Var "vz"))) (Var "m23").

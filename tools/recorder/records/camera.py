@@ -10,7 +10,8 @@ from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from reference_tracer.tracer import camera, candidates, vector
 
 from .bounds import CORNERS
-from .film import _AXES, _DOMAIN, _DUAL, _PLACE, _WINDOW, camera as camera_of
+from .film import AXES, DOMAIN, DUAL, PLACE, WINDOW
+from .film import camera as camera_of
 from .record import Inputs, Kept, Record
 
 _XYZ = "xyz"
@@ -18,9 +19,9 @@ _PIXELS = tuple(map(float, range(-64, 65)))
 _REGION = dict(region_x=3.0, region_y=4.0, region_x_end=600.0, region_y_end=400.0)
 _BOX = (
     dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
-    | _WINDOW
-    | _PLACE
-    | _DUAL
+    | WINDOW
+    | PLACE
+    | DUAL
     | _REGION
     | dict(reach=0.5, clip_start=0.1, clip_end=100.0)
 )
@@ -30,7 +31,9 @@ _MATRIX = {f"m{i}{k}": 0.5 + 0.25 * i - 0.125 * k for i in range(3) for k in ran
 def _rays(v: Inputs, prefix: str, projection: Projection) -> Kept:
     found = camera.camera_rays(camera_of(v, projection), v.one("px"), v.one("py"))
     ends = {f"{prefix}_origin": found.origins, f"{prefix}_direction": found.directions}
-    return {f"{name}_{k}": row for name, rows in ends.items() for k, row in zip(_XYZ, rows)}
+    return {
+        f"{name}_{k}": row for name, rows in ends.items() for k, row in zip(_XYZ, rows, strict=True)
+    }
 
 
 def _positions(v: Inputs) -> Kept:
@@ -92,11 +95,11 @@ RECORDS = (
         Record(
             f"ray_{name}",
             "camera.camera_rays",
-            _WINDOW | _AXES | _PLACE | dict(px=100.5, py=99.5),
+            WINDOW | AXES | PLACE | dict(px=100.5, py=99.5),
             lambda v, name=name, of=of: _rays(v, f"ray_{name}", of),
             _named(f"ray_{name}", _VECTORS, f"film_ray_error_{name}_right"),
             of.name,
-            _DOMAIN,
+            DOMAIN,
         )
         for name, of in _PROJECTIONS
     ),
@@ -111,14 +114,14 @@ RECORDS = (
     Record(
         "dual",
         "camera.dual_axes",
-        _AXES,
+        AXES,
         _dual,
-        _named("dual", " ".join(_DUAL), "dual_axes_right"),
+        _named("dual", " ".join(DUAL), "dual_axes_right"),
     ),
     Record(
         "project",
         "camera.project",
-        _PLACE | _DUAL | dict(vx=0.75, vy=0.5, vz=-2.0),
+        PLACE | DUAL | dict(vx=0.75, vy=0.5, vz=-2.0),
         _project,
         _named("project", "right up depth", "project_right")
         | _named("project_magnitude", "right up depth", "project_right"),
@@ -131,7 +134,7 @@ RECORDS = (
             lambda v, name=name, of=of: _pixel_bounds(v, f"pixel_bounds_{name}", of),
             _named(f"pixel_bounds_{name}", "x0 x1 y0 y1", f"pixel_bounds_{name}_right"),
             of.name,
-            _DOMAIN | dict.fromkeys(_REGION, _PIXELS),
+            DOMAIN | dict.fromkeys(_REGION, _PIXELS),
         )
         for name, of in _PROJECTIONS
     ),

@@ -16,21 +16,23 @@ from reference_tracer.tracer.certified.sweep.film import Film, Vertices
 from ..arrays import holds, most
 from .record import Inputs, Kept, Record, locals_of
 
-_WINDOW = dict(left=-0.5, right=0.5, bottom=-0.4, top=0.4, width=640.0, height=480.0)
-_PLACE = dict(ox=0.5, oy=-0.25, oz=1.5)
-_DUAL = dict(
+WINDOW = dict(left=-0.5, right=0.5, bottom=-0.4, top=0.4, width=640.0, height=480.0)
+PLACE = dict(ox=0.5, oy=-0.25, oz=1.5)
+DUAL = dict(
     **dict(right_x=1.0, right_y=0.125, right_z=-0.125, up_x=-0.125, up_y=1.0, up_z=0.25),
     **dict(depth_x=0.125, depth_y=-0.25, depth_z=-1.0),
 )
-_AXES = dict(
+AXES = dict(
     **dict(rx=1.0, ry=0.1, rz=-0.1, ux=-0.1, uy=0.9, uz=0.2, fx=0.05, fy=-0.1, fz=-1.0),
 )
 _BOUNDS = dict(c0=1e-12, c1=1e-13, ray_error=1e-14, d0=1e-14, d1=1e-15)
 _ENTER = (
-    _WINDOW | _PLACE | _DUAL | _BOUNDS | dict(dx=0.125, dy=-0.25, vx=0.75, vy=0.5, vz=-2.0)
+    WINDOW | PLACE | DUAL | _BOUNDS | dict(dx=0.125, dy=-0.25, vx=0.75, vy=0.5, vz=-2.0)
 ) | dict(weight=1e-14, clip_start=0.1)
 _SIZES = tuple(map(float, range(1, 4096)))
-_DOMAIN = dict(width=_SIZES, height=_SIZES)
+# A scene has no camera without a picture or a window (`scene.Camera`): Python's `max` meets no NaN.
+_LOW, _HIGH = (-0.5, -1.5, -3e10, 0.1), (0.5, 1.25, 2e12, 0.2)
+DOMAIN = dict(width=_SIZES, height=_SIZES, left=_LOW, right=_HIGH, bottom=_LOW, top=_HIGH)
 _FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "certain", "finite")
 
 
@@ -116,17 +118,17 @@ def _pairs() -> Iterator[Record]:
             lambda v, prefix=prefix, of=of: _enter(v, prefix, of),
             dict.fromkeys((f"{prefix}_{k}" for k in ("p", "q", "w", "depth")), f"{prefix}_place"),
             of.name,
-            _DOMAIN,
+            DOMAIN,
         )
-        reach = dict(spread=4.5) | _WINDOW
+        reach = dict(spread=4.5) | WINDOW
         yield Record(
             f"film_ray_error_{name}",
             "film.Film.ray_error",
-            reach | _AXES | (_PLACE if of.is_parallel else {}),
+            reach | AXES | (PLACE if of.is_parallel else {}),
             _of_film(lambda f, _, name=name: {f"film_ray_error_{name}": f.ray_error}, of),
             {f"film_ray_error_{name}": f"film_ray_error_{name}_right"},
             of.name,
-            _DOMAIN,
+            DOMAIN,
         )
         yield Record(
             f"film_place_{name}",
@@ -138,7 +140,7 @@ def _pairs() -> Iterator[Record]:
                 f"film_{name}_place",
             ),
             of.name,
-            _DOMAIN,
+            DOMAIN,
         )
         yield Record(
             f"film_certain_error_{name}",
@@ -153,7 +155,7 @@ def _pairs() -> Iterator[Record]:
             ),
             {f"film_certain_error_{name}": f"film_certain_{name}"},
             of.name,
-            _DOMAIN,
+            DOMAIN,
         )
         yield Record(
             f"film_certain_nearness_{name}",
@@ -175,7 +177,7 @@ RECORDS = (
     Record(
         "film_spread",
         "film.Film._spread",
-        _DUAL,
+        DUAL,
         _of_film(lambda f, _: {"film_spread": f._spread}, PERSPECTIVE, "dual"),
         {"film_spread": "film_spread_right"},
     ),

@@ -1,5 +1,12 @@
 """All records, in the order of `proofs/Recorded.v`."""
 
-from . import bounds, deciding, edges, film, pixels
+from . import bounds, camera, deciding, edges, film, pixels
 
-RECORDS = (*bounds.RECORDS, *deciding.RECORDS, *edges.RECORDS, *pixels.RECORDS, *film.RECORDS)
+RECORDS = (
+    *bounds.RECORDS,
+    *deciding.RECORDS,
+    *edges.RECORDS,
+    *pixels.RECORDS,
+    *film.RECORDS,
+    *camera.RECORDS,
+)
