@@ -2820,3 +2820,825 @@ Definition transform_y : expr :=
 Definition transform_z : expr :=
   Add (Add (Add (Mul (Var "m20") (Var "vx")) (Mul (Var "m21") (Var "vy"))) (Mul (Var "m22")
     (Var "vz"))) (Var "m23").
+
+(** quotient.two_sum: high *)
+Definition two_sum_high : expr :=
+  Add (Var "a") (Var "b").
+
+(** quotient.two_sum: low *)
+Definition two_sum_low : expr :=
+  let x1 := Add (Var "a") (Var "b") in
+  let x2 := Sub x1 (Var "a") in
+  Add (Sub (Var "a") (Sub x1 x2)) (Sub (Var "b") x2).
+
+(** quotient.halves: high *)
+Definition halves_high : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  Sub (Add (Var "v") x1) x1.
+
+(** quotient.halves: low *)
+Definition halves_low : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  Sub (Var "v") (Sub (Add (Var "v") x1) x1).
+
+(** quotient.highest *)
+Definition highest : expr :=
+  Keep 26 (Var "a").
+
+(** quotient.power_above *)
+Definition power_above : expr :=
+  Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))))) (Num 1 1).
+
+(** quotient._error *)
+Definition product_error : expr :=
+  let x1 := Mul (Var "unit") (Var "size") in
+  Where (And (Less (Num 1 (-950)) x1) (Less x1 (Num 1 1000))) (Mul x1 (Num 1 (-72))) Inf.
+
+(** quotient._dot, of a sum of two floats: high *)
+Definition product_high : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  Add (Add (Mul (Sub (Add (Var "vx") x1) x1) (Var "hx")) (Mul (Sub (Add (Var "vy") x1) x1)
+    (Var "hy"))) (Mul (Sub (Add (Var "vz") x1) x1) (Var "hz")).
+
+(** quotient._dot, of a sum of two floats: low *)
+Definition product_low : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  let x2 := Sub (Add (Var "vx") x1) x1 in
+  let x3 := Sub (Add (Var "vy") x1) x1 in
+  let x4 := Sub (Add (Var "vz") x1) x1 in
+  Add (Add (Add (Mul (Var "lx") x2) (Mul (Add (Var "hx") (Var "lx")) (Add (Sub (Var "vx") x2)
+    (Var "v2x")))) (Add (Mul (Var "ly") x3) (Mul (Add (Var "hy") (Var "ly")) (Add (Sub (Var "vy")
+    x3) (Var "v2y"))))) (Add (Mul (Var "lz") x4) (Mul (Add (Var "hz") (Var "lz")) (Add (Sub
+    (Var "vz") x4) (Var "v2z")))).
+
+(** quotient._dot, of one float: high *)
+Definition product_of_one_high : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  Add (Add (Mul (Sub (Add (Var "vx") x1) x1) (Var "hx")) (Mul (Sub (Add (Var "vy") x1) x1)
+    (Var "hy"))) (Mul (Sub (Add (Var "vz") x1) x1) (Var "hz")).
+
+(** quotient._dot, of one float: low *)
+Definition product_of_one_low : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  let x2 := Sub (Add (Var "vx") x1) x1 in
+  let x3 := Sub (Add (Var "vy") x1) x1 in
+  let x4 := Sub (Add (Var "vz") x1) x1 in
+  Add (Add (Add (Mul (Var "lx") x2) (Mul (Add (Var "hx") (Var "lx")) (Add (Sub (Var "vx") x2)
+    (Num 0 0)))) (Add (Mul (Var "ly") x3) (Mul (Add (Var "hy") (Var "ly")) (Add (Sub (Var "vy") x3)
+    (Num 0 0))))) (Add (Mul (Var "lz") x4) (Mul (Add (Var "hz") (Var "lz")) (Add (Sub (Var "vz") x4)
+    (Num 0 0)))).
+
+(** quotient._cross: x *)
+Definition cross_x : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "uy") x1) x1 in
+  let x3 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x4 := Sub (Add (Var "vz") x3) x3 in
+  let x5 := Sub (Add (Var "uz") x1) x1 in
+  let x6 := Sub (Add (Var "vy") x3) x3 in
+  Add (Sub (Mul x2 x4) (Mul x5 x6)) (Add (Sub (Mul x2 (Add (Sub (Var "vz") x4) (Var "v2z"))) (Mul x5
+    (Add (Sub (Var "vy") x6) (Var "v2y")))) (Sub (Mul (Add (Sub (Var "uy") x2) (Var "u2y"))
+    (Var "vz")) (Mul (Add (Sub (Var "uz") x5) (Var "u2z")) (Var "vy")))).
+
+(** quotient._cross: y *)
+Definition cross_y : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "uz") x1) x1 in
+  let x3 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x4 := Sub (Add (Var "vx") x3) x3 in
+  let x5 := Sub (Add (Var "ux") x1) x1 in
+  let x6 := Sub (Add (Var "vz") x3) x3 in
+  Add (Sub (Mul x2 x4) (Mul x5 x6)) (Add (Sub (Mul x2 (Add (Sub (Var "vx") x4) (Var "v2x"))) (Mul x5
+    (Add (Sub (Var "vz") x6) (Var "v2z")))) (Sub (Mul (Add (Sub (Var "uz") x2) (Var "u2z"))
+    (Var "vx")) (Mul (Add (Sub (Var "ux") x5) (Var "u2x")) (Var "vz")))).
+
+(** quotient._cross: z *)
+Definition cross_z : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "ux") x1) x1 in
+  let x3 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x4 := Sub (Add (Var "vy") x3) x3 in
+  let x5 := Sub (Add (Var "uy") x1) x1 in
+  let x6 := Sub (Add (Var "vx") x3) x3 in
+  Add (Sub (Mul x2 x4) (Mul x5 x6)) (Add (Sub (Mul x2 (Add (Sub (Var "vy") x4) (Var "v2y"))) (Mul x5
+    (Add (Sub (Var "vx") x6) (Var "v2x")))) (Sub (Mul (Add (Sub (Var "ux") x2) (Var "u2x"))
+    (Var "vy")) (Mul (Add (Sub (Var "uy") x5) (Var "u2y")) (Var "vx")))).
+
+(** quotient._cross: low x *)
+Definition cross_low_x : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "uy") x1) x1 in
+  let x3 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x4 := Sub (Add (Var "vz") x3) x3 in
+  let x5 := Sub (Add (Var "uz") x1) x1 in
+  let x6 := Sub (Add (Var "vy") x3) x3 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Add (Sub (Mul x2 (Add (Sub (Var "vz") x4) (Var "v2z"))) (Mul x5 (Add (Sub (Var "vy") x6)
+    (Var "v2y")))) (Sub (Mul (Add (Sub (Var "uy") x2) (Var "u2y")) (Var "vz")) (Mul (Add (Sub
+    (Var "uz") x5) (Var "u2z")) (Var "vy"))) in
+  let x9 := Add x7 x8 in
+  let x10 := Sub x9 x7 in
+  Add (Sub x7 (Sub x9 x10)) (Sub x8 x10).
+
+(** quotient._cross: low y *)
+Definition cross_low_y : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "uz") x1) x1 in
+  let x3 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x4 := Sub (Add (Var "vx") x3) x3 in
+  let x5 := Sub (Add (Var "ux") x1) x1 in
+  let x6 := Sub (Add (Var "vz") x3) x3 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Add (Sub (Mul x2 (Add (Sub (Var "vx") x4) (Var "v2x"))) (Mul x5 (Add (Sub (Var "vz") x6)
+    (Var "v2z")))) (Sub (Mul (Add (Sub (Var "uz") x2) (Var "u2z")) (Var "vx")) (Mul (Add (Sub
+    (Var "ux") x5) (Var "u2x")) (Var "vz"))) in
+  let x9 := Add x7 x8 in
+  let x10 := Sub x9 x7 in
+  Add (Sub x7 (Sub x9 x10)) (Sub x8 x10).
+
+(** quotient._cross: low z *)
+Definition cross_low_z : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "ux") x1) x1 in
+  let x3 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x4 := Sub (Add (Var "vy") x3) x3 in
+  let x5 := Sub (Add (Var "uy") x1) x1 in
+  let x6 := Sub (Add (Var "vx") x3) x3 in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  let x8 := Add (Sub (Mul x2 (Add (Sub (Var "vy") x4) (Var "v2y"))) (Mul x5 (Add (Sub (Var "vx") x6)
+    (Var "v2x")))) (Sub (Mul (Add (Sub (Var "ux") x2) (Var "u2x")) (Var "vy")) (Mul (Add (Sub
+    (Var "uy") x5) (Var "u2y")) (Var "vx"))) in
+  let x9 := Add x7 x8 in
+  let x10 := Sub x9 x7 in
+  Add (Sub x7 (Sub x9 x10)) (Sub x8 x10).
+
+(** quotient._cross: M *)
+Definition cross_M : expr :=
+  Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "ux")) (Abs (Var "uy"))) (Abs (Var "uz"))))) (Num 1 1))
+    (Mul (Keep 1 (Abs (Max (Max (Abs (Var "vx")) (Abs (Var "vy"))) (Abs (Var "vz"))))) (Num 1 1)).
+
+(** quotient.Quotients.of, a triangle: x *)
+Definition normal_x : expr :=
+  let x1 := Neg (Var "ay") in
+  let x2 := Add (Var "by") x1 in
+  let x3 := Neg (Var "ax") in
+  let x4 := Neg (Var "az") in
+  let x5 := Add (Var "bz") x4 in
+  let x6 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "bx") x3)) (Abs x2)) (Abs x5))))
+    (Num 1 1)) (Num 3 26) in
+  let x7 := Sub (Add x2 x6) x6 in
+  let x8 := Add (Var "cz") x4 in
+  let x9 := Add (Var "cy") x1 in
+  let x10 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "cx") x3)) (Abs x9)) (Abs x8))))
+    (Num 1 1)) (Num 3 26) in
+  let x11 := Sub (Add x8 x10) x10 in
+  let x12 := Sub (Add x5 x6) x6 in
+  let x13 := Sub (Add x9 x10) x10 in
+  let x14 := Sub x8 (Var "cz") in
+  let x15 := Sub x9 (Var "cy") in
+  let x16 := Sub x2 (Var "by") in
+  let x17 := Sub x5 (Var "bz") in
+  Add (Sub (Mul x7 x11) (Mul x12 x13)) (Add (Sub (Mul x7 (Add (Sub x8 x11) (Add (Sub (Var "cz") (Sub
+    x8 x14)) (Sub x4 x14)))) (Mul x12 (Add (Sub x9 x13) (Add (Sub (Var "cy") (Sub x9 x15)) (Sub x1
+    x15))))) (Sub (Mul (Add (Sub x2 x7) (Add (Sub (Var "by") (Sub x2 x16)) (Sub x1 x16))) x8) (Mul
+    (Add (Sub x5 x12) (Add (Sub (Var "bz") (Sub x5 x17)) (Sub x4 x17))) x9))).
+
+(** quotient.Quotients.of, a triangle: y *)
+Definition normal_y : expr :=
+  let x1 := Neg (Var "az") in
+  let x2 := Add (Var "bz") x1 in
+  let x3 := Neg (Var "ax") in
+  let x4 := Add (Var "bx") x3 in
+  let x5 := Neg (Var "ay") in
+  let x6 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x4) (Abs (Add (Var "by") x5))) (Abs x2))))
+    (Num 1 1)) (Num 3 26) in
+  let x7 := Sub (Add x2 x6) x6 in
+  let x8 := Add (Var "cx") x3 in
+  let x9 := Add (Var "cz") x1 in
+  let x10 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x8) (Abs (Add (Var "cy") x5))) (Abs x9))))
+    (Num 1 1)) (Num 3 26) in
+  let x11 := Sub (Add x8 x10) x10 in
+  let x12 := Sub (Add x4 x6) x6 in
+  let x13 := Sub (Add x9 x10) x10 in
+  let x14 := Sub x8 (Var "cx") in
+  let x15 := Sub x9 (Var "cz") in
+  let x16 := Sub x2 (Var "bz") in
+  let x17 := Sub x4 (Var "bx") in
+  Add (Sub (Mul x7 x11) (Mul x12 x13)) (Add (Sub (Mul x7 (Add (Sub x8 x11) (Add (Sub (Var "cx") (Sub
+    x8 x14)) (Sub x3 x14)))) (Mul x12 (Add (Sub x9 x13) (Add (Sub (Var "cz") (Sub x9 x15)) (Sub x1
+    x15))))) (Sub (Mul (Add (Sub x2 x7) (Add (Sub (Var "bz") (Sub x2 x16)) (Sub x1 x16))) x8) (Mul
+    (Add (Sub x4 x12) (Add (Sub (Var "bx") (Sub x4 x17)) (Sub x3 x17))) x9))).
+
+(** quotient.Quotients.of, a triangle: z *)
+Definition normal_z : expr :=
+  let x1 := Neg (Var "ax") in
+  let x2 := Add (Var "bx") x1 in
+  let x3 := Neg (Var "ay") in
+  let x4 := Add (Var "by") x3 in
+  let x5 := Neg (Var "az") in
+  let x6 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs (Add (Var "bz") x5)))))
+    (Num 1 1)) (Num 3 26) in
+  let x7 := Sub (Add x2 x6) x6 in
+  let x8 := Add (Var "cy") x3 in
+  let x9 := Add (Var "cx") x1 in
+  let x10 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x9) (Abs x8)) (Abs (Add (Var "cz") x5)))))
+    (Num 1 1)) (Num 3 26) in
+  let x11 := Sub (Add x8 x10) x10 in
+  let x12 := Sub (Add x4 x6) x6 in
+  let x13 := Sub (Add x9 x10) x10 in
+  let x14 := Sub x8 (Var "cy") in
+  let x15 := Sub x9 (Var "cx") in
+  let x16 := Sub x2 (Var "bx") in
+  let x17 := Sub x4 (Var "by") in
+  Add (Sub (Mul x7 x11) (Mul x12 x13)) (Add (Sub (Mul x7 (Add (Sub x8 x11) (Add (Sub (Var "cy") (Sub
+    x8 x14)) (Sub x3 x14)))) (Mul x12 (Add (Sub x9 x13) (Add (Sub (Var "cx") (Sub x9 x15)) (Sub x1
+    x15))))) (Sub (Mul (Add (Sub x2 x7) (Add (Sub (Var "bx") (Sub x2 x16)) (Sub x1 x16))) x8) (Mul
+    (Add (Sub x4 x12) (Add (Sub (Var "by") (Sub x4 x17)) (Sub x3 x17))) x9))).
+
+(** quotient.Quotients.of, a triangle: low x *)
+Definition normal_low_x : expr :=
+  let x1 := Neg (Var "ay") in
+  let x2 := Add (Var "by") x1 in
+  let x3 := Neg (Var "ax") in
+  let x4 := Neg (Var "az") in
+  let x5 := Add (Var "bz") x4 in
+  let x6 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "bx") x3)) (Abs x2)) (Abs x5))))
+    (Num 1 1)) (Num 3 26) in
+  let x7 := Sub (Add x2 x6) x6 in
+  let x8 := Add (Var "cz") x4 in
+  let x9 := Add (Var "cy") x1 in
+  let x10 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "cx") x3)) (Abs x9)) (Abs x8))))
+    (Num 1 1)) (Num 3 26) in
+  let x11 := Sub (Add x8 x10) x10 in
+  let x12 := Sub (Add x5 x6) x6 in
+  let x13 := Sub (Add x9 x10) x10 in
+  let x14 := Sub (Mul x7 x11) (Mul x12 x13) in
+  let x15 := Sub x8 (Var "cz") in
+  let x16 := Sub x9 (Var "cy") in
+  let x17 := Sub x2 (Var "by") in
+  let x18 := Sub x5 (Var "bz") in
+  let x19 := Add (Sub (Mul x7 (Add (Sub x8 x11) (Add (Sub (Var "cz") (Sub x8 x15)) (Sub x4 x15))))
+    (Mul x12 (Add (Sub x9 x13) (Add (Sub (Var "cy") (Sub x9 x16)) (Sub x1 x16))))) (Sub (Mul (Add
+    (Sub x2 x7) (Add (Sub (Var "by") (Sub x2 x17)) (Sub x1 x17))) x8) (Mul (Add (Sub x5 x12) (Add
+    (Sub (Var "bz") (Sub x5 x18)) (Sub x4 x18))) x9)) in
+  let x20 := Add x14 x19 in
+  let x21 := Sub x20 x14 in
+  Add (Sub x14 (Sub x20 x21)) (Sub x19 x21).
+
+(** quotient.Quotients.of, a triangle: low y *)
+Definition normal_low_y : expr :=
+  let x1 := Neg (Var "az") in
+  let x2 := Add (Var "bz") x1 in
+  let x3 := Neg (Var "ax") in
+  let x4 := Add (Var "bx") x3 in
+  let x5 := Neg (Var "ay") in
+  let x6 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x4) (Abs (Add (Var "by") x5))) (Abs x2))))
+    (Num 1 1)) (Num 3 26) in
+  let x7 := Sub (Add x2 x6) x6 in
+  let x8 := Add (Var "cx") x3 in
+  let x9 := Add (Var "cz") x1 in
+  let x10 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x8) (Abs (Add (Var "cy") x5))) (Abs x9))))
+    (Num 1 1)) (Num 3 26) in
+  let x11 := Sub (Add x8 x10) x10 in
+  let x12 := Sub (Add x4 x6) x6 in
+  let x13 := Sub (Add x9 x10) x10 in
+  let x14 := Sub (Mul x7 x11) (Mul x12 x13) in
+  let x15 := Sub x8 (Var "cx") in
+  let x16 := Sub x9 (Var "cz") in
+  let x17 := Sub x2 (Var "bz") in
+  let x18 := Sub x4 (Var "bx") in
+  let x19 := Add (Sub (Mul x7 (Add (Sub x8 x11) (Add (Sub (Var "cx") (Sub x8 x15)) (Sub x3 x15))))
+    (Mul x12 (Add (Sub x9 x13) (Add (Sub (Var "cz") (Sub x9 x16)) (Sub x1 x16))))) (Sub (Mul (Add
+    (Sub x2 x7) (Add (Sub (Var "bz") (Sub x2 x17)) (Sub x1 x17))) x8) (Mul (Add (Sub x4 x12) (Add
+    (Sub (Var "bx") (Sub x4 x18)) (Sub x3 x18))) x9)) in
+  let x20 := Add x14 x19 in
+  let x21 := Sub x20 x14 in
+  Add (Sub x14 (Sub x20 x21)) (Sub x19 x21).
+
+(** quotient.Quotients.of, a triangle: low z *)
+Definition normal_low_z : expr :=
+  let x1 := Neg (Var "ax") in
+  let x2 := Add (Var "bx") x1 in
+  let x3 := Neg (Var "ay") in
+  let x4 := Add (Var "by") x3 in
+  let x5 := Neg (Var "az") in
+  let x6 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs (Add (Var "bz") x5)))))
+    (Num 1 1)) (Num 3 26) in
+  let x7 := Sub (Add x2 x6) x6 in
+  let x8 := Add (Var "cy") x3 in
+  let x9 := Add (Var "cx") x1 in
+  let x10 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x9) (Abs x8)) (Abs (Add (Var "cz") x5)))))
+    (Num 1 1)) (Num 3 26) in
+  let x11 := Sub (Add x8 x10) x10 in
+  let x12 := Sub (Add x4 x6) x6 in
+  let x13 := Sub (Add x9 x10) x10 in
+  let x14 := Sub (Mul x7 x11) (Mul x12 x13) in
+  let x15 := Sub x8 (Var "cy") in
+  let x16 := Sub x9 (Var "cx") in
+  let x17 := Sub x2 (Var "bx") in
+  let x18 := Sub x4 (Var "by") in
+  let x19 := Add (Sub (Mul x7 (Add (Sub x8 x11) (Add (Sub (Var "cy") (Sub x8 x15)) (Sub x3 x15))))
+    (Mul x12 (Add (Sub x9 x13) (Add (Sub (Var "cx") (Sub x9 x16)) (Sub x1 x16))))) (Sub (Mul (Add
+    (Sub x2 x7) (Add (Sub (Var "bx") (Sub x2 x17)) (Sub x1 x17))) x8) (Mul (Add (Sub x4 x12) (Add
+    (Sub (Var "by") (Sub x4 x18)) (Sub x3 x18))) x9)) in
+  let x20 := Add x14 x19 in
+  let x21 := Sub x20 x14 in
+  Add (Sub x14 (Sub x20 x21)) (Sub x19 x21).
+
+(** quotient.Quotients.of, a triangle: M *)
+Definition normal_M : expr :=
+  let x1 := Neg (Var "ax") in
+  let x2 := Neg (Var "ay") in
+  let x3 := Neg (Var "az") in
+  let x4 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "bx") x1)) (Abs (Add (Var "by") x2)))
+    (Abs (Add (Var "bz") x3))))) (Num 1 1)) (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "cx") x1))
+    (Abs (Add (Var "cy") x2))) (Abs (Add (Var "cz") x3))))) (Num 1 1)) in
+  Where (Less (Num 1 (-950)) x4) x4 Inf.
+
+(** quotient.Quotients, rays from one point *)
+Definition unit_from_point : expr :=
+  Mul (Keep 1 (Abs (Max (Max (Abs (Abs (Var "dx"))) (Abs (Abs (Var "dy")))) (Abs (Abs
+    (Var "dz")))))) (Num 1 1).
+
+(** quotient.Quotients._enter, rays from one point: hx *)
+Definition table_from_point_hx : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "nx") x1) x1.
+
+(** quotient.Quotients._enter, rays from one point: hy *)
+Definition table_from_point_hy : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "ny") x1) x1.
+
+(** quotient.Quotients._enter, rays from one point: hz *)
+Definition table_from_point_hz : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "nz") x1) x1.
+
+(** quotient.Quotients._enter, rays from one point: lx *)
+Definition table_from_point_lx : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "nx") (Sub (Add (Var "nx") x1) x1)) (Var "n2x").
+
+(** quotient.Quotients._enter, rays from one point: ly *)
+Definition table_from_point_ly : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "ny") (Sub (Add (Var "ny") x1) x1)) (Var "n2y").
+
+(** quotient.Quotients._enter, rays from one point: lz *)
+Definition table_from_point_lz : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "nz") (Sub (Add (Var "nz") x1) x1)) (Var "n2z").
+
+(** quotient.Quotients._enter, rays from one point: T1 *)
+Definition table_from_point_T1 : expr :=
+  let x1 := Neg (Var "ox") in
+  let x2 := Add (Var "px") x1 in
+  let x3 := Neg (Var "oy") in
+  let x4 := Add (Var "py") x3 in
+  let x5 := Neg (Var "oz") in
+  let x6 := Add (Var "pz") x5 in
+  let x7 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs x6)))) (Num 1 1)) (Num 3 26) in
+  let x8 := Sub (Add x2 x7) x7 in
+  let x9 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x10 := Sub (Add (Var "nx") x9) x9 in
+  let x11 := Sub (Add x4 x7) x7 in
+  let x12 := Sub (Add (Var "ny") x9) x9 in
+  let x13 := Sub (Add x6 x7) x7 in
+  let x14 := Sub (Add (Var "nz") x9) x9 in
+  let x15 := Add (Sub (Var "nx") x10) (Var "n2x") in
+  let x16 := Sub x2 (Var "px") in
+  let x17 := Add (Sub (Var "ny") x12) (Var "n2y") in
+  let x18 := Sub x4 (Var "py") in
+  let x19 := Add (Sub (Var "nz") x14) (Var "n2z") in
+  let x20 := Sub x6 (Var "pz") in
+  Add (Add (Add (Mul x8 x10) (Mul x11 x12)) (Mul x13 x14)) (Add (Add (Add (Mul x15 x8) (Mul (Add x10
+    x15) (Add (Sub x2 x8) (Add (Sub (Var "px") (Sub x2 x16)) (Sub x1 x16))))) (Add (Mul x17 x11)
+    (Mul (Add x12 x17) (Add (Sub x4 x11) (Add (Sub (Var "py") (Sub x4 x18)) (Sub x3 x18)))))) (Add
+    (Mul x19 x13) (Mul (Add x14 x19) (Add (Sub x6 x13) (Add (Sub (Var "pz") (Sub x6 x20)) (Sub x5
+    x20)))))).
+
+(** quotient.Quotients._enter, rays from one point: T2 *)
+Definition table_from_point_T2 : expr :=
+  let x1 := Neg (Var "ox") in
+  let x2 := Add (Var "px") x1 in
+  let x3 := Neg (Var "oy") in
+  let x4 := Add (Var "py") x3 in
+  let x5 := Neg (Var "oz") in
+  let x6 := Add (Var "pz") x5 in
+  let x7 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs x6)))) (Num 1 1)) (Num 3 26) in
+  let x8 := Sub (Add x2 x7) x7 in
+  let x9 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x10 := Sub (Add (Var "nx") x9) x9 in
+  let x11 := Sub (Add x4 x7) x7 in
+  let x12 := Sub (Add (Var "ny") x9) x9 in
+  let x13 := Sub (Add x6 x7) x7 in
+  let x14 := Sub (Add (Var "nz") x9) x9 in
+  let x15 := Add (Add (Mul x8 x10) (Mul x11 x12)) (Mul x13 x14) in
+  let x16 := Add (Sub (Var "nx") x10) (Var "n2x") in
+  let x17 := Sub x2 (Var "px") in
+  let x18 := Add (Sub (Var "ny") x12) (Var "n2y") in
+  let x19 := Sub x4 (Var "py") in
+  let x20 := Add (Sub (Var "nz") x14) (Var "n2z") in
+  let x21 := Sub x6 (Var "pz") in
+  let x22 := Add (Add (Add (Mul x16 x8) (Mul (Add x10 x16) (Add (Sub x2 x8) (Add (Sub (Var "px")
+    (Sub x2 x17)) (Sub x1 x17))))) (Add (Mul x18 x11) (Mul (Add x12 x18) (Add (Sub x4 x11) (Add (Sub
+    (Var "py") (Sub x4 x19)) (Sub x3 x19)))))) (Add (Mul x20 x13) (Mul (Add x14 x20) (Add (Sub x6
+    x13) (Add (Sub (Var "pz") (Sub x6 x21)) (Sub x5 x21))))) in
+  let x23 := Add x15 x22 in
+  let x24 := Sub x23 x15 in
+  Add (Sub x15 (Sub x23 x24)) (Sub x22 x24).
+
+(** quotient.Quotients._enter, rays from one point: ET *)
+Definition table_from_point_ET : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "px") (Neg (Var "ox")))) (Abs (Add
+    (Var "py") (Neg (Var "oy"))))) (Abs (Add (Var "pz") (Neg (Var "oz"))))))) (Num 1 1)) (Add (Mul
+    (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz"))))) (Num 1 1)) (Mul
+    (Num 3 0) (Var "M"))) in
+  Where (And (Less (Num 1 (-950)) x1) (Less x1 (Num 1 1000))) (Mul x1 (Num 1 (-72))) Inf.
+
+(** quotient.Quotients._enter, rays from one point: ED *)
+Definition table_from_point_ED : expr :=
+  let x1 := Mul (Var "unit") (Add (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny")))
+    (Abs (Var "nz"))))) (Num 1 1)) (Mul (Num 3 0) (Var "M"))) in
+  Where (And (Less (Num 1 (-950)) x1) (Less x1 (Num 1 1000))) (Mul x1 (Num 1 (-72))) Inf.
+
+(** quotient.Quotients.meet, rays from one point: T1 *)
+Definition meet_from_point_T1 : expr :=
+  Var "T1".
+
+(** quotient.Quotients.meet, rays from one point: T2 *)
+Definition meet_from_point_T2 : expr :=
+  Var "T2".
+
+(** quotient.Quotients.meet, rays from one point: ET *)
+Definition meet_from_point_ET : expr :=
+  Var "ET".
+
+(** quotient.Quotients.meet, rays from one point: D1 *)
+Definition meet_from_point_D1 : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  Add (Add (Mul (Sub (Add (Var "dx") x1) x1) (Var "hx")) (Mul (Sub (Add (Var "dy") x1) x1)
+    (Var "hy"))) (Mul (Sub (Add (Var "dz") x1) x1) (Var "hz")).
+
+(** quotient.Quotients.meet, rays from one point: D2 *)
+Definition meet_from_point_D2 : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  let x2 := Sub (Add (Var "dx") x1) x1 in
+  let x3 := Sub (Add (Var "dy") x1) x1 in
+  let x4 := Sub (Add (Var "dz") x1) x1 in
+  Add (Add (Add (Mul (Var "lx") x2) (Mul (Add (Var "hx") (Var "lx")) (Add (Sub (Var "dx") x2)
+    (Num 0 0)))) (Add (Mul (Var "ly") x3) (Mul (Add (Var "hy") (Var "ly")) (Add (Sub (Var "dy") x3)
+    (Num 0 0))))) (Add (Mul (Var "lz") x4) (Mul (Add (Var "hz") (Var "lz")) (Add (Sub (Var "dz") x4)
+    (Num 0 0)))).
+
+(** quotient.Quotients.meet, rays from one point: ED *)
+Definition meet_from_point_ED : expr :=
+  Var "ED".
+
+(** quotient.Quotients._enter, parallel rays: hx *)
+Definition table_parallel_hx : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "nx") x1) x1.
+
+(** quotient.Quotients._enter, parallel rays: hy *)
+Definition table_parallel_hy : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "ny") x1) x1.
+
+(** quotient.Quotients._enter, parallel rays: hz *)
+Definition table_parallel_hz : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "nz") x1) x1.
+
+(** quotient.Quotients._enter, parallel rays: lx *)
+Definition table_parallel_lx : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "nx") (Sub (Add (Var "nx") x1) x1)) (Var "n2x").
+
+(** quotient.Quotients._enter, parallel rays: ly *)
+Definition table_parallel_ly : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "ny") (Sub (Add (Var "ny") x1) x1)) (Var "n2y").
+
+(** quotient.Quotients._enter, parallel rays: lz *)
+Definition table_parallel_lz : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "nz") (Sub (Add (Var "nz") x1) x1)) (Var "n2z").
+
+(** quotient.Quotients._enter, parallel rays: T1 *)
+Definition table_parallel_T1 : expr :=
+  let x1 := Neg (Var "ox") in
+  let x2 := Add (Var "px") x1 in
+  let x3 := Neg (Var "oy") in
+  let x4 := Add (Var "py") x3 in
+  let x5 := Neg (Var "oz") in
+  let x6 := Add (Var "pz") x5 in
+  let x7 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs x6)))) (Num 1 1)) (Num 3 26) in
+  let x8 := Sub (Add x2 x7) x7 in
+  let x9 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x10 := Sub (Add (Var "nx") x9) x9 in
+  let x11 := Sub (Add x4 x7) x7 in
+  let x12 := Sub (Add (Var "ny") x9) x9 in
+  let x13 := Sub (Add x6 x7) x7 in
+  let x14 := Sub (Add (Var "nz") x9) x9 in
+  let x15 := Add (Sub (Var "nx") x10) (Var "n2x") in
+  let x16 := Sub x2 (Var "px") in
+  let x17 := Add (Sub (Var "ny") x12) (Var "n2y") in
+  let x18 := Sub x4 (Var "py") in
+  let x19 := Add (Sub (Var "nz") x14) (Var "n2z") in
+  let x20 := Sub x6 (Var "pz") in
+  Add (Add (Add (Mul x8 x10) (Mul x11 x12)) (Mul x13 x14)) (Add (Add (Add (Mul x15 x8) (Mul (Add x10
+    x15) (Add (Sub x2 x8) (Add (Sub (Var "px") (Sub x2 x16)) (Sub x1 x16))))) (Add (Mul x17 x11)
+    (Mul (Add x12 x17) (Add (Sub x4 x11) (Add (Sub (Var "py") (Sub x4 x18)) (Sub x3 x18)))))) (Add
+    (Mul x19 x13) (Mul (Add x14 x19) (Add (Sub x6 x13) (Add (Sub (Var "pz") (Sub x6 x20)) (Sub x5
+    x20)))))).
+
+(** quotient.Quotients._enter, parallel rays: T2 *)
+Definition table_parallel_T2 : expr :=
+  let x1 := Neg (Var "ox") in
+  let x2 := Add (Var "px") x1 in
+  let x3 := Neg (Var "oy") in
+  let x4 := Add (Var "py") x3 in
+  let x5 := Neg (Var "oz") in
+  let x6 := Add (Var "pz") x5 in
+  let x7 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs x6)))) (Num 1 1)) (Num 3 26) in
+  let x8 := Sub (Add x2 x7) x7 in
+  let x9 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x10 := Sub (Add (Var "nx") x9) x9 in
+  let x11 := Sub (Add x4 x7) x7 in
+  let x12 := Sub (Add (Var "ny") x9) x9 in
+  let x13 := Sub (Add x6 x7) x7 in
+  let x14 := Sub (Add (Var "nz") x9) x9 in
+  let x15 := Add (Add (Mul x8 x10) (Mul x11 x12)) (Mul x13 x14) in
+  let x16 := Add (Sub (Var "nx") x10) (Var "n2x") in
+  let x17 := Sub x2 (Var "px") in
+  let x18 := Add (Sub (Var "ny") x12) (Var "n2y") in
+  let x19 := Sub x4 (Var "py") in
+  let x20 := Add (Sub (Var "nz") x14) (Var "n2z") in
+  let x21 := Sub x6 (Var "pz") in
+  let x22 := Add (Add (Add (Mul x16 x8) (Mul (Add x10 x16) (Add (Sub x2 x8) (Add (Sub (Var "px")
+    (Sub x2 x17)) (Sub x1 x17))))) (Add (Mul x18 x11) (Mul (Add x12 x18) (Add (Sub x4 x11) (Add (Sub
+    (Var "py") (Sub x4 x19)) (Sub x3 x19)))))) (Add (Mul x20 x13) (Mul (Add x14 x20) (Add (Sub x6
+    x13) (Add (Sub (Var "pz") (Sub x6 x21)) (Sub x5 x21))))) in
+  let x23 := Add x15 x22 in
+  let x24 := Sub x23 x15 in
+  Add (Sub x15 (Sub x23 x24)) (Sub x22 x24).
+
+(** quotient.Quotients._enter, parallel rays: ET *)
+Definition table_parallel_ET : expr :=
+  let x1 := Add (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Mul (Num 3 0) (Var "M")) in
+  let x2 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "px") (Neg (Var "ox")))) (Abs (Add
+    (Var "py") (Neg (Var "oy"))))) (Abs (Add (Var "pz") (Neg (Var "oz"))))))) (Num 1 1)) x1 in
+  let x3 := Mul (Var "unit") x1 in
+  Add (Where (And (Less (Num 1 (-950)) x2) (Less x2 (Num 1 1000))) (Mul x2 (Num 1 (-72))) Inf)
+    (Where (And (Less (Num 1 (-950)) x3) (Less x3 (Num 1 1000))) (Mul x3 (Num 1 (-72))) Inf).
+
+(** quotient.Quotients._enter, parallel rays: D1 *)
+Definition table_parallel_D1 : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "dx")) (Abs (Var "dy"))) (Abs (Var "dz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Add (Mul (Sub (Add (Var "dx") x1) x1) (Sub (Add (Var "nx") x2) x2)) (Mul (Sub (Add (Var "dy")
+    x1) x1) (Sub (Add (Var "ny") x2) x2))) (Mul (Sub (Add (Var "dz") x1) x1) (Sub (Add (Var "nz")
+    x2) x2)).
+
+(** quotient.Quotients._enter, parallel rays: D2 *)
+Definition table_parallel_D2 : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "nx") x1) x1 in
+  let x3 := Add (Sub (Var "nx") x2) (Var "n2x") in
+  let x4 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "dx")) (Abs (Var "dy"))) (Abs (Var "dz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x5 := Sub (Add (Var "dx") x4) x4 in
+  let x6 := Sub (Add (Var "ny") x1) x1 in
+  let x7 := Add (Sub (Var "ny") x6) (Var "n2y") in
+  let x8 := Sub (Add (Var "dy") x4) x4 in
+  let x9 := Sub (Add (Var "nz") x1) x1 in
+  let x10 := Add (Sub (Var "nz") x9) (Var "n2z") in
+  let x11 := Sub (Add (Var "dz") x4) x4 in
+  Add (Add (Add (Mul x3 x5) (Mul (Add x2 x3) (Add (Sub (Var "dx") x5) (Num 0 0)))) (Add (Mul x7 x8)
+    (Mul (Add x6 x7) (Add (Sub (Var "dy") x8) (Num 0 0))))) (Add (Mul x10 x11) (Mul (Add x9 x10)
+    (Add (Sub (Var "dz") x11) (Num 0 0)))).
+
+(** quotient.Quotients._enter, parallel rays: ED *)
+Definition table_parallel_ED : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "dx")) (Abs (Var "dy"))) (Abs (Var "dz")))))
+    (Num 1 1)) (Add (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs
+    (Var "nz"))))) (Num 1 1)) (Mul (Num 3 0) (Var "M"))) in
+  Where (And (Less (Num 1 (-950)) x1) (Less x1 (Num 1 1000))) (Mul x1 (Num 1 (-72))) Inf.
+
+(** quotient.Quotients.meet, parallel rays: T1 *)
+Definition meet_parallel_T1 : expr :=
+  let x1 := Mul (Var "unit") (Num 3 26) in
+  Add (Var "T1") (Neg (Add (Add (Mul (Sub (Add (Add (Var "qx") (Neg (Var "ox"))) x1) x1) (Var "hx"))
+    (Mul (Sub (Add (Add (Var "qy") (Neg (Var "oy"))) x1) x1) (Var "hy"))) (Mul (Sub (Add (Add
+    (Var "qz") (Neg (Var "oz"))) x1) x1) (Var "hz")))).
+
+(** quotient.Quotients.meet, parallel rays: T2 *)
+Definition meet_parallel_T2 : expr :=
+  let x1 := Neg (Var "ox") in
+  let x2 := Add (Var "qx") x1 in
+  let x3 := Mul (Var "unit") (Num 3 26) in
+  let x4 := Sub (Add x2 x3) x3 in
+  let x5 := Neg (Var "oy") in
+  let x6 := Add (Var "qy") x5 in
+  let x7 := Sub (Add x6 x3) x3 in
+  let x8 := Neg (Var "oz") in
+  let x9 := Add (Var "qz") x8 in
+  let x10 := Sub (Add x9 x3) x3 in
+  let x11 := Neg (Add (Add (Mul x4 (Var "hx")) (Mul x7 (Var "hy"))) (Mul x10 (Var "hz"))) in
+  let x12 := Add (Var "T1") x11 in
+  let x13 := Sub x12 (Var "T1") in
+  let x14 := Sub x2 (Var "qx") in
+  let x15 := Sub x6 (Var "qy") in
+  let x16 := Sub x9 (Var "qz") in
+  Add (Add (Sub (Var "T1") (Sub x12 x13)) (Sub x11 x13)) (Sub (Var "T2") (Add (Add (Add (Mul
+    (Var "lx") x4) (Mul (Add (Var "hx") (Var "lx")) (Add (Sub x2 x4) (Add (Sub (Var "qx") (Sub x2
+    x14)) (Sub x1 x14))))) (Add (Mul (Var "ly") x7) (Mul (Add (Var "hy") (Var "ly")) (Add (Sub x6
+    x7) (Add (Sub (Var "qy") (Sub x6 x15)) (Sub x5 x15)))))) (Add (Mul (Var "lz") x10) (Mul (Add
+    (Var "hz") (Var "lz")) (Add (Sub x9 x10) (Add (Sub (Var "qz") (Sub x9 x16)) (Sub x8 x16))))))).
+
+(** quotient.Quotients.meet, parallel rays: ET *)
+Definition meet_parallel_ET : expr :=
+  Var "ET".
+
+(** quotient.Quotients.meet, parallel rays: D1 *)
+Definition meet_parallel_D1 : expr :=
+  Var "D1".
+
+(** quotient.Quotients.meet, parallel rays: D2 *)
+Definition meet_parallel_D2 : expr :=
+  Var "D2".
+
+(** quotient.Quotients.meet, parallel rays: ED *)
+Definition meet_parallel_ED : expr :=
+  Var "ED".
+
+(** quotient.Quotients._enter, rays that share nothing: hx *)
+Definition table_alone_hx : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "nx") x1) x1.
+
+(** quotient.Quotients._enter, rays that share nothing: hy *)
+Definition table_alone_hy : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "ny") x1) x1.
+
+(** quotient.Quotients._enter, rays that share nothing: hz *)
+Definition table_alone_hz : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Sub (Add (Var "nz") x1) x1.
+
+(** quotient.Quotients._enter, rays that share nothing: lx *)
+Definition table_alone_lx : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "nx") (Sub (Add (Var "nx") x1) x1)) (Var "n2x").
+
+(** quotient.Quotients._enter, rays that share nothing: ly *)
+Definition table_alone_ly : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "ny") (Sub (Add (Var "ny") x1) x1)) (Var "n2y").
+
+(** quotient.Quotients._enter, rays that share nothing: lz *)
+Definition table_alone_lz : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Sub (Var "nz") (Sub (Add (Var "nz") x1) x1)) (Var "n2z").
+
+(** quotient.Quotients._enter, rays that share nothing: size *)
+Definition table_alone_size : expr :=
+  Add (Mul (Keep 1 (Abs (Max (Max (Abs (Var "nx")) (Abs (Var "ny"))) (Abs (Var "nz"))))) (Num 1 1))
+    (Mul (Num 3 0) (Var "M")).
+
+(** quotient.Quotients._enter, rays that share nothing: px *)
+Definition table_alone_px : expr :=
+  Var "px".
+
+(** quotient.Quotients._enter, rays that share nothing: py *)
+Definition table_alone_py : expr :=
+  Var "py".
+
+(** quotient.Quotients._enter, rays that share nothing: pz *)
+Definition table_alone_pz : expr :=
+  Var "pz".
+
+(** quotient.Quotients.meet, rays that share nothing: T1 *)
+Definition meet_alone_T1 : expr :=
+  let x1 := Add (Var "px") (Neg (Var "ox")) in
+  let x2 := Add (Var "py") (Neg (Var "oy")) in
+  let x3 := Add (Var "pz") (Neg (Var "oz")) in
+  let x4 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x1) (Abs x2)) (Abs x3)))) (Num 1 1)) (Num 3 26) in
+  Add (Add (Mul (Sub (Add x1 x4) x4) (Var "hx")) (Mul (Sub (Add x2 x4) x4) (Var "hy"))) (Mul (Sub
+    (Add x3 x4) x4) (Var "hz")).
+
+(** quotient.Quotients.meet, rays that share nothing: T2 *)
+Definition meet_alone_T2 : expr :=
+  let x1 := Neg (Var "ox") in
+  let x2 := Add (Var "px") x1 in
+  let x3 := Neg (Var "oy") in
+  let x4 := Add (Var "py") x3 in
+  let x5 := Neg (Var "oz") in
+  let x6 := Add (Var "pz") x5 in
+  let x7 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs x2) (Abs x4)) (Abs x6)))) (Num 1 1)) (Num 3 26) in
+  let x8 := Sub (Add x2 x7) x7 in
+  let x9 := Sub x2 (Var "px") in
+  let x10 := Sub (Add x4 x7) x7 in
+  let x11 := Sub x4 (Var "py") in
+  let x12 := Sub (Add x6 x7) x7 in
+  let x13 := Sub x6 (Var "pz") in
+  Add (Add (Add (Mul (Var "lx") x8) (Mul (Add (Var "hx") (Var "lx")) (Add (Sub x2 x8) (Add (Sub
+    (Var "px") (Sub x2 x9)) (Sub x1 x9))))) (Add (Mul (Var "ly") x10) (Mul (Add (Var "hy")
+    (Var "ly")) (Add (Sub x4 x10) (Add (Sub (Var "py") (Sub x4 x11)) (Sub x3 x11)))))) (Add (Mul
+    (Var "lz") x12) (Mul (Add (Var "hz") (Var "lz")) (Add (Sub x6 x12) (Add (Sub (Var "pz") (Sub x6
+    x13)) (Sub x5 x13))))).
+
+(** quotient.Quotients.meet, rays that share nothing: ET *)
+Definition meet_alone_ET : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Add (Var "px") (Neg (Var "ox")))) (Abs (Add
+    (Var "py") (Neg (Var "oy"))))) (Abs (Add (Var "pz") (Neg (Var "oz"))))))) (Num 1 1))
+    (Var "size") in
+  Where (And (Less (Num 1 (-950)) x1) (Less x1 (Num 1 1000))) (Mul x1 (Num 1 (-72))) Inf.
+
+(** quotient.Quotients.meet, rays that share nothing: D1 *)
+Definition meet_alone_D1 : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "dx")) (Abs (Var "dy"))) (Abs (Var "dz")))))
+    (Num 1 1)) (Num 3 26) in
+  Add (Add (Mul (Sub (Add (Var "dx") x1) x1) (Var "hx")) (Mul (Sub (Add (Var "dy") x1) x1)
+    (Var "hy"))) (Mul (Sub (Add (Var "dz") x1) x1) (Var "hz")).
+
+(** quotient.Quotients.meet, rays that share nothing: D2 *)
+Definition meet_alone_D2 : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "dx")) (Abs (Var "dy"))) (Abs (Var "dz")))))
+    (Num 1 1)) (Num 3 26) in
+  let x2 := Sub (Add (Var "dx") x1) x1 in
+  let x3 := Sub (Add (Var "dy") x1) x1 in
+  let x4 := Sub (Add (Var "dz") x1) x1 in
+  Add (Add (Add (Mul (Var "lx") x2) (Mul (Add (Var "hx") (Var "lx")) (Add (Sub (Var "dx") x2)
+    (Num 0 0)))) (Add (Mul (Var "ly") x3) (Mul (Add (Var "hy") (Var "ly")) (Add (Sub (Var "dy") x3)
+    (Num 0 0))))) (Add (Mul (Var "lz") x4) (Mul (Add (Var "hz") (Var "lz")) (Add (Sub (Var "dz") x4)
+    (Num 0 0)))).
+
+(** quotient.Quotients.meet, rays that share nothing: ED *)
+Definition meet_alone_ED : expr :=
+  let x1 := Mul (Mul (Keep 1 (Abs (Max (Max (Abs (Var "dx")) (Abs (Var "dy"))) (Abs (Var "dz")))))
+    (Num 1 1)) (Var "size") in
+  Where (And (Less (Num 1 (-950)) x1) (Less x1 (Num 1 1000))) (Mul x1 (Num 1 (-72))) Inf.
+
+(** quotient._quotient: t *)
+Definition quotient_t : expr :=
+  let x1 := Div (Num 1 0) (Add (Var "D1") (Var "D2")) in
+  let x2 := Mul (Add (Var "T1") (Var "T2")) x1 in
+  let x3 := Keep 26 x2 in
+  let x4 := Keep 26 (Var "D1") in
+  Add (Add (Mul (Add (Sub (Sub (Var "T1") (Mul x3 x4)) (Mul x3 (Sub (Var "D1") x4))) (Sub (Var "T2")
+    (Mul x3 (Var "D2")))) x1) (Mul (Mul (Add (Mul (Abs x2) (Var "ED")) (Var "ET")) (Abs x1))
+    (Num 4548635623644201 (-52)))) x3.
+
+(** quotient._quotient: sure *)
+Definition quotient_sure : test :=
+  let x1 := Div (Num 1 0) (Add (Var "D1") (Var "D2")) in
+  let x2 := Mul (Add (Var "T1") (Var "T2")) x1 in
+  let x3 := Keep 26 x2 in
+  let x4 := Keep 26 (Var "D1") in
+  let x5 := Mul (Add (Sub (Sub (Var "T1") (Mul x3 x4)) (Mul x3 (Sub (Var "D1") x4))) (Sub (Var "T2")
+    (Mul x3 (Var "D2")))) x1 in
+  let x6 := Abs x2 in
+  let x7 := Mul (Mul (Add (Mul x6 (Var "ED")) (Var "ET")) (Abs x1)) (Num 4548635623644201 (-52)) in
+  And (Same (Add (Sub x5 x7) x3) (Add (Add x5 x7) x3)) (Less (Num 1 (-950)) x6).

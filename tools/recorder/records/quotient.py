@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
+from unittest import mock
 
-import numpy as np
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.certified import quotient
 from reference_tracer.tracer.certified.quotient import Quotients
@@ -13,137 +12,235 @@ from .bounds import CORNERS, FIRST
 from .record import Inputs, Kept, Record, locals_of
 
 _TRIANGLE = dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
-_O, _D = "ox oy oz", "dx dy dz"
 _ORIGIN, _DIRECTION = dict(ox=0.11, oy=0.07, oz=0.3), dict(dx=0.01, dy=-0.02, dz=-1.0)
+_OWN_ORIGIN = dict(qx=0.12, qy=0.3, qz=0.3)
 _POWERS = tuple(2.0**k for k in range(-3, 4))
-_HALVES = "hx hy hz", "lx ly lz"  # of a normal
-_NORMAL = dict(hx=3.0, hy=-2.0, hz=5.0, lx=1e-9, ly=-2e-9, lz=3e-9)
-# A table's columns: n in halves, then T, D and e as far as the rays share them.
-_ROWS = {
-    "from_point": ("T1", "T2", "ET", "ED"),
-    "parallel": ("T1", "T2", "ET", "D1", "D2", "ED"),
-    "alone": ("size", "px", "py", "pz"),
+_UNIT = dict(unit=_POWERS)
+_POINT = dict(px=0.5, py=0.25, pz=-3.0)
+_HALVES = dict(hx=3.0, hy=-2.0, hz=5.0, lx=1e-9, ly=-2e-9, lz=3e-9)  # of a normal
+_T, _D = dict(T1=-5.0, T2=1e-12, ET=1e-25), dict(D1=-2.0, D2=1e-12, ED=1e-25)
+# What a table has below n in halves: T, D and e, as far as the rays share them.
+_REST = {
+    "from_point": dict(**_T, ED=1e-25),
+    "parallel": _T | _D,
+    "alone": dict(size=64.0) | _POINT,
 }
-_REST = dict(T1=-5.0, T2=1e-12, ET=1e-20, D1=-2.0, D2=1e-12, ED=1e-20)
-_REST |= dict(size=64.0, px=0.5, py=0.25, pz=-3.0)
-
-
-class _Many:
-    """Rays that do not share what they have: one of them, and that there are others."""
-
-    def __init__(self, one) -> None:
-        self._one = one
-        self.shape = (3, 2)
-
-    def __getitem__(self, index):
-        return self._one[index]
-
-
-def _pair(v: Inputs, high: str, low: str):
-    return v.vector(high), v.vector(low)
+_SIDES = dict(ux=1.5, uy=-2.5, uz=0.3, vx=0.7, vy=1.1, vz=-3.3)
+_SIDES |= {f"{k[0]}2{k[1]}": v * 2.0**-54 for k, v in _SIDES.items()}
+_NORMAL = dict(nx=3.0, ny=-2.0, nz=5.0, n2x=1e-16, n2y=-2e-16, n2z=3e-16)
+_V = dict(vx=0.3, vy=-0.7, vz=0.9)
+_LOW = dict(v2x=1e-17, v2y=-2e-17, v2z=1e-18)
+_NOTES = {
+    "from_point": "rays from one point",
+    "parallel": "parallel rays",
+    "alone": "rays that share nothing",
+}
 
 
 def _named(names: str, values) -> Kept:
     return dict(zip(names.split(), values, strict=True))
 
 
-def _two_sum(v: Inputs) -> Kept:
-    return _named("two_sum_high two_sum_low", quotient.two_sum(v.one("a"), v.one("b")))
+def _columns(case: str) -> list[str]:
+    return [*_HALVES, *_REST[case]]
 
 
-def _halves(v: Inputs) -> Kept:
-    return _named("halves_high halves_low", quotient.halves(v.one("v"), v.one("unit")))
-
-
-def _dot(v: Inputs, prefix: str, rest) -> Kept:
-    normal = v.stacked([*map(v.one, " ".join(_HALVES).split())])
+def _dot(v: Inputs, prefix: str, has_low: bool) -> Kept:
+    normal = v.vector(" ".join(_HALVES))
+    rest = v.vector("v2x v2y v2z") if has_low else 0.0
     found = quotient._dot(v.vector("vx vy vz"), rest, v.one("unit"), normal)
     return _named(f"{prefix}_high {prefix}_low", found)
 
 
 def _cross(v: Inputs) -> Kept:
-    first, second = _pair(v, "ux uy uz", "u2x u2y u2z"), _pair(v, "vx vy vz", "v2x v2y v2z")
-    (high, low), size = quotient._cross(first, second)
+    first = v.vector("ux uy uz"), v.vector("u2x u2y u2z")
+    (high, low), size = quotient._cross(first, (v.vector("vx vy vz"), v.vector("v2x v2y v2z")))
     names = "cross_x cross_y cross_z", "cross_low_x cross_low_y cross_low_z"
-    return _named(names[0], high) | _named(names[1], low) | {"cross_size": size}
+    return _named(names[0], high) | _named(names[1], low) | {"cross_M": size}
 
 
 def _quotient(v: Inputs) -> Kept:
-    over, under = ([v.one(f"{k}{of}") for k in names] for of, names in _PAIRS)
-    t, sure = quotient._quotient(over, under)
-    return {"quotient_t": t, "quotient_sure": sure}
+    over, under = ([v.one(name) for name in names] for names in (_T, _D))
+    return _named("quotient_t quotient_sure", quotient._quotient(over, under))
 
 
-_PAIRS = (("", ("T1", "T2", "ET")), ("", ("D1", "D2", "ED")))
+def _unit(v: Inputs, prefix: str) -> Kept:
+    """Of several rays it is the same of the largest components: here there is one."""
+    origins = v.vector("qx qy qz" if "qx" in v else "ox oy oz")
+    own = Quotients(Rays(origins, v.vector("dx dy dz")), 1)
+    return {prefix: own._unit}
+
+
+def _triangle(v: Inputs) -> Kept:
+    """What is handed on of a triangle: its normal as high + low, and M."""
+    kept = []
+    rays = Rays(v.vector("ox oy oz"), v.vector("dx dy dz"))
+    with mock.patch.object(Quotients, "_enter", lambda *some: kept.append(some)):
+        Quotients.of(rays, v.matrix(*CORNERS))
+    [(_, _, _, (high, low), size)] = kept
+    names = "normal_x normal_y normal_z", "normal_low_x normal_low_y normal_low_z"
+    return _named(names[0], high) | _named(names[1], low) | {"normal_M": size}
 
 
 def _prepared(v: Inputs, case: str) -> Quotients:
-    """The bounds of the rays' components are those of one: `unit` is recorded by itself."""
-    origins = v.vector(_O) if "ox" in v else np.zeros((3, 1))
-    directions = v.vector(_D) if "dx" in v else np.zeros((3, 1))
     out = Quotients.__new__(Quotients)
     out._one_origin, out._one_direction = case == "from_point", case == "parallel"
-    out._origin, out._direction = origins, directions
+    out._origin = v.vector("ox oy oz") if "ox" in v else None
+    out._direction = v.vector("dx dy dz") if "dx" in v else None
     out._unit = v.one("unit") if "unit" in v else None
     return out
 
 
 def _table(v: Inputs, case: str) -> Kept:
-    """A triangle's normal and M are variables: `_cross` of the two sides is recorded by itself."""
-    own, rows = _prepared(v, case), 12 if case == "parallel" else 10
-    table = _empty(v, (rows, 1))
-    own._enter(table, v.vector("px py pz"), _pair(v, "nx ny nz", "n2x n2y n2z"), v.one("M"))
-    names = (*" ".join(_HALVES).split(), *_ROWS[case])
-    return {f"table_{case}_{name}": row for name, row in zip(names, table, strict=True)}
-
-
-def _empty(v: Inputs, shape: tuple[int, ...]):
-    return quotient.np.empty(shape)
+    """The normal and M are variables: `_cross` of two sides is recorded by itself."""
+    own, columns = _prepared(v, case), _columns(case)
+    table = quotient.np.empty((len(columns), 1))
+    normal = v.vector("nx ny nz"), v.vector("n2x n2y n2z")
+    own._enter(table, v.vector("px py pz"), normal, v.one("M"))
+    return _named(" ".join(f"table_{case}_{name}" for name in columns), table)
 
 
 def _meet(v: Inputs, case: str) -> Kept:
+    """What `_quotient` is called with: it is recorded by itself."""
     own = _prepared(v, case)
-    names = (*" ".join(_HALVES).split(), *_ROWS[case])
-    own._table = v.stacked([v.one(name) for name in names])
-    origins = v.vector("qx qy qz" if "qx" in v else _O) if case != "from_point" else None
-    rays = Rays(origins, v.vector(_D) if case != "parallel" else None)
+    own._table = v.vector(" ".join(_columns(case)))
+    origins = {"from_point": "", "parallel": "qx qy qz", "alone": "ox oy oz"}[case]
+    rays = Rays(v.vector(origins) if origins else None, own._direction)
     with locals_of(quotient._quotient) as local:
-        t, sure = own.meet(rays, FIRST)
-    over, under = local["numerator"], local["denominator"]
-    parts = dict(zip(("T1", "T2", "ET", "D1", "D2", "ED"), (*over, *under), strict=True))
-    prefix = f"meet_{case}"
-    # What `_quotient` is called with; it is recorded by itself.
-    return {f"{prefix}_{name}": value for name, value in parts.items()}
+        own.meet(rays, FIRST)
+    parts = *local["numerator"], *local["denominator"]
+    return _named(" ".join(f"meet_{case}_{name}" for name in (*_T, *_D)), parts)
 
 
-def _triangle(v: Inputs) -> Kept:
-    """What `Quotients.of` hands on of a triangle: its normal as high + low, and M."""
-    own, kept = _prepared(v, "alone"), {}
-
-    def enter(table, point, normal, error):
-        kept.update(zip(("high", "low", "M"), (*normal, error), strict=True))
-
-    class Own(Quotients):
-        def __init__(self, rays, count) -> None:
-            self._table = np.zeros((10, count))
-
-        def _enter(self, table, point, normal, error) -> None:
-            enter(table, point, normal, error)
-
-    del own
-    Own.of(None, v.matrix(*CORNERS))
-    names = "normal_x normal_y normal_z", "normal_low_x normal_low_y normal_low_z"
-    return _named(names[0], kept["high"]) | _named(names[1], kept["low"]) | {"normal_M": kept["M"]}
+def _simple(name: str, function: str, values: dict, call, theorem: str, **options) -> Record:
+    """Return a record, all of whose results are of one theorem."""
+    names = options.pop("names", name).split()
+    return Record(
+        name, f"quotient.{function}", values, call, dict.fromkeys(names, theorem), **options
+    )
 
 
-def _unit(v: Inputs) -> Kept:
-    return {"power_above": quotient.power_above(v.vector("vx vy vz"))}
+def _cases():
+    given = {
+        "from_point": (_ORIGIN, dict(unit=1.0)),
+        "parallel": (_ORIGIN | _DIRECTION, dict(unit=1.0)),
+        "alone": ({}, {}),
+    }
+    for case, (shared, unit) in given.items():
+        columns = _columns(case)
+        yield _simple(
+            f"table_{case}",
+            "Quotients._enter",
+            _NORMAL | _POINT | dict(M=32.0) | shared | unit,
+            lambda v, case=case: _table(v, case),
+            f"table_{case}_right",
+            names=" ".join(f"table_{case}_{name}" for name in columns),
+            note=_NOTES[case],
+            domain=_UNIT | dict(M=_POWERS),
+        )
+        rays = {
+            "from_point": _DIRECTION,
+            "parallel": _ORIGIN | _OWN_ORIGIN,
+            "alone": _ORIGIN | _DIRECTION,
+        }[case]
+        yield _simple(
+            f"meet_{case}",
+            "Quotients.meet",
+            _HALVES | _REST[case] | rays | unit,
+            lambda v, case=case: _meet(v, case),
+            f"meet_{case}_right",
+            names=" ".join(f"meet_{case}_{name}" for name in (*_T, *_D)),
+            note=_NOTES[case],
+            domain=_UNIT,
+        )
 
 
-def _error(v: Inputs) -> Kept:
-    return {"quotient_error": quotient._error(v.one("unit"), v.one("size"))}
+_NAMES = " ".join(f"{name}_{k}" for name in ("cross", "cross_low") for k in "xyz") + " cross_M"
 
-
-_ARM = dict(vx=0.3, vy=-0.7, vz=0.9, unit=1.0)
-_SIDES = dict(ux=1.5, uy=-2.5, uz=0.3, vx=0.7, vy=1.1, vz=-3.3)
-_SIDES |= {f"{k[0]}2{k[1]}": v * 2.0**-54 for k, v in _SIDES.items()}
+RECORDS = (
+    _simple(
+        "two_sum",
+        "two_sum",
+        dict(a=1.0, b=1e-20),
+        lambda v: _named("two_sum_high two_sum_low", quotient.two_sum(v.one("a"), v.one("b"))),
+        "two_sum_exact",
+        names="two_sum_high two_sum_low",
+    ),
+    _simple(
+        "halves",
+        "halves",
+        dict(v=0.7, unit=1.0),
+        lambda v: _named("halves_high halves_low", quotient.halves(v.one("v"), v.one("unit"))),
+        "halves_exact",
+        names="halves_high halves_low",
+        domain=_UNIT,
+    ),
+    _simple(
+        "highest",
+        "highest",
+        dict(a=0.7),
+        lambda v: {"highest": quotient.highest(v.one("a"))},
+        "highest_exact",
+    ),
+    _simple(
+        "power_above",
+        "power_above",
+        _V,
+        lambda v: {"power_above": quotient.power_above(v.vector("vx vy vz"))},
+        "power_above_right",
+    ),
+    _simple(
+        "product_error",
+        "_error",
+        dict(unit=1.0, size=4.0),
+        lambda v: {"product_error": quotient._error(v.one("unit"), v.one("size"))},
+        "product_error_right",
+    ),
+    _simple(
+        "product",
+        "_dot",
+        _V | _LOW | _HALVES | dict(unit=1.0),
+        lambda v: _dot(v, "product", True),
+        "product_right",
+        names="product_high product_low",
+        note="of a sum of two floats",
+        domain=_UNIT,
+    ),
+    _simple(
+        "product_of_one",
+        "_dot",
+        _V | _HALVES | dict(unit=1.0),
+        lambda v: _dot(v, "product_of_one", False),
+        "product_right",
+        names="product_of_one_high product_of_one_low",
+        note="of one float",
+        domain=_UNIT,
+    ),
+    _simple("cross", "_cross", _SIDES, _cross, "cross_right", names=_NAMES),
+    _simple(
+        "normal",
+        "Quotients.of",
+        _TRIANGLE | _ORIGIN | _DIRECTION,
+        _triangle,
+        "cross_right",
+        names=_NAMES.replace("cross", "normal"),
+        note="a triangle",
+    ),
+    _simple(
+        "unit_from_point",
+        "Quotients",
+        _ORIGIN | _DIRECTION,
+        lambda v: _unit(v, "unit_from_point"),
+        "power_above_right",
+        note=_NOTES["from_point"],
+    ),
+    *_cases(),
+    _simple(
+        "quotient",
+        "_quotient",
+        _T | _D,
+        _quotient,
+        "quotient_right",
+        names="quotient_t quotient_sure",
+    ),
+)

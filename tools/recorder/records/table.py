@@ -1,6 +1,6 @@
 """All records, in the order of `proofs/Recorded.v`."""
 
-from . import bounds, camera, deciding, edges, film, pixels
+from . import bounds, camera, deciding, edges, film, pixels, quotient
 
 RECORDS = (
     *bounds.RECORDS,
@@ -9,4 +9,5 @@ RECORDS = (
     *pixels.RECORDS,
     *film.RECORDS,
     *camera.RECORDS,
+    *quotient.RECORDS,
 )
