@@ -2821,6 +2821,424 @@ Definition transform_z : expr :=
   Add (Add (Add (Mul (Var "m20") (Var "vx")) (Mul (Var "m21") (Var "vy"))) (Mul (Var "m22")
     (Var "vz"))) (Var "m23").
 
+(** boxes.InstanceBoxes.of, perspective: in view *)
+Definition instance_perspective_in_view : test :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Var "d0") (Mul (Var "d1") x1) in
+  let x3 := Sub (Var "region_x") (Num 1 0) in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x1) in
+  let x5 := Mul (Var "weight") x1 in
+  let x6 := Neg (Add x4 (Mul (Abs x3) x5)) in
+  let x7 := Add (Var "region_x_end") (Num 1 0) in
+  let x8 := Neg (Add x4 (Mul (Abs x7) x5)) in
+  let x9 := Sub (Var "region_y") (Num 1 0) in
+  let x10 := Neg (Add x4 (Mul (Abs x9) x5)) in
+  let x11 := Add (Var "region_y_end") (Num 1 0) in
+  let x12 := Neg (Add x4 (Mul (Abs x11) x5)) in
+  Not (Or (Or (Or (Or (Or (And (And (And (And (And (And (And (Less (Add (Var "depth0") x2)
+    (Var "clip_start")) (Less (Add (Var "depth1") x2) (Var "clip_start"))) (Less (Add (Var "depth2")
+    x2) (Var "clip_start"))) (Less (Add (Var "depth3") x2) (Var "clip_start"))) (Less (Add
+    (Var "depth4") x2) (Var "clip_start"))) (Less (Add (Var "depth5") x2) (Var "clip_start"))) (Less
+    (Add (Var "depth6") x2) (Var "clip_start"))) (Less (Add (Var "depth7") x2) (Var "clip_start")))
+    (And (And (And (And (And (And (And (Less (Var "clip_end") (Sub (Var "depth0") x2)) (Less
+    (Var "clip_end") (Sub (Var "depth1") x2))) (Less (Var "clip_end") (Sub (Var "depth2") x2)))
+    (Less (Var "clip_end") (Sub (Var "depth3") x2))) (Less (Var "clip_end") (Sub (Var "depth4")
+    x2))) (Less (Var "clip_end") (Sub (Var "depth5") x2))) (Less (Var "clip_end") (Sub
+    (Var "depth6") x2))) (Less (Var "clip_end") (Sub (Var "depth7") x2)))) (And (And (And (And (And
+    (And (And (Less (Mul (Num 1 0) (Sub (Var "p0") (Mul x3 (Var "w0")))) x6) (Less (Mul (Num 1 0)
+    (Sub (Var "p1") (Mul x3 (Var "w1")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p2") (Mul x3
+    (Var "w2")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p3") (Mul x3 (Var "w3")))) x6)) (Less (Mul
+    (Num 1 0) (Sub (Var "p4") (Mul x3 (Var "w4")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p5") (Mul
+    x3 (Var "w5")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p6") (Mul x3 (Var "w6")))) x6)) (Less (Mul
+    (Num 1 0) (Sub (Var "p7") (Mul x3 (Var "w7")))) x6))) (And (And (And (And (And (And (And (Less
+    (Mul (Num (-1) 0) (Sub (Var "p0") (Mul x7 (Var "w0")))) x8) (Less (Mul (Num (-1) 0) (Sub
+    (Var "p1") (Mul x7 (Var "w1")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p2") (Mul x7
+    (Var "w2")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p3") (Mul x7 (Var "w3")))) x8)) (Less (Mul
+    (Num (-1) 0) (Sub (Var "p4") (Mul x7 (Var "w4")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p5")
+    (Mul x7 (Var "w5")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p6") (Mul x7 (Var "w6")))) x8))
+    (Less (Mul (Num (-1) 0) (Sub (Var "p7") (Mul x7 (Var "w7")))) x8))) (And (And (And (And (And
+    (And (And (Less (Mul (Num 1 0) (Sub (Var "q0") (Mul x9 (Var "w0")))) x10) (Less (Mul (Num 1 0)
+    (Sub (Var "q1") (Mul x9 (Var "w1")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q2") (Mul x9
+    (Var "w2")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q3") (Mul x9 (Var "w3")))) x10)) (Less (Mul
+    (Num 1 0) (Sub (Var "q4") (Mul x9 (Var "w4")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q5") (Mul
+    x9 (Var "w5")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q6") (Mul x9 (Var "w6")))) x10)) (Less
+    (Mul (Num 1 0) (Sub (Var "q7") (Mul x9 (Var "w7")))) x10))) (And (And (And (And (And (And (And
+    (Less (Mul (Num (-1) 0) (Sub (Var "q0") (Mul x11 (Var "w0")))) x12) (Less (Mul (Num (-1) 0) (Sub
+    (Var "q1") (Mul x11 (Var "w1")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q2") (Mul x11
+    (Var "w2")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q3") (Mul x11 (Var "w3")))) x12)) (Less
+    (Mul (Num (-1) 0) (Sub (Var "q4") (Mul x11 (Var "w4")))) x12)) (Less (Mul (Num (-1) 0) (Sub
+    (Var "q5") (Mul x11 (Var "w5")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q6") (Mul x11
+    (Var "w6")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q7") (Mul x11 (Var "w7")))) x12))).
+
+(** boxes.InstanceBoxes.of, perspective: low x *)
+Definition instance_perspective_low_x : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Var "weight") x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Sub (Min (Min (Min (Min (Min (Min (Min (Var "low_x0")
+    (Var "low_x1")) (Var "low_x2")) (Var "low_x3")) (Var "low_x4")) (Var "low_x5")) (Var "low_x6"))
+    (Var "low_x7")) (Num 1 0)) (Num (-1) 31).
+
+(** boxes.InstanceBoxes.of, perspective: low y *)
+Definition instance_perspective_low_y : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Var "weight") x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Sub (Min (Min (Min (Min (Min (Min (Min (Var "low_y0")
+    (Var "low_y1")) (Var "low_y2")) (Var "low_y3")) (Var "low_y4")) (Var "low_y5")) (Var "low_y6"))
+    (Var "low_y7")) (Num 1 0)) (Num (-1) 31).
+
+(** boxes.InstanceBoxes.of, perspective: high x *)
+Definition instance_perspective_high_x : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Var "weight") x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Add (Neg (Min (Min (Min (Min (Min (Min (Min (Var "minus_high_x0")
+    (Var "minus_high_x1")) (Var "minus_high_x2")) (Var "minus_high_x3")) (Var "minus_high_x4"))
+    (Var "minus_high_x5")) (Var "minus_high_x6")) (Var "minus_high_x7"))) (Num 1 0))
+    (Num 2147483647 0).
+
+(** boxes.InstanceBoxes.of, perspective: high y *)
+Definition instance_perspective_high_y : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Var "weight") x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Add (Neg (Min (Min (Min (Min (Min (Min (Min (Var "minus_high_y0")
+    (Var "minus_high_y1")) (Var "minus_high_y2")) (Var "minus_high_y3")) (Var "minus_high_y4"))
+    (Var "minus_high_y5")) (Var "minus_high_y6")) (Var "minus_high_y7"))) (Num 1 0))
+    (Num 2147483647 0).
+
+(** boxes.InstanceBoxes.of, perspective: nearest *)
+Definition instance_perspective_nearest : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Mul (Var "weight") x1 in
+  let x3 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) x2) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x3 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x3 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x3 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x3 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x3 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x3 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x3 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x3 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Div (Add (Num 281474976710657 (-48)) (Mul (Num 1 1)
+    (Var "ray_error"))) (Max (Sub (Min (Min (Min (Min (Min (Min (Min (Var "depth0") (Var "depth1"))
+    (Var "depth2")) (Var "depth3")) (Var "depth4")) (Var "depth5")) (Var "depth6")) (Var "depth7"))
+    x2) (Var "clip_start"))) Inf.
+
+(** boxes.InstanceBoxes.of, orthographic: in view *)
+Definition instance_parallel_in_view : test :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Var "d0") (Mul (Var "d1") x1) in
+  let x3 := Sub (Var "region_x") (Num 1 0) in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x1) in
+  let x5 := Mul (Num 0 0) x1 in
+  let x6 := Neg (Add x4 (Mul (Abs x3) x5)) in
+  let x7 := Add (Var "region_x_end") (Num 1 0) in
+  let x8 := Neg (Add x4 (Mul (Abs x7) x5)) in
+  let x9 := Sub (Var "region_y") (Num 1 0) in
+  let x10 := Neg (Add x4 (Mul (Abs x9) x5)) in
+  let x11 := Add (Var "region_y_end") (Num 1 0) in
+  let x12 := Neg (Add x4 (Mul (Abs x11) x5)) in
+  Not (Or (Or (Or (Or (Or (And (And (And (And (And (And (And (Less (Add (Var "depth0") x2)
+    (Var "clip_start")) (Less (Add (Var "depth1") x2) (Var "clip_start"))) (Less (Add (Var "depth2")
+    x2) (Var "clip_start"))) (Less (Add (Var "depth3") x2) (Var "clip_start"))) (Less (Add
+    (Var "depth4") x2) (Var "clip_start"))) (Less (Add (Var "depth5") x2) (Var "clip_start"))) (Less
+    (Add (Var "depth6") x2) (Var "clip_start"))) (Less (Add (Var "depth7") x2) (Var "clip_start")))
+    (And (And (And (And (And (And (And (Less (Var "clip_end") (Sub (Var "depth0") x2)) (Less
+    (Var "clip_end") (Sub (Var "depth1") x2))) (Less (Var "clip_end") (Sub (Var "depth2") x2)))
+    (Less (Var "clip_end") (Sub (Var "depth3") x2))) (Less (Var "clip_end") (Sub (Var "depth4")
+    x2))) (Less (Var "clip_end") (Sub (Var "depth5") x2))) (Less (Var "clip_end") (Sub
+    (Var "depth6") x2))) (Less (Var "clip_end") (Sub (Var "depth7") x2)))) (And (And (And (And (And
+    (And (And (Less (Mul (Num 1 0) (Sub (Var "p0") (Mul x3 (Var "w0")))) x6) (Less (Mul (Num 1 0)
+    (Sub (Var "p1") (Mul x3 (Var "w1")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p2") (Mul x3
+    (Var "w2")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p3") (Mul x3 (Var "w3")))) x6)) (Less (Mul
+    (Num 1 0) (Sub (Var "p4") (Mul x3 (Var "w4")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p5") (Mul
+    x3 (Var "w5")))) x6)) (Less (Mul (Num 1 0) (Sub (Var "p6") (Mul x3 (Var "w6")))) x6)) (Less (Mul
+    (Num 1 0) (Sub (Var "p7") (Mul x3 (Var "w7")))) x6))) (And (And (And (And (And (And (And (Less
+    (Mul (Num (-1) 0) (Sub (Var "p0") (Mul x7 (Var "w0")))) x8) (Less (Mul (Num (-1) 0) (Sub
+    (Var "p1") (Mul x7 (Var "w1")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p2") (Mul x7
+    (Var "w2")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p3") (Mul x7 (Var "w3")))) x8)) (Less (Mul
+    (Num (-1) 0) (Sub (Var "p4") (Mul x7 (Var "w4")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p5")
+    (Mul x7 (Var "w5")))) x8)) (Less (Mul (Num (-1) 0) (Sub (Var "p6") (Mul x7 (Var "w6")))) x8))
+    (Less (Mul (Num (-1) 0) (Sub (Var "p7") (Mul x7 (Var "w7")))) x8))) (And (And (And (And (And
+    (And (And (Less (Mul (Num 1 0) (Sub (Var "q0") (Mul x9 (Var "w0")))) x10) (Less (Mul (Num 1 0)
+    (Sub (Var "q1") (Mul x9 (Var "w1")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q2") (Mul x9
+    (Var "w2")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q3") (Mul x9 (Var "w3")))) x10)) (Less (Mul
+    (Num 1 0) (Sub (Var "q4") (Mul x9 (Var "w4")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q5") (Mul
+    x9 (Var "w5")))) x10)) (Less (Mul (Num 1 0) (Sub (Var "q6") (Mul x9 (Var "w6")))) x10)) (Less
+    (Mul (Num 1 0) (Sub (Var "q7") (Mul x9 (Var "w7")))) x10))) (And (And (And (And (And (And (And
+    (Less (Mul (Num (-1) 0) (Sub (Var "q0") (Mul x11 (Var "w0")))) x12) (Less (Mul (Num (-1) 0) (Sub
+    (Var "q1") (Mul x11 (Var "w1")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q2") (Mul x11
+    (Var "w2")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q3") (Mul x11 (Var "w3")))) x12)) (Less
+    (Mul (Num (-1) 0) (Sub (Var "q4") (Mul x11 (Var "w4")))) x12)) (Less (Mul (Num (-1) 0) (Sub
+    (Var "q5") (Mul x11 (Var "w5")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q6") (Mul x11
+    (Var "w6")))) x12)) (Less (Mul (Num (-1) 0) (Sub (Var "q7") (Mul x11 (Var "w7")))) x12))).
+
+(** boxes.InstanceBoxes.of, orthographic: low x *)
+Definition instance_parallel_low_x : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Num 0 0) x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Sub (Min (Min (Min (Min (Min (Min (Min (Var "low_x0")
+    (Var "low_x1")) (Var "low_x2")) (Var "low_x3")) (Var "low_x4")) (Var "low_x5")) (Var "low_x6"))
+    (Var "low_x7")) (Num 1 0)) (Num (-1) 31).
+
+(** boxes.InstanceBoxes.of, orthographic: low y *)
+Definition instance_parallel_low_y : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Num 0 0) x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Sub (Min (Min (Min (Min (Min (Min (Min (Var "low_y0")
+    (Var "low_y1")) (Var "low_y2")) (Var "low_y3")) (Var "low_y4")) (Var "low_y5")) (Var "low_y6"))
+    (Var "low_y7")) (Num 1 0)) (Num (-1) 31).
+
+(** boxes.InstanceBoxes.of, orthographic: high x *)
+Definition instance_parallel_high_x : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Num 0 0) x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Add (Neg (Min (Min (Min (Min (Min (Min (Min (Var "minus_high_x0")
+    (Var "minus_high_x1")) (Var "minus_high_x2")) (Var "minus_high_x3")) (Var "minus_high_x4"))
+    (Var "minus_high_x5")) (Var "minus_high_x6")) (Var "minus_high_x7"))) (Num 1 0))
+    (Num 2147483647 0).
+
+(** boxes.InstanceBoxes.of, orthographic: high y *)
+Definition instance_parallel_high_y : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Num 0 0) x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Add (Neg (Min (Min (Min (Min (Min (Min (Min (Var "minus_high_y0")
+    (Var "minus_high_y1")) (Var "minus_high_y2")) (Var "minus_high_y3")) (Var "minus_high_y4"))
+    (Var "minus_high_y5")) (Var "minus_high_y6")) (Var "minus_high_y7"))) (Num 1 0))
+    (Num 2147483647 0).
+
+(** boxes.InstanceBoxes.of, orthographic: nearest *)
+Definition instance_parallel_nearest : expr :=
+  let x1 := Mul (Num 1 2) (Add (Var "size") (Max (Max (Abs (Var "ox")) (Abs (Var "oy"))) (Abs
+    (Var "oz")))) in
+  let x2 := Add (Add (Var "c0") (Mul (Var "c1") x1)) (Mul (Max (Var "width") (Var "height")) (Mul
+    (Num 0 0) x1)) in
+  Where (And (And (And (And (And (And (And (And (And (Given "ahead0") (Less x2 (Mul (Num 1 (-2))
+    (Var "w0")))) (And (Given "ahead1") (Less x2 (Mul (Num 1 (-2)) (Var "w1"))))) (And
+    (Given "ahead2") (Less x2 (Mul (Num 1 (-2)) (Var "w2"))))) (And (Given "ahead3") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w3"))))) (And (Given "ahead4") (Less x2 (Mul (Num 1 (-2)) (Var "w4"))))) (And
+    (Given "ahead5") (Less x2 (Mul (Num 1 (-2)) (Var "w5"))))) (And (Given "ahead6") (Less x2 (Mul
+    (Num 1 (-2)) (Var "w6"))))) (And (Given "ahead7") (Less x2 (Mul (Num 1 (-2)) (Var "w7")))))
+    (Same (Num 0 0) (Num 0 0))) (Sub (Add (Var "d0") (Mul (Var "d1") x1)) (Min (Min (Min (Min (Min
+    (Min (Min (Var "depth0") (Var "depth1")) (Var "depth2")) (Var "depth3")) (Var "depth4"))
+    (Var "depth5")) (Var "depth6")) (Var "depth7"))) Inf.
+
+(** boxes._corners, the box of a mesh: corner 0 x *)
+Definition box_corner_0_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "lx")) (Mul (Var "m01") (Var "ly"))) (Mul (Var "m02")
+    (Var "lz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 1 x *)
+Definition box_corner_1_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "hx")) (Mul (Var "m01") (Var "ly"))) (Mul (Var "m02")
+    (Var "lz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 2 x *)
+Definition box_corner_2_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "lx")) (Mul (Var "m01") (Var "hy"))) (Mul (Var "m02")
+    (Var "lz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 3 x *)
+Definition box_corner_3_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "hx")) (Mul (Var "m01") (Var "hy"))) (Mul (Var "m02")
+    (Var "lz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 4 x *)
+Definition box_corner_4_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "lx")) (Mul (Var "m01") (Var "ly"))) (Mul (Var "m02")
+    (Var "hz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 5 x *)
+Definition box_corner_5_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "hx")) (Mul (Var "m01") (Var "ly"))) (Mul (Var "m02")
+    (Var "hz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 6 x *)
+Definition box_corner_6_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "lx")) (Mul (Var "m01") (Var "hy"))) (Mul (Var "m02")
+    (Var "hz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 7 x *)
+Definition box_corner_7_x : expr :=
+  Add (Add (Add (Mul (Var "m00") (Var "hx")) (Mul (Var "m01") (Var "hy"))) (Mul (Var "m02")
+    (Var "hz"))) (Var "m03").
+
+(** boxes._corners, the box of a mesh: corner 0 y *)
+Definition box_corner_0_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "lx")) (Mul (Var "m11") (Var "ly"))) (Mul (Var "m12")
+    (Var "lz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 1 y *)
+Definition box_corner_1_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "hx")) (Mul (Var "m11") (Var "ly"))) (Mul (Var "m12")
+    (Var "lz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 2 y *)
+Definition box_corner_2_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "lx")) (Mul (Var "m11") (Var "hy"))) (Mul (Var "m12")
+    (Var "lz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 3 y *)
+Definition box_corner_3_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "hx")) (Mul (Var "m11") (Var "hy"))) (Mul (Var "m12")
+    (Var "lz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 4 y *)
+Definition box_corner_4_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "lx")) (Mul (Var "m11") (Var "ly"))) (Mul (Var "m12")
+    (Var "hz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 5 y *)
+Definition box_corner_5_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "hx")) (Mul (Var "m11") (Var "ly"))) (Mul (Var "m12")
+    (Var "hz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 6 y *)
+Definition box_corner_6_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "lx")) (Mul (Var "m11") (Var "hy"))) (Mul (Var "m12")
+    (Var "hz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 7 y *)
+Definition box_corner_7_y : expr :=
+  Add (Add (Add (Mul (Var "m10") (Var "hx")) (Mul (Var "m11") (Var "hy"))) (Mul (Var "m12")
+    (Var "hz"))) (Var "m13").
+
+(** boxes._corners, the box of a mesh: corner 0 z *)
+Definition box_corner_0_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "lx")) (Mul (Var "m21") (Var "ly"))) (Mul (Var "m22")
+    (Var "lz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 1 z *)
+Definition box_corner_1_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "hx")) (Mul (Var "m21") (Var "ly"))) (Mul (Var "m22")
+    (Var "lz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 2 z *)
+Definition box_corner_2_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "lx")) (Mul (Var "m21") (Var "hy"))) (Mul (Var "m22")
+    (Var "lz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 3 z *)
+Definition box_corner_3_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "hx")) (Mul (Var "m21") (Var "hy"))) (Mul (Var "m22")
+    (Var "lz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 4 z *)
+Definition box_corner_4_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "lx")) (Mul (Var "m21") (Var "ly"))) (Mul (Var "m22")
+    (Var "hz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 5 z *)
+Definition box_corner_5_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "hx")) (Mul (Var "m21") (Var "ly"))) (Mul (Var "m22")
+    (Var "hz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 6 z *)
+Definition box_corner_6_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "lx")) (Mul (Var "m21") (Var "hy"))) (Mul (Var "m22")
+    (Var "hz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: corner 7 z *)
+Definition box_corner_7_z : expr :=
+  Add (Add (Add (Mul (Var "m20") (Var "hx")) (Mul (Var "m21") (Var "hy"))) (Mul (Var "m22")
+    (Var "hz"))) (Var "m23").
+
+(** boxes._corners, the box of a mesh: size *)
+Definition box_size : expr :=
+  let x1 := Max (Abs (Var "lx")) (Abs (Var "hx")) in
+  let x2 := Max (Abs (Var "ly")) (Abs (Var "hy")) in
+  let x3 := Max (Abs (Var "lz")) (Abs (Var "hz")) in
+  Max (Max (Add (Add (Add (Mul (Abs (Var "m00")) x1) (Mul (Abs (Var "m01")) x2)) (Mul (Abs
+    (Var "m02")) x3)) (Abs (Var "m03"))) (Add (Add (Add (Mul (Abs (Var "m10")) x1) (Mul (Abs
+    (Var "m11")) x2)) (Mul (Abs (Var "m12")) x3)) (Abs (Var "m13")))) (Add (Add (Add (Mul (Abs
+    (Var "m20")) x1) (Mul (Abs (Var "m21")) x2)) (Mul (Abs (Var "m22")) x3)) (Abs (Var "m23"))).
+
+(** small_boxes.are_small, where all vertices are certain *)
+Definition are_small : test :=
+  And (And (And (Less (Num 0 0) (Var "low_x")) (Less (Var "high_x") (Sub (Var "width") (Num 1 0))))
+    (Less (Sub (Var "high_x") (Var "low_x")) (Num 1 4))) (And (And (Less (Num 0 0) (Var "low_y"))
+    (Less (Var "high_y") (Sub (Var "height") (Num 1 0)))) (Less (Sub (Var "high_y") (Var "low_y"))
+    (Num 1 4))).
+
+(** small_boxes.are_small, where all vertices are certain: path *)
+Definition are_small_path : test :=
+  And (And (Given "certain_a") (Given "certain_b")) (Given "certain_c").
+
+(** small_boxes.are_small, where some vertex is not certain *)
+Definition are_small_some : test :=
+  And (And (And (And (And (And (Less (Num 0 0) (Var "low_x")) (Less (Var "high_x") (Sub
+    (Var "width") (Num 1 0)))) (Less (Sub (Var "high_x") (Var "low_x")) (Num 1 4))) (And (And (Less
+    (Num 0 0) (Var "low_y")) (Less (Var "high_y") (Sub (Var "height") (Num 1 0)))) (Less (Sub
+    (Var "high_y") (Var "low_y")) (Num 1 4)))) (Given "certain_a")) (Given "certain_b"))
+    (Given "certain_c").
+
+(** small_boxes.are_small, where some vertex is not certain: path *)
+Definition are_small_some_path : test :=
+  Not (And (And (Given "certain_a") (Given "certain_b")) (Given "certain_c")).
+
 (** quotient.two_sum: high *)
 Definition two_sum_high : expr :=
   Add (Var "a") (Var "b").

@@ -15,17 +15,17 @@ from .film import camera as camera_of
 from .record import Inputs, Kept, Record
 
 _XYZ = "xyz"
-_PIXELS = tuple(map(float, range(-64, 65)))
-_REGION = dict(region_x=3.0, region_y=4.0, region_x_end=600.0, region_y_end=400.0)
+PIXELS = tuple(map(float, range(-64, 65)))
+REGION = dict(region_x=3.0, region_y=4.0, region_x_end=600.0, region_y_end=400.0)
 _BOX = (
     dict(ax=-1.1, ay=-0.9, az=-5.2, bx=1.3, by=-0.8, bz=-5.7, cx=0.2, cy=1.4, cz=-4.9)
     | WINDOW
     | PLACE
     | DUAL
-    | _REGION
+    | REGION
     | dict(reach=0.5, clip_start=0.1, clip_end=100.0)
 )
-_MATRIX = {f"m{i}{k}": 0.5 + 0.25 * i - 0.125 * k for i in range(3) for k in range(4)}
+MATRIX = {f"m{i}{k}": 0.5 + 0.25 * i - 0.125 * k for i in range(3) for k in range(4)}
 
 
 def _rays(v: Inputs, prefix: str, projection: Projection) -> Kept:
@@ -109,7 +109,7 @@ RECORDS = (
         dict(region_x=3.0, region_y=4.0, dx=0.125, dy=-0.25),
         _positions,
         _named("film_position", "x y", "film_position_right"),
-        domain=dict(region_x=_PIXELS, region_y=_PIXELS),
+        domain=dict(region_x=PIXELS, region_y=PIXELS),
     ),
     Record(
         "dual",
@@ -134,14 +134,14 @@ RECORDS = (
             lambda v, name=name, of=of: _pixel_bounds(v, f"pixel_bounds_{name}", of),
             _named(f"pixel_bounds_{name}", "x0 x1 y0 y1", f"pixel_bounds_{name}_right"),
             of.name,
-            DOMAIN | dict.fromkeys(_REGION, _PIXELS),
+            DOMAIN | dict.fromkeys(REGION, PIXELS),
         )
         for name, of in _PROJECTIONS
     ),
     Record(
         "transform",
         "vector.transform_points",
-        _MATRIX | dict(vx=0.75, vy=0.5, vz=-2.0),
+        MATRIX | dict(vx=0.75, vy=0.5, vz=-2.0),
         _transform,
         _named("transform", "x y z", ""),
     ),

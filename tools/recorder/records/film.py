@@ -25,9 +25,9 @@ DUAL = dict(
 AXES = dict(
     **dict(rx=1.0, ry=0.1, rz=-0.1, ux=-0.1, uy=0.9, uz=0.2, fx=0.05, fy=-0.1, fz=-1.0),
 )
-_BOUNDS = dict(c0=1e-12, c1=1e-13, ray_error=1e-14, d0=1e-14, d1=1e-15)
+BOUNDS = dict(c0=1e-12, c1=1e-13, ray_error=1e-14, d0=1e-14, d1=1e-15)
 _ENTER = (
-    WINDOW | PLACE | DUAL | _BOUNDS | dict(dx=0.125, dy=-0.25, vx=0.75, vy=0.5, vz=-2.0)
+    WINDOW | PLACE | DUAL | BOUNDS | dict(dx=0.125, dy=-0.25, vx=0.75, vy=0.5, vz=-2.0)
 ) | dict(weight=1e-14, clip_start=0.1)
 _SIZES = tuple(map(float, range(1, 4096)))
 # A scene has no camera without a picture or a window (`scene.Camera`): Python's `max` meets no NaN.
@@ -63,7 +63,7 @@ def python(module) -> Iterator[None]:
         yield
 
 
-def _film(v: Inputs, projection: Projection, *known: str) -> Film:
+def of(v: Inputs, projection: Projection, *known: str) -> Film:
     """A film, some of whose numbers are variables; it is sound."""
     out = Film(camera(v, projection), *(v.scalar(k) if k in v else 0.0 for k in ("dx", "dy")))
     numbers = {
@@ -80,7 +80,7 @@ def _film(v: Inputs, projection: Projection, *known: str) -> Film:
 
 
 def _enter(v: Inputs, prefix: str, projection: Projection) -> Kept:
-    own = _film(v, projection, "dual", "place", "weight", "ray_error", "depth_error")
+    own = of(v, projection, "dual", "place", "weight", "ray_error", "depth_error")
     with python(film), locals_of(Film.enter) as local:
         vertices = Vertices.empty(1, np.int32)
         own.enter(vertices, 0, v.vector("vx vy vz"))
@@ -96,9 +96,9 @@ def _of_film(
     def call(v: Inputs) -> Kept:
         with python(film):
             if "spread" not in v:
-                return find(_film(v, projection, *known), v)
+                return find(of(v, projection, *known), v)
             with mock.patch.object(Film, "_spread", property(lambda _: v.scalar("spread"))):
-                return find(_film(v, projection, *known), v)
+                return find(of(v, projection, *known), v)
 
     return call
 
@@ -145,7 +145,7 @@ def _pairs() -> Iterator[Record]:
         yield Record(
             f"film_certain_error_{name}",
             "film.Film.certain_error",
-            _BOUNDS | dict(width=640.0, height=480.0, nearness=0.5),
+            BOUNDS | dict(width=640.0, height=480.0, nearness=0.5),
             _of_film(
                 lambda f, v, name=name: {
                     f"film_certain_error_{name}": f.certain_error(v.one("nearness"))

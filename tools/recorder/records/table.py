@@ -1,6 +1,6 @@
 """All records, in the order of `proofs/Recorded.v`."""
 
-from . import bounds, camera, deciding, edges, film, pixels, quotient
+from . import bounds, boxes, camera, deciding, edges, film, pixels, quotient
 
 RECORDS = (
     *bounds.RECORDS,
@@ -9,5 +9,6 @@ RECORDS = (
     *pixels.RECORDS,
     *film.RECORDS,
     *camera.RECORDS,
+    *boxes.RECORDS,
     *quotient.RECORDS,
 )

@@ -116,7 +116,8 @@ def _corners(scene: Scene) -> tuple[Vectors, NDArray[np.float64]]:
     ]
     corners = np.stack([transform_points(matrices, end) for end in ends], axis=1)
     reach = np.maximum(np.abs(low), np.abs(high))
-    size = (np.abs(matrices[:3, :3]) * reach).sum(axis=1) + np.abs(matrices[:3, 3])
+    x, y, z = (np.abs(matrices[:3, k]) * reach[k] for k in range(3))
+    size = x + y + z + np.abs(matrices[:3, 3])
     return corners, size.max(axis=0)
 
 

@@ -1,0 +1,136 @@
+"""`sweep/boxes.py`, `small_boxes.py`: what is out of view, and which bounds a triangle has."""
+
+from __future__ import annotations
+
+from itertools import product
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
+from reference_tracer.tracer.certified.sweep import boxes, small_boxes
+from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
+from reference_tracer.tracer.certified.sweep.film import Film
+
+from . import film
+from .bounds import FIRST
+from .camera import MATRIX, PIXELS, REGION
+from .film import BOUNDS, DOMAIN, PLACE
+from .record import Inputs, Kept, Record, numpy_with
+
+_ENDS = ("low_x", "low_y", "minus_high_x", "minus_high_y")
+_FIELDS = dict(p=320.0, q=240.0, w=2.0, depth=2.0) | dict.fromkeys(_ENDS, -100.0)
+_CORNERS = {f"{k}{n}": value + n for k, value in _FIELDS.items() for n in range(8)}
+_AHEAD = {f"ahead{n}": True for n in range(8)}
+_BOX = dict(width=640.0, height=480.0, clip_start=0.1, clip_end=100.0, weight=1e-14, size=4.0)
+_MESH = dict(lx=-1.0, ly=-2.0, lz=-3.0, hx=1.5, hy=2.5, hz=3.5)
+
+
+def _instance(v: Inputs, prefix: str, projection: Projection) -> Kept:
+    """The box's eight corners on the film are variables: `Film.enter` is recorded by itself."""
+    own = film.of(v, projection, "place", "weight", "ray_error", "depth_error")
+    own.camera.region = region(v)
+
+    def enter(_, vertices, first, world) -> None:
+        for name in ("p", "q", "w", "depth", "ahead"):
+            getattr(vertices, name)[:] = v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+        for k, name in enumerate(_ENDS):
+            vertices.box[:, k] = v.vector(" ".join(f"{name}{n}" for n in range(8)))[:, 0]
+
+    with (
+        film.python(boxes),
+        mock.patch.object(Film, "enter", enter),
+        mock.patch.object(boxes, "_corners", lambda _: (np.zeros((3, 8, 1)), v.one("size"))),
+        numpy_with(boxes, nan_to_num=lambda depth: depth),  # it only sorts
+    ):
+        found = InstanceBoxes.of(None, own)
+    return {
+        f"{prefix}_in_view": found.in_view,
+        f"{prefix}_low_x": found.low[0],
+        f"{prefix}_low_y": found.low[1],
+        f"{prefix}_high_x": found.high[0],
+        f"{prefix}_high_y": found.high[1],
+        f"{prefix}_nearest": found.nearest,
+    }
+
+
+def region(v: Inputs) -> SimpleNamespace:
+    ends = {k: f"region_{k[0]}{'_end' * (k[1] == '1')}" for k in ("x0", "x1", "y0", "y1")}
+    return SimpleNamespace(**{k: v.scalar(name) for k, name in ends.items()})
+
+
+def _corners(v: Inputs) -> Kept:
+    """The corners of a mesh's box in world space, and the size of the numbers they are made of."""
+    matrix = [v.stacked([v.one(f"m{i}{k}") for k in range(4)]) for i in range(3)]
+    bounds = [v.vector(names).reshape(-1) for names in ("lx ly lz", "hx hy hz")]
+    scene = SimpleNamespace(
+        meshes=[SimpleNamespace(bounds=v.stacked(bounds))],
+        instance_meshes=FIRST,
+        instance_matrices=v.stacked(matrix),
+    )
+    corners, size = boxes._corners(scene)
+    names = product("xyz", range(8))
+    return {f"box_corner_{n}_{k}": corners["xyz".index(k), n] for k, n in names} | {
+        "box_size": size
+    }
+
+
+def _are_small(v: Inputs, prefix: str) -> Kept:
+    own = SimpleNamespace(
+        camera=SimpleNamespace(width=v.scalar("width"), height=v.scalar("height"))
+    )
+    certain = v.vector("certain_a certain_b certain_c").reshape(-1)
+    vertices = SimpleNamespace(certain=certain)
+    expanded = SimpleNamespace(vertices=vertices, corners=np.array([[0], [1], [2]]))
+    ends = v.vector("low_x low_y"), v.vector("high_x high_y")
+    return {prefix: small_boxes.are_small(own, expanded, *ends, FIRST)}
+
+
+_SMALL = dict(low_x=3.0, low_y=4.0, high_x=7.0, high_y=9.0, width=640.0, height=480.0)
+_SMALL_DOMAIN = DOMAIN | dict.fromkeys(("low_x", "low_y", "high_x", "high_y"), PIXELS)
+
+RECORDS = (
+    *(
+        Record(
+            f"instance_{name}",
+            "boxes.InstanceBoxes.of",
+            _CORNERS | _AHEAD | _BOX | BOUNDS | REGION | PLACE,
+            lambda v, name=name, of=of: _instance(v, f"instance_{name}", of),
+            dict.fromkeys(
+                (
+                    *(f"instance_{name}_{k}" for k in ("in_view", "nearest")),
+                    *(f"instance_{name}_{k}_{a}" for k in ("low", "high") for a in "xy"),
+                ),
+                f"instance_{name}_right",
+            ),
+            of.name,
+            DOMAIN
+            | dict.fromkeys(REGION, PIXELS)
+            | {f"{k}{n}": PIXELS for k in _ENDS for n in range(8)},
+        )
+        for name, of in (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC))
+    ),
+    Record(
+        "box",
+        "boxes._corners",
+        MATRIX | _MESH,
+        _corners,
+        {"box_size": "box_size_right"},
+        "the box of a mesh",
+    ),
+    *(
+        Record(
+            name,
+            "small_boxes.are_small",
+            _SMALL | dict(certain_a=True, certain_b=True, certain_c=last),
+            lambda v, name=name: _are_small(v, name),
+            {name: "small_right"},
+            note,
+            _SMALL_DOMAIN,
+        )
+        for name, last, note in (
+            ("are_small", True, "where all vertices are certain"),
+            ("are_small_some", False, "where some vertex is not certain"),
+        )
+    ),
+)
