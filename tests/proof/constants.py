@@ -16,13 +16,25 @@ FOLDER = Path(certified.__file__).parent
 # Arguments of these are shapes, indices, counts and names of axes.
 _STRUCTURE = frozenset(
     {
-        *("arange", "array", "broadcast_to", "diff", "empty", "enumerate", "full", "ones", "parts"),
+        *("arange", "broadcast_to", "diff", "empty", "enumerate", "full", "ones", "parts"),
         *("range", "repeat", "reshape", "split", "take", "transpose", "zeros", "searchsorted"),
-        *("all", "any", "max", "min", "sum", "concatenate", "stack", "groups", "bincount", "divmod"),
+        *(
+            "all",
+            "any",
+            "max",
+            "min",
+            "sum",
+            "concatenate",
+            "stack",
+            "groups",
+            "bincount",
+            "divmod",
+        ),
     }
 )
+_PYTHONS = frozenset({"max", "min"})  # which have numbers, where numpy's methods have axes
 _KEYWORDS = frozenset({"axis", "initial", "minlength", "prepend"})
-_COUNTED = ast.FloorDiv | ast.Mod | ast.LShift | ast.RShift | ast.BitAnd
+_COUNTED = ast.FloorDiv | ast.Mod | ast.LShift | ast.RShift
 
 
 @dataclass(frozen=True)
@@ -75,7 +87,7 @@ def worth(node: ast.AST, module: ModuleType) -> float | int | None:
     if isinstance(node, ast.UnaryOp | ast.BinOp):
         inner = [worth(k, module) for k in ast.iter_child_nodes(node) if isinstance(k, ast.expr)]
         if None not in inner:
-            return eval(compile(ast.Expression(node), "", "eval"), vars(module))  # noqa: S307
+            return eval(compile(ast.Expression(node), "", "eval"), vars(module))
     return None
 
 
@@ -96,7 +108,7 @@ def _is_structure(node: ast.AST) -> bool:
         if isinstance(parent, ast.Call) and node in parent.args:
             function = parent.func
             name = getattr(function, "attr", getattr(function, "id", ""))
-            if name in _STRUCTURE:
+            if name in _STRUCTURE and not (name in _PYTHONS and isinstance(function, ast.Name)):
                 return True
         if isinstance(parent, ast.BinOp) and isinstance(parent.op, _COUNTED):
             return True

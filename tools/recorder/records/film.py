@@ -33,6 +33,13 @@ _SIZES = tuple(map(float, range(1, 4096)))
 # A scene has no camera without a picture or a window (`scene.Camera`): Python's `max` meets no NaN.
 _LOW, _HIGH = (-0.5, -1.5, -3e10, 0.1), (0.5, 1.25, 2e12, 0.2)
 DOMAIN = dict(width=_SIZES, height=_SIZES, left=_LOW, right=_HIGH, bottom=_LOW, top=_HIGH)
+_THEOREMS = (
+    ("place", "p q w depth size finite"),
+    ("ahead", "ahead"),
+    ("certain", "x y certain"),
+    ("nearest", "nearest"),
+    ("box", "margin lowest_x lowest_y minus_highest_x minus_highest_y"),
+)
 _FIELDS = ("p", "q", "w", "depth", "size", "x", "y", "nearest", "ahead", "certain", "finite")
 
 
@@ -116,7 +123,11 @@ def _pairs() -> Iterator[Record]:
             "film.Film.enter",
             {k: v for k, v in _ENTER.items() if not (of.is_parallel and k == "weight")},
             lambda v, prefix=prefix, of=of: _enter(v, prefix, of),
-            dict.fromkeys((f"{prefix}_{k}" for k in ("p", "q", "w", "depth")), f"{prefix}_place"),
+            {
+                f"{prefix}_{k}": f"{prefix}_{what}_right"
+                for what, names in _THEOREMS
+                for k in names.split()
+            },
             of.name,
             DOMAIN,
         )
@@ -137,7 +148,7 @@ def _pairs() -> Iterator[Record]:
             _of_film(_place(f"film_place_{name}"), of, "ray_error"),
             dict.fromkeys(
                 (f"film_place_{name}_constant", f"film_place_{name}_slope"),
-                f"film_{name}_place",
+                f"film_{name}_place_right",
             ),
             of.name,
             DOMAIN,
@@ -186,7 +197,7 @@ RECORDS = (
         "film.Film.weight",
         dict(spread=4.5),
         _of_film(lambda f, _: {"film_weight": f.weight}, PERSPECTIVE),
-        {"film_weight": "film_perspective_place"},
+        {"film_weight": "film_perspective_place_right"},
     ),
     Record(
         "film_depth_error",
@@ -201,7 +212,7 @@ RECORDS = (
             "ray_error",
         ),
         dict.fromkeys(
-            ("film_depth_error_constant", "film_depth_error_slope"), "film_parallel_place"
+            ("film_depth_error_constant", "film_depth_error_slope"), "film_parallel_place_right"
         ),
     ),
 )

@@ -1,0 +1,130 @@
+"""Every number in the code of what is certified is one that a proof is about, or tunes speed."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+from collections import defaultdict
+
+import pytest
+from constants import FOLDER, numbers, of_module
+from recorder.nodes import in_order
+from recorder.records import RECORDS, outputs
+
+U = 2.0**-53
+_STEP = "how much is worked on at a time: each pair is decided as if it were alone"
+_ROOM = "how much memory is taken: what does not fit is swept in halves, with the same bounds"
+_BINS = "the order in which triangles are swept: the depth buffer holds sure hits in any order"
+_SHARE = "the share of the work that is shown to the user"
+
+# What only makes it faster or slower: by module, and the expression. Why it can't be wrong.
+TUNING = {
+    "settle": {"CLIP": "the name of a doubt, for the reasons that a user reads"},
+    "contest": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
+    "sweep.boxes": {
+        **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
+        **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
+    },
+    "sweep.chunks": {"_CHUNK": _STEP},
+    "sweep.depth_buffer": dict.fromkeys(
+        ("FINE", "COARSE", "COARSE // FINE", "2 * FINE"),
+        "the size of a cell of pixels: integers; a cell has the least nearness of its pixels",
+    ),
+    "sweep.rasterise": dict.fromkeys(
+        ("FINE", "COARSE"), "the size of a cell of pixels: what no edge rules out is kept"
+    ),
+    "sweep.small_boxes": {
+        "SIDE + 1": "a key for sorting boxes by their size, in integers",
+        "1 << 13": _STEP,
+        "1 << 15": _STEP,
+    },
+    "sweep.sweep": {
+        "_PAIRS": _STEP,
+        "0.75": _ROOM,
+        "2": _SHARE,
+        "0.6": _SHARE,
+    },
+    "sweep.verdict": {"_FRAGMENTS": _STEP, "1 << 14": _STEP, "1 << 15": _STEP},
+}
+# What reaches an expression only as a part of another number: these.
+FOLDED = {
+    ("sweep.depth_buffer", "ROUNDING"): (1 - 4 * U, 1 + 4 * U),
+    ("sweep.depth_buffer", "-ROUNDING"): (1 - 4 * U, 1 + 4 * U),
+    ("sweep.sweep", "ROUNDING"): (1 - 4 * U, 1 + 4 * U),
+    **dict.fromkeys((("quotient", "-1 << 27"), ("quotient", "_TOP")), (("Keep", 26),)),
+    **dict.fromkeys((("quotient", "2047 << 52"), ("quotient", "_EXPONENT")), (("Keep", 1),)),
+}
+# Proven otherwise than by an expression of floats.
+ELSEWHERE = {
+    "certainty": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
+    "reasons": "words for the user, of what integers have decided",
+    "exact": "integers; frexp's mantissa has 53 digits, so that 2^53 of it are one",
+    "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
+    "is left out is held to be what the boxes leave out by test_small_triangles.py",
+    "surfaces": "of barycentrics, which have no bound of their own: below it, integers divide",
+}
+
+
+@pytest.fixture(scope="module")
+def known():
+    """The numbers in the expressions of a module's functions that a theorem is about."""
+    out = defaultdict(set)
+    for record in RECORDS:
+        module = record.function.split(".")[0]
+        for output in outputs(record):
+            if output.theorem or output.name.endswith("_path"):
+                for node in in_order([output.node]):
+                    if node.kind == "Num":
+                        m, e = node.args
+                        out[module] |= {m * 2.0**e, -m * 2.0**e}
+                    if node.kind == "Keep":
+                        out[module].add(("Keep", node.args[0]))
+    return out
+
+
+def unaccounted(found, known):
+    """Return the numbers that are not of a proof, nor of a table here."""
+    every = set().union(*known.values())
+    for number in found:
+        own = known[number.module.split(".")[-1]]
+        key = number.module, number.text
+        if not (
+            number.value in (-1, 0, 1)  # a count, an index, an axis or a sign
+            or number.module in ELSEWHERE
+            or number.value in own
+            or number.text in TUNING.get(number.module, ())
+            or (key in FOLDED and all(value in every for value in FOLDED[key]))
+        ):
+            yield number
+
+
+def test_every_number_is_accounted_for(known):
+    found = list(unaccounted(numbers(), known))
+    assert not found, (
+        "no theorem of proofs/ is about these numbers, and tests/proof/test_constants.py doesn't "
+        "say why they need none:\n" + "\n".join(map(str, found))
+    )
+
+
+def test_the_tables_name_what_there_is():
+    found = {(n.module, n.text) for n in numbers()}
+    named = {(module, text) for module, texts in TUNING.items() for text in texts} | set(FOLDED)
+    assert sorted(named - found) == []
+    assert set(ELSEWHERE) <= {module for module, _ in found}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("BOUND * magnitude", "BOUND * 1.5 * magnitude", "BOUND * 1.5"),
+        ("* _LOOSE + SLACK", "* _LOOSE + 3e-300", "3e-300"),
+        ("size > own)", "size > 1.25 * own)", "1.25"),
+    ],
+)
+def test_a_new_number_is_found(known, old, new, said):
+    source = (FOLDER / "bounds.py").read_text(encoding="utf-8")
+    assert old in source
+    module = importlib.import_module("reference_tracer.tracer.certified.bounds")
+    found = list(unaccounted(of_module(module, "bounds", source.replace(old, new)), known))
+    assert [number.text for number in found] == [said]
+    assert str(found[0]).startswith("bounds.py, line ") and ast.parse(found[0].text)
