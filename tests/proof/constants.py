@@ -112,7 +112,7 @@ def _is_structure(node: ast.AST) -> bool:
                 return True
         if isinstance(parent, ast.BinOp) and isinstance(parent.op, _COUNTED):
             return True
-        if isinstance(parent, ast.Tuple) and all(
+        if isinstance(parent, ast.Tuple | ast.List) and all(
             isinstance(k, ast.Constant) and type(k.value) is int for k in parent.elts
         ):
             return True

@@ -19,6 +19,7 @@ _SHARE = "the share of the work that is shown to the user"
 
 # What only makes it faster or slower: by module, and the expression. Why it can't be wrong.
 TUNING = {
+    "plain": {"_ROWS": _STEP},
     "settle": {"CLIP": "the name of a doubt, for the reasons that a user reads"},
     "contest": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
     "sweep.boxes": {
@@ -40,6 +41,7 @@ TUNING = {
     },
     "sweep.sweep": {
         "_PAIRS": _STEP,
+        "_FRAGMENTS": _ROOM,
         "0.75": _ROOM,
         "2": _SHARE,
         "0.6": _SHARE,
