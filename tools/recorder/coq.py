@@ -71,15 +71,14 @@ def _integer(value: int) -> str:
 
 
 def _wrapped(line: str) -> list[str]:
-    lines = textwrap.wrap(
-        line,
-        100,
-        initial_indent="  ",
-        subsequent_indent="    ",
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
-    return [line.replace(_JOINED, " ") for line in lines]
+    """Break a line at its spaces; `textwrap` takes five times as long."""
+    lines, current = [], " "
+    for word in line.split(" "):
+        if len(current) + len(word) >= 100:
+            lines.append(current)
+            current = "   "
+        current += f" {word}"
+    return [line.replace(_JOINED, " ") for line in (*lines, current)]
 
 
 _DEFINITION = re.compile(

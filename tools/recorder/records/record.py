@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Choices, Recorded, lift, variable
 from ..functions import recording
-from ..nodes import Node, every, node
+from ..nodes import Node, RefusedError, every, node
 
 Values = Mapping[str, float | bool]
 Kept = Mapping[str, Any]  # arrays of one number, or of none where it was not reached
@@ -99,7 +99,11 @@ def recorded(record: Record, values: Values) -> list[tuple[Output, NDArray]]:
     """Record a function for values of its variables; return its results with what they are."""
     with recording() as choices, np.errstate(all="ignore"):
         inputs = Inputs(values, choices)
-        kept = dict(record.call(inputs))
+        try:
+            kept = dict(record.call(inputs))
+        except RefusedError as refused:
+            refused.add_note(f"while {record.function} was recorded")
+            raise
         asked = [(test, value) for test, value in choices if test not in inputs.named]
     if asked:
         test = every(dict.fromkeys(t if value else node("Not", t) for t, value in asked))
