@@ -1,7 +1,7 @@
 (** What [plain] says of a ray, as true or false; and the facts of single surfaces that it rests on.
 
-    [Whole.v] proves that with these facts, all that [plain] says is true. Each of the facts is about
-    one surface or two, in exact arithmetic, and says which file proves it of the code. *)
+    [Whole.v] proves that with these facts, all that [plain] says is true. Each of the facts is
+    about one surface or two, in exact arithmetic, and says which file proves it of the code. *)
 Require Import ZArith Reals Psatz List Bool Sorted Permutation.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Contest.
@@ -64,8 +64,10 @@ Record facts : Prop := {
   (** *** The scene *)
   names_differ : forall s s', In s scene -> In s' scene -> called s = called s' -> s = s';
   (* clip ends are float64 *)
-  end_is_float : match end_ with Finite e => is_float e | Infinity => True | MinusInfinity => False end;
-  (** *** Film.v: [candidates], with the planes: nothing that is met is left out, nothing comes twice *)
+  end_is_float :
+    match end_ with Finite e => is_float e | Infinity => True | MinusInfinity => False end;
+  (** *** Film.v: [candidates], with the planes: nothing that is met is left out, nothing comes
+      twice *)
   proposed_all : forall s, met s -> In s (concat batches);
   proposed_once : NoDup (concat batches);
   proposed_some : incl (concat batches) scene;

@@ -87,7 +87,9 @@ Proof. intros [_ [H _]]. now apply closed_D. Qed.
 Lemma met_in s : met s -> In s scene.
 Proof. now intros []. Qed.
 Lemma moved_meets_met s : moved_meets s -> met s.
-Proof. intros [A [B [C E]]]. repeat split; try apply E; auto. now apply (moved_meets_no_more F). Qed.
+Proof.
+  intros [A [B [C E]]]. repeat split; try apply E; auto. now apply (moved_meets_no_more F).
+Qed.
 
 (** ** What a float comparison says *)
 
@@ -322,7 +324,8 @@ Lemma sole_sure s : those = [s] -> SURE s = true -> clearly_sees (Some s).
 Proof.
   intros E S. assert (I : In s those) by (rewrite E; simpl; auto).
   destruct (sure_is_met s (those_some _ I) S) as [M [W _]]. split; [exact M|].
-  split; [exact W|]. intros s' M' N. destruct (met_or_behind s' M') as [H|[w [H [_ L]]]]; rewrite E in H;
+  split; [exact W|]. intros s' M' N.
+  destruct (met_or_behind s' M') as [H|[w [H [_ L]]]]; rewrite E in H;
     destruct H as [H|[]]; subst; auto. now destruct N.
 Qed.
 Lemma none_left : those = [] -> clearly_sees None.

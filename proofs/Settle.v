@@ -1,4 +1,4 @@
-(** What integers say of those who are left: the nearest of the moved ray, and whether it is clear. *)
+(** What integers say of those who are left: who is the nearest, and whether that is clear. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Contest Facts Nearest.
@@ -62,25 +62,30 @@ Proof.
   intros M. unfold first.
   assert (G : forall rest done best, (forall s, In s (done ++ rest) -> met s) ->
     first_of done best -> first_of (done ++ rest) (fold_left (nearer_of a) rest best)).
-  { clear l M. induction rest as [|s rest IH]; intros done best M B; simpl; [now rewrite app_nil_r|].
+  { clear l M.
+    induction rest as [|s rest IH]; intros done best M B; simpl; [now rewrite app_nil_r|].
     replace (done ++ s :: rest) with ((done ++ [s]) ++ rest) in * by now rewrite <- app_assoc.
     apply IH; auto. assert (Ms : met s) by (apply M, in_or_app; left; apply in_or_app; simpl; auto).
-    assert (Md : forall x, In x done -> met x) by (intros; apply M, in_or_app; left; apply in_or_app; auto).
+    assert (Md : forall x, In x done -> met x)
+      by (intros; apply M, in_or_app; left; apply in_or_app; auto).
     unfold nearer_of. destruct (is_hit a s) eqn:Hs.
     - destruct best as [b|]; simpl in B.
       + destruct B as [Ib [Hb B]]. assert (Mb := Md _ Ib).
-        assert (Vs := proj1 (is_hit_right F _ Ms) Hs). assert (Vb := proj1 (is_hit_right F _ Mb) Hb).
+        assert (Vs := proj1 (is_hit_right F _ Ms) Hs).
+        assert (Vb := proj1 (is_hit_right F _ Mb) Hb).
         assert (S := sign_right F s b Ms Mb Vs Vb).
         assert (Stay : beats b s -> first_of (done ++ [s]) (Some b)).
         { intros Q. split; [apply in_or_app; auto|]. split; auto.
           intros s' I H N. apply in_app_or in I. destruct I as [I|[I|[]]]; subst; auto. }
         assert (Same : s = b -> first_of (done ++ [s]) (Some b)).
         { intros Q. subst. split; [apply in_or_app; auto|]. split; auto.
-          intros s' I H N. apply in_app_or in I. destruct I as [I|[I|[]]]; subst; auto; now destruct N. }
+          intros s' I H N. apply in_app_or in I.
+          destruct I as [I|[I|[]]]; subst; auto; now destruct N. }
         assert (Change : beats s b -> first_of (done ++ [s]) (Some s)).
         { intros Q. split; [apply in_or_app; simpl; auto|]. split; auto.
           intros s' I H N. apply in_app_or in I. destruct I as [I|[I|[]]]; [|now destruct N].
-          destruct (same_or_not F s' b) as [E|E]; [apply met_in; auto | apply met_in; auto | now subst |].
+          destruct (same_or_not F s' b) as [E|E];
+            [apply met_in; auto | apply met_in; auto | now subst |].
           assert (V' := proj1 (is_hit_right F _ (Md _ I)) H).
           apply (beats_trans s b s'); auto using within_D. }
         destruct (sign_of_difference a s b).
@@ -128,9 +133,11 @@ Lemma least_by_gap_right l : (forall s, In s l -> met s) -> least_of l (least_by
 Proof.
   intros M. unfold least_by_gap. destruct l as [|x l]; simpl; auto.
   set (f := fun (best : option surface) s => _).
-  assert (G : forall rest done b, (forall s, In s (done ++ rest) -> met s) -> least_of done (Some b) ->
+  assert (G : forall rest done b, (forall s, In s (done ++ rest) -> met s) ->
+    least_of done (Some b) ->
     least_of (done ++ rest) (fold_left f rest (Some b))).
-  { clear l M. induction rest as [|s rest IH]; intros done b M B; simpl fold_left; [now rewrite app_nil_r|].
+  { clear l M.
+    induction rest as [|s rest IH]; intros done b M B; simpl fold_left; [now rewrite app_nil_r|].
     replace (done ++ s :: rest) with ((done ++ [s]) ++ rest) in * by now rewrite <- app_assoc.
     destruct B as [Ib B].
     assert (Ms : met s) by (apply M, in_or_app; left; apply in_or_app; simpl; auto).
@@ -162,7 +169,8 @@ Proof.
   { apply least_by_gap_right. intros s H. apply M. now apply In_inside. }
   destruct (no_ties a hits) eqn:E.
   - assert (C : exists o, clearly_sees o).
-    { revert E. unfold no_ties, front. fold inside. destruct (least_by_gap a inside) as [l|]; simpl in L.
+    { revert E. unfold no_ties, front. fold inside.
+      destruct (least_by_gap a inside) as [l|]; simpl in L.
       - destruct L as [Il L].
         set (front := filter _ hits).
         assert (If : In l front).
@@ -188,7 +196,8 @@ Proof.
           destruct h as [|x [|]]; auto; try discriminate. exfalso.
           apply negb_true_iff in E.
           assert (I : In x hits) by (rewrite Eh; simpl; auto).
-          assert (J : In x inside) by (apply In_inside; split; auto; now apply (on_edge_right F _ (M _ I))).
+          assert (J : In x inside)
+            by (apply In_inside; split; auto; now apply (on_edge_right F _ (M _ I))).
           rewrite L in J. destruct J. }
         destruct (hit_or_behind s Ms) as [I|[w [I _]]]; rewrite K in I; destruct I. }
     destruct C as [o C]. now rewrite (moved_unique F _ _ first_moved (clear_moved F _ C)).

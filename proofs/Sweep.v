@@ -129,7 +129,8 @@ Definition accounted (p : pixel) (s : surface) : Prop :=
 Lemma hidden_stays p q s : hidden p s ->
   nearness_of p = nearness_of q \/ less (nearness_of p) (nearness_of q) = true -> hidden q s.
 Proof.
-  intros [m [A L]] [E|B]; exists m; split; auto; [congruence | now apply (less_trans _ (nearness_of p))].
+  intros [m [A L]] [E|B]; exists m; split; auto;
+    [congruence | now apply (less_trans _ (nearness_of p))].
 Qed.
 
 Lemma filter_shorter {A} (f : A -> bool) l : (length (filter f l) <= length l)%nat.
@@ -158,7 +159,8 @@ Proof.
   assert (In_nearer : forall x, In x nearer <-> In x some /\ less n (fewest x) = true)
     by (intros; apply filter_In).
   assert (Near : forall x, In x near -> In x some) by (intros x X; now apply filter_In in X).
-  assert (Rest : forall x, In x some -> less n (fewest x) = false -> In x near \/ less (most x) n = true).
+  assert (Rest : forall x, In x some -> less n (fewest x) = false ->
+    In x near \/ less (most x) n = true).
   { intros x X L. destruct (less (most x) n) eqn:M; auto. left. apply filter_In. now rewrite L, M. }
   destruct (rev nearer) as [|x others] eqn:Er; apply pair_equal_spec in E; destruct E as [<- <-].
   - assert (None : forall x, In x some -> less n (fewest x) = false).
@@ -180,7 +182,8 @@ Proof.
     { intros s H. apply (hidden_stays p); auto. }
     split; [|split; [|split; [|split; [|split]]]].
     + intros w Hw. inversion Hw; subst. now apply R.
-    + intros e He. simpl in He. rewrite !in_app_iff in He. destruct He as [He|[He|He]]; [now apply V | |].
+    + intros e He. simpl in He. rewrite !in_app_iff in He.
+      destruct He as [He|[He|He]]; [now apply V | |].
       * intros _. now apply R, Near.
       * intros _. unfold beaten in He. destruct (winner p) as [w|] eqn:Ew; [|destruct He].
         destruct (existsb _ _); [|destruct He]. destruct He as [He|[]]. subst. now apply W.
@@ -198,7 +201,8 @@ Proof.
            rewrite Hw, B. simpl; auto.
         -- right. right. exists (most w). split; [now apply W|]. simpl.
            destruct (less (most w) (fewest x)) eqn:L; auto. exfalso.
-           assert (C : existsb (fun e => negb (less (most w) (fewest e))) nearer = true); [|congruence].
+           assert (C : existsb (fun e => negb (less (most w) (fewest e))) nearer = true);
+             [|congruence].
            apply existsb_exists. exists x. rewrite L. split; auto. now apply In_nearer.
       * right. left. simpl. rewrite map_app, in_app_iff. auto.
     + intros y Y. destruct (less n (fewest y)) eqn:L.
@@ -239,7 +243,8 @@ Proof.
     + split; [exact W|]. split; [exact V|]. split; auto. intros s M E. subst.
       right. right. exists (most x). auto.
     + split; [exact W|]. split; [|split].
-      * intros e He. simpl in He. apply in_app_or in He. destruct He as [He|[He|[]]]; [now apply V|].
+      * intros e He. simpl in He. apply in_app_or in He.
+        destruct He as [He|[He|[]]]; [now apply V|].
         now subst.
       * intros s _ [H|[H|H]]; [now left | | now right; right].
         right. left. simpl. rewrite map_app, in_app_iff. auto.
@@ -321,7 +326,8 @@ Proof.
   { intros s M. destruct (A s M) as [H|[w [E L]]]; auto. right. exists (of w).
     destruct (W w E). repeat split; auto; try apply H. apply I. unfold handed_over.
     rewrite E. simpl. auto. }
-  assert (Clear : forall o, clearly_sees r start end_ handed o <-> clearly_sees r start end_ scene o).
+  assert (Clear : forall o,
+    clearly_sees r start end_ handed o <-> clearly_sees r start end_ scene o).
   { intros [s|]; simpl; split.
     - intros [M [K N]]. split; [auto|]. split; auto. intros s' M' D.
       destruct (B s' M') as [H|[w [H [Mw [_ L]]]]]; auto.
@@ -336,7 +342,8 @@ Proof.
     - intros N s M. apply (N s). auto. }
   unfold answer, verdict. destruct (not_hidden (swept events)) as [|e rest] eqn:E; simpl.
   - assert (K : clearly_sees r start end_ scene (option_map of (winner (swept events)))).
-    { unfold handed_over in A. rewrite E in A. destruct (winner (swept events)) as [w|]; simpl in A |- *.
+    { unfold handed_over in A. rewrite E in A.
+      destruct (winner (swept events)) as [w|]; simpl in A |- *.
       - destruct (W w eq_refl) as [M V]. split; auto. split; auto. intros s M' D.
         destruct (A s M') as [[H|[]]|[w' [H L]]]; [congruence|]. now inversion H; subst.
       - intros s M. destruct (A s M) as [[]|[w [H _]]]. discriminate. }
@@ -357,11 +364,11 @@ Proof.
         destruct (same_or_not P w s) as [F'|F']; [apply J, Mw | apply J, M | now subst |].
         destruct (N w Mw F') as [N'|[N' _]]; [lra|].
         rewrite (same_plane_t moved _ _ N'); auto. apply within_D, Mw.
-      * intros s M. destruct (Behind s M) as [H|[w [Mw _]]]; [now apply (O' s), V | now apply (O' w)].
+      * intros s M.
+        destruct (Behind s M) as [H|[w [Mw _]]]; [now apply (O' s), V | now apply (O' w)].
     + destruct (certain (plain a' start end_ batches')); try (now apply Clear).
       intros o K. apply (C' o). now apply Clear.
 Qed.
 
 End Sweep.
 
-Print Assumptions sweep_sees_what_plain_does.

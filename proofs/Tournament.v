@@ -22,6 +22,33 @@ Local Notation those := (found a start (fold_left enter batches nothing_yet)).
 Let met_in : forall s, met s -> In s scene := met_in.
 Let met_D : forall s, met s -> D r s <> 0 := met_D.
 
+(** If all pairs are decided, the tournament ends with somebody. *)
+Lemma round_shrinks : (forall s s', order_of a s s' <> UNDECIDED) ->
+  forall n l, (length l <= n)%nat ->
+  exists l', round a l = Some l' /\ (length l' <= length l)%nat /\
+    (l <> [] -> l' <> []) /\ (2 <= length l -> length l' < length l)%nat.
+Proof.
+  intros D. induction n as [|n IH]; intros l L.
+  - destruct l; [|simpl in L; lia]. exists []. simpl. repeat split; auto; lia.
+  - destruct l as [|one [|other rest]]; [exists [] | exists [one] |]; simpl;
+      try (repeat split; auto; lia).
+    destruct (IH rest) as [others [E [S _]]]; [simpl in L; lia|]. rewrite E. unfold meet.
+    specialize (D (fst one) (fst other)).
+    destruct (order_of a (fst one) (fst other)); try (now destruct D); eexists;
+      (split; [reflexivity|]); simpl; repeat split; try easy; lia.
+Qed.
+Lemma tournament_ends : (forall s s', order_of a s s' <> UNDECIDED) -> forall n l, l <> [] ->
+  (length l <= n)%nat -> exists e, rounds a n l = Some e.
+Proof.
+  intros D. induction n as [|n IH]; intros l N L.
+  - destruct l; [easy | simpl in L; lia].
+  - destruct l as [|one [|other rest]]; [easy | now exists one |].
+    change (exists e, match round a (one :: other :: rest) with
+      Some fewer => rounds a n fewer | None => None end = Some e).
+    destruct (round_shrinks D (S n) (one :: other :: rest) L) as [l' [E [_ [K S]]]]. rewrite E.
+    apply IH; [now apply K|]. simpl in S, L. lia.
+Qed.
+
 Hypothesis applies : order_applies a = true.
 Hypothesis all_sure : forall s, In s those -> SURE s = true.
 
@@ -48,7 +75,8 @@ Lemma meet_right one other e : meet a one other = Some e ->
 Proof.
   intros E S S' B. unfold meet in E.
   destruct (sure_is_met F _ (those_some F _ (proj1 S)) (all_sure _ (proj1 S))) as [M [W [Q _]]].
-  destruct (sure_is_met F _ (those_some F _ (proj1 S')) (all_sure _ (proj1 S'))) as [M' [W' [Q' _]]].
+  destruct (sure_is_met F _ (those_some F _ (proj1 S')) (all_sure _ (proj1 S')))
+    as [M' [W' [Q' _]]].
   assert (O := order_right F applies _ _ (met_in _ M) (met_in _ M') W W' Q Q').
   unfold stands_for in *.
   destruct (order_of a (fst one) (fst other)); inversion E; subst; clear E.
@@ -118,7 +146,10 @@ Proof.
   { destruct l as [|one [|other rest]]; [discriminate E | now apply One | discriminate E]. }
   destruct l as [|one [|other rest]]; [now apply (IH []) | now apply One |].
   change (rounds a (S n) (one :: other :: rest)) with
-    (match round a (one :: other :: rest) with Some fewer => rounds a n fewer | None => None end) in E.
+    (match round a (one :: other :: rest) with
+     | Some fewer => rounds a n fewer
+     | None => None
+     end) in E.
   destruct (round a (one :: other :: rest)) as [l'|] eqn:R; [|discriminate].
   destruct (round_right _ _ R So O) as [S' [O' [_ St]]].
   destruct (IH _ _ E S' O') as [A B]. split; auto.
@@ -137,12 +168,14 @@ Proof.
       constructor; auto. rewrite Forall_forall in *. intros x X. apply P in X.
       destruct X as [X|X]; [now subst | auto].
     + assert (C : before s y = true).
-      { destruct (before_total F s y) as [|C]; auto; [apply J; simpl; auto | intro; subst; simpl in N; tauto | congruence]. }
+      { destruct (before_total F s y) as [|C]; auto;
+          [apply J; simpl; auto | intro; subst; simpl in N; tauto | congruence]. }
       split; [|intros x; simpl; intuition]. constructor; [now constructor|]. constructor; auto.
       rewrite Forall_forall in *. intros x X. apply (before_trans _ y); auto.
 Qed.
 Lemma by_name_sorted l : incl l scene -> NoDup l ->
-  StronglySorted (fun x y => before x y = true) (by_name l) /\ forall x, In x (by_name l) <-> In x l.
+  StronglySorted (fun x y => before x y = true) (by_name l) /\
+  forall x, In x (by_name l) <-> In x l.
 Proof.
   induction l as [|s l IH]; intros I N; simpl; [split; [constructor | tauto]|].
   inversion N; subst. destruct IH as [S P]; auto; [intros x X; apply I; simpl; auto|].
@@ -158,7 +191,8 @@ Lemma by_order_right s tied :
   moved_sees (Some s) /\
   match tied with [] => clearly_sees (Some s) | _ => forall o, ~ clearly_sees o end.
 Proof.
-  intros E. destruct (by_name_sorted those) as [S P]; [exact (those_some F) | apply (those_once F) |].
+  intros E.
+  destruct (by_name_sorted those) as [S P]; [exact (those_some F) | apply (those_once F) |].
   assert (Sound : Forall sound (map (fun s => (s, [])) (by_name those))).
   { apply Forall_forall. intros e H. apply in_map_iff in H. destruct H as [x [H X]]. subst.
     split; simpl; [now apply P | easy]. }
@@ -169,7 +203,8 @@ Proof.
   destruct (rounds_right _ _ _ E Sound Sorted) as [[I T] St]. simpl in I, T.
   assert (Stand : forall x, In x those -> x = s \/ In x tied \/ t r s < t r x).
   { intros x X. destruct (St x) as [[H|H]|H]; simpl in *; auto.
-    apply Exists_exists. exists (x, []). split; [apply in_map_iff; exists x; split; auto; now apply P|].
+    apply Exists_exists. exists (x, []).
+    split; [apply in_map_iff; exists x; split; auto; now apply P|].
     left. simpl; auto. }
   destruct (sure_is_met F s (those_some F _ I) (all_sure _ I)) as [M [W _]].
   assert (A : forall x, met x -> x = s \/ In x tied \/ t r s < t r x).
