@@ -1,0 +1,231 @@
+(** What the rule says of hits: [is_hit] and [sign_of_difference] are those of the moved ray. *)
+Require Import ZArith Reals Psatz List Bool.
+From Flocq Require Import Core.
+From Reftrace Require Import Geometry Trees Integers Ties.
+Import ListNotations.
+Open Scope R_scope.
+
+(** * One edge *)
+
+(** What [is_hit] asks of the edge from a to b, for an integer ray: [_sign] of the [Hit]'s entries. *)
+Definition edge_sign (moves : list Integers) (o d a b : Integers) : Z :=
+  let a := _sub a o in let b := _sub b o in
+  _sign (_dot d (_cross a b)) (_cross a b) (_sub a b) d moves.
+Notation moved_ray moves o d x y := (moved (map real moves) (real_ray o d) x y).
+
+(** It is the sign of the edge function of the moved ray, for any list of moves. *)
+Theorem edge_rule moves o d a b : small2 (fun x y =>
+  sgn (edge (moved_ray moves o d x y) (real a) (real b)) = edge_sign moves o d a b).
+Proof.
+  unfold edge_sign. eapply small2_mono; [| apply (sign_is_of_moved_ray (_cross (_sub a o) (_sub b o))
+    (_sub (_sub a o) (_sub b o)) d moves); unfold _dot, _cross, _sub; cbn [ix iy iz]; ring].
+  intros x y _ _ <-. rewrite edge_moved. f_equal. unfold real_ray; simpl.
+  rewrite !real_cross, !real_sub. f_equal. unfold vsub; simpl. apply V_eq; ring.
+Qed.
+
+(** Seen from the other triangle at the edge, it is the other sign: *)
+Theorem edge_opposite moves o d a b : edge_sign moves o d b a = (- edge_sign moves o d a b)%Z.
+Proof.
+  destruct (small2_exists _ (small2_and _ _ (edge_rule moves o d a b) (edge_rule moves o d b a)))
+    as (x & y & _ & _ & <- & <-).
+  rewrite <- sgn_opp. f_equal. unfold edge, dot, cross, vsub; simpl; ring.
+Qed.
+(** and never 0, but for an edge without length. *)
+Lemma zfirst_0 l : zfirst l = 0%Z <-> forall z, In z l -> z = 0%Z.
+Proof.
+  induction l as [|a l IH]; simpl; [tauto|]. destruct (Z.eqb_spec a 0) as [->|N].
+  - rewrite IH. split; [intros H z [<-|I]; auto | auto].
+  - split; [tauto | intros H; exfalso; auto].
+Qed.
+Lemma sign_0 m span d : _sign (_dot d m) m span d PERTURBATION = 0%Z <->
+  m = ZERO /\ span = ZERO.
+Proof.
+  rewrite sign_is_first, Z.sgn_null_iff, zfirst_0. split.
+  - intros H. assert (M : m = ZERO).
+    { destruct m as [x y z]. unfold ZERO. f_equal; apply H; right; apply in_or_app; left;
+        unfold _dot; cbn [map PERTURBATION ix iy iz]; [left | right; left | right; right; left]; ring. }
+    split; [exact M|]. subst m. destruct span as [x y z]. unfold ZERO.
+    f_equal; [| symmetry; apply Z.opp_inj; simpl; symmetry |];
+      apply H; right; apply in_or_app; right; unfold rows, PERTURBATION, _dot, _cross;
+      cbn [is_zero ZERO ix iy iz Z.eqb andb concat map app]; simpl In.
+    + do 10 right. left. ring.
+    + do 9 right. left. ring.
+    + do 5 right. left. ring.
+  - intros [-> ->] z I. destruct d as [a b c]. simpl in I.
+    repeat (destruct I as [<-|I]; [unfold _dot, _cross; simpl; ring|]). destruct I.
+Qed.
+Theorem edge_never_0 o d a b : edge_sign PERTURBATION o d a b <> 0%Z <-> a <> b.
+Proof.
+  unfold edge_sign. rewrite sign_0. split.
+  - intros H ->. apply H. unfold _cross, _sub, ZERO; simpl. split; f_equal; ring.
+  - intros N [_ H]. apply N. destruct a, b, o. unfold _sub, ZERO in H; simpl in H.
+    injection H as. f_equal; lia.
+Qed.
+
+(** * A triangle *)
+
+Definition on_edge (h : Hit) : bool := existsb (Z.eqb 0) (edges h).
+Definition is_hit (moves : list Integers) (h : Hit) : bool :=
+  if negb (on_edge h) then true else
+  let signs := map (fun '(e, m, span) => _sign e m span (direction_ h) moves)
+                   (combine (combine (edges h) (sides h)) (spans h)) in
+  (forallb (Z.eqb 1) signs || forallb (Z.eqb (-1)) signs)%bool.
+(** Whether a ray hits a triangle, without its clip range. *)
+Definition met (moves : list Integers) (o d a b c : Integers) : bool :=
+  match hit d o a b c with None => false | Some h => is_hit moves h end.
+
+Lemma met_signs moves o d a b c : met moves o d a b c = true <->
+  let s := edge_sign moves o d in
+  (s a b = 1 /\ s b c = 1 /\ s c a = 1)%Z \/ (s a b = -1 /\ s b c = -1 /\ s c a = -1)%Z.
+Proof.
+  unfold met, hit, _triangle, edge_sign. cbv zeta.
+  set (a' := _sub a o). set (b' := _sub b o). set (c' := _sub c o).
+  cbn [map]. generalize (sign_value (_dot d (_cross a' b')) (_cross a' b') (_sub a' b') d moves)
+    (sign_value (_dot d (_cross b' c')) (_cross b' c') (_sub b' c') d moves)
+    (sign_value (_dot d (_cross c' a')) (_cross c' a') (_sub c' a') d moves).
+  set (s1 := _sign _ (_cross a' b') _ _ _). set (s2 := _sign _ (_cross b' c') _ _ _).
+  set (s3 := _sign _ (_cross c' a') _ _ _). intros H1 H2 H3.
+  assert (G : forall e1 e2 e3 : Z, (e1 <> 0 -> s1 = Z.sgn e1)%Z -> (e2 <> 0 -> s2 = Z.sgn e2)%Z ->
+    (e3 <> 0 -> s3 = Z.sgn e3)%Z ->
+    (if ((min_ [e1; e2; e3] <? 0) && (0 <? max_ [e1; e2; e3]))%Z then false
+     else if negb (existsb (Z.eqb 0) [e1; e2; e3]) then true
+     else (forallb (Z.eqb 1) [s1; s2; s3] || forallb (Z.eqb (-1)) [s1; s2; s3])%bool) = true <->
+    (s1 = 1 /\ s2 = 1 /\ s3 = 1)%Z \/ (s1 = -1 /\ s2 = -1 /\ s3 = -1)%Z).
+  { clear. intros e1 e2 e3 H1 H2 H3.
+    assert (L : (min_ [e1; e2; e3] <? 0)%Z = existsb (fun e => e <? 0)%Z [e1; e2; e3]).
+    { apply eq_iff_eq_true. cbn [min_ fold_right existsb]. rewrite !orb_true_iff, !Z.ltb_lt. lia. }
+    assert (U : (0 <? max_ [e1; e2; e3])%Z = existsb (fun e => 0 <? e)%Z [e1; e2; e3]).
+    { apply eq_iff_eq_true. cbn [max_ fold_right existsb]. rewrite !orb_true_iff, !Z.ltb_lt. lia. }
+    rewrite L, U. clear L U. cbn [existsb forallb].
+    assert (F : ((1 =? s1) && ((1 =? s2) && ((1 =? s3) && true)) ||
+                 ((-1 =? s1) && ((-1 =? s2) && ((-1 =? s3) && true))))%Z%bool = true <->
+                (s1 = 1 /\ s2 = 1 /\ s3 = 1)%Z \/ (s1 = -1 /\ s2 = -1 /\ s3 = -1)%Z).
+    { rewrite orb_true_iff, !andb_true_iff, !Z.eqb_eq. clear. intuition congruence. }
+    destruct e1, e2, e3; try exact F; try (rewrite H1 by discriminate); try (rewrite H2 by discriminate);
+      try (rewrite H3 by discriminate); clear; simpl; intuition congruence. }
+  specialize (G _ _ _ H1 H2 H3). rewrite <- G. clear G.
+  match goal with |- context [if ?t then None else _] => destruct t end; [reflexivity|].
+  unfold is_hit, on_edge. cbn [edges sides spans direction_ combine map]. reflexivity.
+Qed.
+(** The rule's answer is the moved ray's: it passes inside the triangle. *)
+Theorem met_rule moves o d a b c : small2 (fun x y =>
+  meets_inside (moved_ray moves o d x y) (real_triangle a b c) <-> met moves o d a b c = true).
+Proof.
+  eapply small2_mono; [| exact (small2_and _ _ (edge_rule moves o d a b)
+    (small2_and _ _ (edge_rule moves o d b c) (edge_rule moves o d c a)))].
+  intros x y _ _ (A & B & C). rewrite met_signs. cbv zeta. rewrite <- A, <- B, <- C.
+  unfold meets_inside. cbn [ca cb cc real_triangle]. now rewrite !sgn_pos, !sgn_neg.
+Qed.
+(** One moved ray for all: whatever is proven of one real ray in general position holds of the rule. *)
+Definition rule_is moves o d (s : Integers * Integers * Integers) (x y : R) : Prop :=
+  let '(a, b, c) := s in let r := moved_ray moves o d x y in
+  (meets_inside r (real_triangle a b c) <-> met moves o d a b c = true) /\
+  sgn (edge r (real a) (real b)) = edge_sign moves o d a b /\
+  sgn (edge r (real b) (real c)) = edge_sign moves o d b c /\
+  sgn (edge r (real c) (real a)) = edge_sign moves o d c a.
+Theorem met_rule_all moves o d l :
+  small2 (fun x y => forall s, In s l -> rule_is moves o d s x y).
+Proof.
+  apply small2_family. intros [[a b] c] _. apply small2_and; [apply met_rule|].
+  apply small2_and; [apply edge_rule|]. apply small2_and; apply edge_rule.
+Qed.
+
+(** * The order of two hits *)
+
+Definition crossing (h1 h2 : Hit) : Integers * Integers :=
+  let w n1 n2 := (numerator_ h1 * n2 - numerator_ h2 * n1)%Z in
+  let n1 := normal_ h1 in let n2 := normal_ h2 in
+  (I3 (w (ix n1) (ix n2)) (w (iy n1) (iy n2)) (w (iz n1) (iz n2)),
+   if (numerator_ h1 =? 0)%Z then _cross n1 n2 else ZERO).
+Definition sign_of_difference (moves : list Integers) (h1 h2 : Hit) : Z :=
+  let apart := (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z in
+  let sign := _sign apart (fst (crossing h1 h2)) (snd (crossing h1 h2)) (direction_ h1) moves in
+  if Bool.eqb (0 <? denominator_ h1)%Z (0 <? denominator_ h2)%Z then sign else (- sign)%Z.
+
+(** A hit of a ray on the plane through p; a triangle's is on the plane through its first corner. *)
+Definition hit_on o d p (h : Hit) : Prop :=
+  numerator_ h = _dot (_sub p o) (normal_ h) /\ denominator_ h = _dot d (normal_ h) /\
+  direction_ h = d /\ denominator_ h <> 0%Z.
+Lemma hit_on_triangle d o a b c h : hit d o a b c = Some h -> denominator_ h <> 0%Z -> hit_on o d a h.
+Proof.
+  unfold hit, hit_on, _triangle. match goal with |- context [if ?t then None else _] => destruct t end;
+    [discriminate|]. intros [= <-] N. cbn [numerator_ denominator_ normal_ direction_] in *.
+  repeat split; [| | exact N]; unfold sum, _dot, _add, _cross, _sub; simpl; ring.
+Qed.
+Lemma hit_on_plane d o p n : _dot d n <> 0%Z -> hit_on o d p (plane_hit d o p n).
+Proof. now repeat split. Qed.
+
+Lemma sgn_mult x y : sgn (x * y) = (sgn x * sgn y)%Z.
+Proof.
+  destruct (sgn_cases x) as [[-> X]|[[-> X]|[-> X]]], (sgn_cases y) as [[-> Y]|[[-> Y]|[-> Y]]];
+    simpl; ((apply sgn_pos; nra) || (apply sgn_neg; nra) || (apply sgn_0; nra)).
+Qed.
+Lemma moved_denominator moves o d n : _dot d n <> 0%Z ->
+  small2 (fun x y => sgn (D_of (moved_ray moves o d x y) (real n)) = Z.sgn (_dot d n)).
+Proof.
+  intros N. unfold D_of, moved. cbn [direction real_ray].
+  eapply small_mono; [| apply sign_of_poly]. intros x _ H.
+  apply small_always. intros y _. rewrite dot_moved, H. cbn [first].
+  rewrite <- real_dot. rewrite Req_bool_false by now apply not_0_IZR. apply sgn_IZR.
+Qed.
+(** Where T1 is not 0, the code leaves out the span; then it has no say. *)
+Lemma crossing_span moves value h1 h2 d :
+  _sign value (fst (crossing h1 h2)) (snd (crossing h1 h2)) d moves =
+  _sign value (fst (crossing h1 h2)) (_cross (normal_ h1) (normal_ h2)) d moves.
+Proof.
+  unfold crossing. destruct (Z.eqb_spec (numerator_ h1) 0) as [E|N]; [reflexivity|]. cbn [fst snd].
+  rewrite !sign_is_first. set (w := I3 _ _ _). destruct (is_zero w) eqn:Ew; [|reflexivity].
+  apply is_zero_spec in Ew. unfold w, ZERO in Ew. injection Ew as Wx Wy Wz.
+  replace (_cross (normal_ h1) (normal_ h2)) with ZERO; [reflexivity|].
+  destruct h1 as [T1 ? [x y z] ? ? ? ?], h2 as [T2 ? [x' y' z'] ? ? ? ?]. simpl in *.
+  unfold _cross, ZERO; simpl. f_equal; symmetry; apply (Z.mul_reg_l _ _ T1 N); rewrite Z.mul_0_r.
+  - replace (_ * _)%Z with (y * (T1 * z' - T2 * z) - z * (T1 * y' - T2 * y))%Z by ring. rewrite Wy, Wz. ring.
+  - replace (_ * _)%Z with (z * (T1 * x' - T2 * x) - x * (T1 * z' - T2 * z))%Z by ring. rewrite Wx, Wz. ring.
+  - replace (_ * _)%Z with (x * (T1 * y' - T2 * y) - y * (T1 * x' - T2 * x))%Z by ring. rewrite Wx, Wy. ring.
+Qed.
+Definition t_of r p n := T_of r p n / D_of r n.
+(** The rule's order is that of the moved ray's t, for any list of moves. *)
+Theorem order_rule moves o d p1 h1 p2 h2 : hit_on o d p1 h1 -> hit_on o d p2 h2 ->
+  small2 (fun x y => let r := moved_ray moves o d x y in
+    D_of r (real (normal_ h1)) <> 0 /\ D_of r (real (normal_ h2)) <> 0 /\
+    sgn (t_of r (real p1) (real (normal_ h1)) - t_of r (real p2) (real (normal_ h2))) =
+    sign_of_difference moves h1 h2).
+Proof.
+  intros (T1 & D1 & d1 & N1) (T2 & D2 & _ & N2).
+  assert (M1 := N1). assert (M2 := N2). rewrite D1 in M1. rewrite D2 in M2.
+  set (n1 := normal_ h1) in *. set (n2 := normal_ h2) in *. set (w := fst (crossing h1 h2)).
+  assert (W : real w = w_of (T_of (real_ray o d) (real p1) (real n1)) (real n1)
+                            (T_of (real_ray o d) (real p2) (real n2)) (real n2)).
+  { unfold T_of. cbn [origin real_ray]. rewrite <- !real_sub, <- !real_dot, <- T1, <- T2.
+    unfold w, crossing, real, w_of, vsub, vscale. cbn [fst ix iy iz vx vy vz].
+    now rewrite !minus_IZR, !mult_IZR. }
+  assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d w).
+  { rewrite D1, D2. unfold w, crossing, _dot. cbn [fst ix iy iz]. fold n1 n2. ring. }
+  assert (P : _dot w (_cross n1 n2) = 0%Z).
+  { unfold w, crossing, _dot, _cross. cbn [fst ix iy iz]. fold n1 n2. ring. }
+  eapply small2_mono; [| exact (small2_and _ _ (sign_is_of_moved_ray w (_cross n1 n2) d moves P)
+    (small2_and _ _ (moved_denominator moves o d n1 M1) (moved_denominator moves o d n2 M2)))].
+  intros x y _ _ (S & S1 & S2) r. fold r in S1, S2.
+  assert (A1 : D_of r (real n1) <> 0).
+  { intros A. apply sgn_0 in A. rewrite A in S1. lia. }
+  assert (A2 : D_of r (real n2) <> 0).
+  { intros A. apply sgn_0 in A. rewrite A in S2. lia. }
+  split; [exact A1|]. split; [exact A2|].
+  rewrite W, real_cross in S.
+  change (real d) with (direction (real_ray o d)) in S. rewrite <- difference_moved in S. fold r in S.
+  unfold sign_of_difference. rewrite crossing_span, d1, E. fold w n1 n2. rewrite <- S.
+  rewrite <- D1 in S1. rewrite <- D2 in S2. clear S.
+  assert (Q : 0 < (D_of r (real n1) * D_of r (real n2)) * (D_of r (real n1) * D_of r (real n2))).
+  { assert (D_of r (real n1) * D_of r (real n2) <> 0) by now apply Rmult_integral_contrapositive_currified.
+    nra. }
+  rewrite <- (sgn_scale _ _ Q).
+  replace (_ * _) with ((D_of r (real n1) * D_of r (real n2)) *
+    (T_of r (real p1) (real n1) * D_of r (real n2) - T_of r (real p2) (real n2) * D_of r (real n1)))
+    by (unfold t_of; field; auto).
+  rewrite !sgn_mult, S1, S2. set (X := sgn (_ - _)). clearbody X.
+  destruct (Z.ltb_spec 0 (denominator_ h1)), (Z.ltb_spec 0 (denominator_ h2)); simpl Bool.eqb; cbv iota.
+  - replace (Z.sgn (denominator_ h1)) with 1%Z by lia. replace (Z.sgn (denominator_ h2)) with 1%Z by lia. lia.
+  - replace (Z.sgn (denominator_ h1)) with 1%Z by lia. replace (Z.sgn (denominator_ h2)) with (-1)%Z by lia. lia.
+  - replace (Z.sgn (denominator_ h1)) with (-1)%Z by lia. replace (Z.sgn (denominator_ h2)) with 1%Z by lia. lia.
+  - replace (Z.sgn (denominator_ h1)) with (-1)%Z by lia. replace (Z.sgn (denominator_ h2)) with (-1)%Z by lia. lia.
+Qed.
