@@ -229,3 +229,85 @@ Proof.
   - replace (Z.sgn (denominator_ h1)) with (-1)%Z by lia. replace (Z.sgn (denominator_ h2)) with 1%Z by lia. lia.
   - replace (Z.sgn (denominator_ h1)) with (-1)%Z by lia. replace (Z.sgn (denominator_ h2)) with (-1)%Z by lia. lia.
 Qed.
+
+(** 0 is only for what lies in one plane, and always for that. *)
+Lemma dot_0 v : dot v (V 0 0 0) = 0.
+Proof. unfold dot; simpl; ring. Qed.
+Lemma plane_in_plane d q n1 n2 T1 T2 : dot d n1 <> 0 -> cross n1 n2 = V 0 0 0 ->
+  T1 * dot d n2 = T2 * dot d n1 -> dot q n1 = T1 -> dot q n2 = T2.
+Proof.
+  intros N C E Q. apply (Rmult_eq_reg_l (dot d n1)); [|exact N].
+  assert (I : dot d n1 * dot q n2 - dot d n2 * dot q n1 = dot (cross d q) (cross n1 n2)).
+  { unfold dot, cross; simpl; ring. }
+  rewrite C, Q, dot_0 in I. lra.
+Qed.
+Lemma one_plane_iff d n1 n2 T1 T2 : dot d n1 <> 0 -> dot d n2 <> 0 ->
+  (w_of T1 n1 T2 n2 = V 0 0 0 /\ cross n1 n2 = V 0 0 0) <->
+  (forall q, dot q n1 = T1 <-> dot q n2 = T2).
+Proof.
+  intros N1 N2. split.
+  - intros [W C] q. assert (E : T1 * dot d n2 = T2 * dot d n1).
+    { assert (I : T1 * dot d n2 - T2 * dot d n1 = dot d (w_of T1 n1 T2 n2)).
+      { unfold w_of, dot, vsub, vscale; simpl; ring. }
+      rewrite W, dot_0 in I. lra. }
+    split; [now apply (plane_in_plane d)|]. apply (plane_in_plane d); auto.
+    transitivity (vscale (-1) (cross n1 n2)); [unfold cross, vscale; simpl; apply V_eq; ring|].
+    rewrite C. unfold vscale; simpl. apply V_eq; ring.
+  - intros H. assert (E : T1 * dot d n2 = T2 * dot d n1).
+    { assert (A : dot (vscale (T1 / dot d n1) d) n1 = T1).
+      { transitivity (T1 / dot d n1 * dot d n1); [unfold dot, vscale; simpl; ring | field; exact N1]. }
+      apply H in A. rewrite <- A. transitivity (T1 / dot d n1 * dot d n1 * dot d n2).
+      - now replace (T1 / dot d n1 * dot d n1) with T1 by (field; exact N1).
+      - unfold dot, vscale; simpl; ring. }
+    assert (K : forall e, dot e (cross n1 n2) = 0).
+    { intros e. assert (A : dot (vscale (T1 / dot d n1) d) n1 = T1).
+      { transitivity (T1 / dot d n1 * dot d n1); [unfold dot, vscale; simpl; ring | field; exact N1]. }
+      assert (B : dot (vadd (vscale (T1 / dot d n1) d) (cross e n1)) n1 = T1).
+      { rewrite <- A at 2. unfold dot, vadd, vscale, cross; simpl; ring. }
+      apply H in A, B. transitivity (T2 - T2); [|ring]. rewrite <- B at 1. rewrite <- A.
+      unfold dot, vadd, vscale, cross; simpl; ring. }
+    assert (C : cross n1 n2 = V 0 0 0).
+    { assert (X := K (V 1 0 0)). assert (Y := K (V 0 1 0)). assert (Z := K (V 0 0 1)).
+      destruct (cross n1 n2) as [x y z]. unfold dot in *; simpl in *. apply V_eq; lra. }
+    split; [|exact C].
+    assert (I : vscale (dot d n1) (w_of T1 n1 T2 n2) =
+      vadd (vscale T1 (cross d (cross n2 n1))) (vscale (T1 * dot d n2 - T2 * dot d n1) n1)).
+    { unfold w_of, dot, vadd, vscale, vsub, cross; simpl. apply V_eq; ring. }
+    replace (cross n2 n1) with (vscale (-1) (cross n1 n2)) in I by (unfold cross, vscale; simpl; apply V_eq; ring).
+    rewrite C, E in I. destruct (w_of T1 n1 T2 n2) as [x y z]. unfold vscale, vadd, cross in I; simpl in I.
+    injection I as X Y Z. apply V_eq; apply (Rmult_eq_reg_l (dot d n1)); try exact N1; lra.
+Qed.
+Lemma real_0 m : m = ZERO <-> real m = V 0 0 0.
+Proof.
+  split; [now intros ->|]. destruct m as [x y z]. intros H. injection H as X Y Z.
+  apply eq_IZR in X, Y, Z. now subst.
+Qed.
+Theorem order_0 o d p1 h1 p2 h2 : hit_on o d p1 h1 -> hit_on o d p2 h2 ->
+  sign_of_difference PERTURBATION h1 h2 = 0%Z <->
+  forall p, dot (vsub p (real p1)) (real (normal_ h1)) = 0 <-> dot (vsub p (real p2)) (real (normal_ h2)) = 0.
+Proof.
+  intros (T1 & D1 & d1 & N1) (T2 & D2 & _ & N2).
+  assert (M1 := N1). assert (M2 := N2). rewrite D1 in M1. rewrite D2 in M2.
+  apply not_0_IZR in M1, M2. rewrite real_dot in M1, M2. apply (f_equal IZR) in T1, T2.
+  rewrite real_dot, real_sub in T1, T2.
+  assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d (fst (crossing h1 h2))).
+  { rewrite D1, D2. unfold crossing, _dot. cbn [fst ix iy iz]. ring. }
+  assert (S : sign_of_difference PERTURBATION h1 h2 = 0%Z <->
+    fst (crossing h1 h2) = ZERO /\ _cross (normal_ h1) (normal_ h2) = ZERO).
+  { unfold sign_of_difference. rewrite crossing_span, E, d1, <- (sign_0 _ _ d).
+    match goal with |- context [if ?t then _ else _] => destruct t end; lia. }
+  rewrite S, !real_0, real_cross. clear S E.
+  assert (W : real (fst (crossing h1 h2)) =
+    w_of (IZR (numerator_ h1)) (real (normal_ h1)) (IZR (numerator_ h2)) (real (normal_ h2))).
+  { unfold crossing, real, w_of, vsub, vscale. cbn [fst ix iy iz vx vy vz].
+    now rewrite !minus_IZR, !mult_IZR. }
+  rewrite W, (one_plane_iff (real d) _ _ _ _ M1 M2), T1, T2.
+  set (n1 := real (normal_ h1)) in *. set (n2 := real (normal_ h2)) in *.
+  assert (V1 : forall p n q, dot (vsub p q) n = 0 <-> dot (vsub p (real o)) n = dot (vsub q (real o)) n).
+  { intros p n q. unfold dot, vsub; simpl. split; lra. }
+  split.
+  - intros H p. now rewrite !V1, H.
+  - intros H q. specialize (H (vadd q (real o))). rewrite !V1 in H.
+    replace (vsub (vadd q (real o)) (real o)) with q in H; [exact H|].
+    destruct q. unfold vsub, vadd; simpl. apply V_eq; ring.
+Qed.
