@@ -24,8 +24,8 @@ Definition tcross a b : tvec :=
 Definition tsize a b : tvec := (* cross_magnitude *)
   (Add (Mul (Y a) (Z' b)) (Mul (Z' a) (Y b)), Add (Mul (Z' a) (X b)) (Mul (X a) (Z' b)),
    Add (Mul (X a) (Y b)) (Mul (Y a) (X b))).
-Definition tbound p w := (* bound *)
-  Add (Mul (Num 12 (-53)) p) (Mul (Num 1 (-1060)) (Add (Add (Add (Num 1 0) (X w)) (Y w)) (Z' w))).
+Definition tbound p w := (* bound; 12 u is 3 2^-51 *)
+  Add (Mul (Num 3 (-51)) p) (Mul (Num 1 (-1060)) (Add (Add (Add (Num 1 0) (X w)) (Y w)) (Z' w))).
 
 (** ** The bound, for any expression *)
 
@@ -37,9 +37,9 @@ Proof.
   change (bpow radix2 14) with 16384. lra.
 Qed.
 
-Lemma float_12u : is_float (12 * bpow radix2 (-53)).
+Lemma float_12u : is_float (3 * bpow radix2 (-51)).
 Proof.
-  apply generic_format_FLT. exists (Float radix2 12 (-53)); simpl; try lia. reflexivity.
+  apply generic_format_FLT. exists (Float radix2 3 (-51)); simpl; try lia. reflexivity.
 Qed.
 Lemma float_slack : is_float (1 * bpow radix2 (-1060)).
 Proof.
@@ -80,8 +80,8 @@ Proof.
   { unfold tbound; cbn [ring_expr].
     repeat split; auto using float_12u, float_slack, float_one. }
   assert (DE : (depth (tbound p w) <= 10)%nat) by (unfold tbound; cbn [depth leaf andb]; lia).
-  assert (N12 : Rabs (12 * bpow radix2 (-53)) = 12 * u).
-  { unfold u. rewrite Rabs_right; [simpl; lra|]. generalize (bpow_ge_0 radix2 (-53)); lra. }
+  assert (N12 : Rabs (3 * bpow radix2 (-51)) = 12 * u).
+  { unfold u. rewrite Rabs_right; [simpl; lra|]. generalize (bpow_ge_0 radix2 (-51)); lra. }
   assert (N1 : Rabs (1 * bpow radix2 0) = 1) by (simpl; rewrite Rmult_1_r; apply Rabs_R1).
   assert (NS : Rabs (1 * bpow radix2 (-1060)) = slack).
   { unfold slack. rewrite Rmult_1_l. apply Rabs_right, Rle_ge, bpow_ge_0. }
@@ -91,7 +91,7 @@ Proof.
   { unfold tbound. cbn [room value]. rewrite N12, N1, NS, Op, Ox, Oy, Oz. unfold W. ring. }
   assert (EE : ex v (tbound p w) = 12 * u * m + slack * (1 + W)).
   { unfold tbound. cbn [value]. rewrite Ep. unfold W, slack, u. simpl (bpow radix2 0).
-    replace (bpow radix2 (-53)) with (/ 2 * bpow radix2 (-52)) by (simpl; lra). ring. }
+    replace (bpow radix2 (-51)) with (2 * bpow radix2 (-52)) by (simpl; lra). field. }
   assert (H := error v floats (tbound p w) RE). rewrite ME, OE, EE in H.
   apply Rabs_le_inv in H. destruct H as [H _].
   assert (A10 : A (depth (tbound p w)) <= 1 + 11 * u).
@@ -155,10 +155,10 @@ Proof.
   destruct (plus_finite _ _ F) as [F1 F2]. destruct (mult_finite _ _ F1) as [Fn Fp].
   destruct (mult_finite _ _ F2) as [Fs F3]. destruct (plus_finite _ _ F3) as [F4 Fz].
   destruct (plus_finite _ _ F4) as [F5 Fy]. destruct (plus_finite _ _ F5) as [Fo Fx].
-  assert (B12 : B2R (num 12 (-53)) = 12 * u).
-  { destruct (float_of_num 12 (-53)) as [_ ->]; [|apply float_12u|].
-    - rewrite Rabs_right by (generalize (bpow_ge_0 radix2 (-53)); lra).
-      apply Rlt_trans with (bpow radix2 4 * bpow radix2 (-53)); [|rewrite <- bpow_plus; now apply bpow_lt].
+  assert (B12 : B2R (num 3 (-51)) = 12 * u).
+  { destruct (float_of_num 3 (-51)) as [_ ->]; [|apply float_12u|].
+    - rewrite Rabs_right by (generalize (bpow_ge_0 radix2 (-51)); lra).
+      apply Rlt_trans with (bpow radix2 4 * bpow radix2 (-51)); [|rewrite <- bpow_plus; now apply bpow_lt].
       apply Rmult_lt_compat_r; [apply bpow_gt_0 | simpl; lra].
     - unfold u. simpl. lra. }
   assert (BS : B2R (num 1 (-1060)) = slack).
