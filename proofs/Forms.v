@@ -49,6 +49,12 @@ Ltac shape :=
   auto using Rabs_pos, float_12u, float_slack, float_one; try lia; rewrite ?Rabs_Rabsolu;
   try apply Rabs_pos; try ring.
 
+Ltac of_plane :=
+  match goal with |- _ <= _ + eta * (2 * (Rabs ?x + Rabs ?y + Rabs ?z) + 3) =>
+    assert (0 <= eta * (Rabs x + Rabs y + Rabs z))
+      by (apply Rmult_le_pos; [apply Rlt_le, eta_pos | generalize (Rabs_pos x) (Rabs_pos y) (Rabs_pos z); lra])
+  end; lra.
+
 Section OneRay.
 Variable v : renv.
 Hypothesis floats : forall name, is_float (r_var v name).
@@ -64,11 +70,6 @@ Lemma D_off : off D_of one_D. Proof. by_bound. Qed.
 Lemma parallel_ab_off : off (edge_parallel a b) (one_parallel a b). Proof. by_bound. Qed.
 Lemma parallel_bc_off : off (edge_parallel b c) (one_parallel b c). Proof. by_bound. Qed.
 Lemma parallel_ca_off : off (edge_parallel c a) (one_parallel c a). Proof. by_bound. Qed.
-Ltac of_plane :=
-  match goal with |- _ <= _ + eta * (2 * (Rabs ?x + Rabs ?y + Rabs ?z) + 3) =>
-    assert (0 <= eta * (Rabs x + Rabs y + Rabs z))
-      by (apply Rmult_le_pos; [apply Rlt_le, eta_pos | generalize (Rabs_pos x) (Rabs_pos y) (Rabs_pos z); lra])
-  end; lra.
 Lemma T_plane_off : off T_plane one_T_plane.
 Proof. apply bound_holds; auto; shape. of_plane. Qed.
 Lemma D_plane_off : off D_plane one_D_plane.
