@@ -3239,6 +3239,143 @@ Definition are_small_some : test :=
 Definition are_small_some_path : test :=
   Not (And (And (Given "certain_a") (Given "certain_b")) (Given "certain_c")).
 
+(** contest.Contest._candidates, what is sure: certain *)
+Definition candidate_sure_certain : test :=
+  Same (Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start")
+    (Var "low")) (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0)) (Num 0 0).
+
+(** contest.Contest._candidates, what is sure: kept *)
+Definition candidate_sure_kept : test :=
+  And (Not (Or (Less (Var "high") (Var "start")) (Less (Var "end") (Var "low")))) (LessEq
+    (Var "low") (Min (Var "farthest") (Var "high"))).
+
+(** contest.Contest._candidates, what is sure: farthest *)
+Definition candidate_sure_farthest : expr :=
+  Min (Var "farthest") (Var "high").
+
+(** contest.Contest._candidates, what is sure: path *)
+Definition candidate_sure_path : test :=
+  And (Not (Less (Var "start") (Num 0 0))) (Same (Where (And (Given "sure") (Finite (Var "high")))
+    (Where (And (Less (Var "start") (Var "low")) (Less (Var "high") (Var "end"))) (Num 0 0)
+    (Num 1 1)) (Num 1 0)) (Num 0 0)).
+
+(** contest.Contest._candidates, what is in doubt: certain *)
+Definition candidate_open_certain : test :=
+  Same (Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start")
+    (Var "low")) (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0)) (Num 0 0).
+
+(** contest.Contest._candidates, what is in doubt: kept *)
+Definition candidate_open_kept : test :=
+  And (Not (Or (Less (Var "high") (Var "start")) (Less (Var "end") (Var "low")))) (LessEq
+    (Var "low") (Var "farthest")).
+
+(** contest.Contest._candidates, what is in doubt: farthest *)
+Definition candidate_open_farthest : expr :=
+  Var "farthest".
+
+(** contest.Contest._candidates, what is in doubt: path *)
+Definition candidate_open_path : test :=
+  And (Not (Less (Var "start") (Num 0 0))) (Not (Same (Where (And (Given "sure") (Finite
+    (Var "high"))) (Where (And (Less (Var "start") (Var "low")) (Less (Var "high") (Var "end")))
+    (Num 0 0) (Num 1 1)) (Num 1 0)) (Num 0 0))).
+
+(** contest.Contest._prepare, rays from one point, two of them: around reach x *)
+Definition around_reach_x : expr :=
+  Max (Abs (Var "x1")) (Abs (Var "x2")).
+
+(** contest.Contest._prepare, rays from one point, two of them: around reach y *)
+Definition around_reach_y : expr :=
+  Max (Abs (Var "y1")) (Abs (Var "y2")).
+
+(** contest.Contest._prepare, rays from one point, two of them: around reach z *)
+Definition around_reach_z : expr :=
+  Max (Abs (Var "z1")) (Abs (Var "z2")).
+
+(** contest.Contest._prepare, parallel rays, two of them: around low x *)
+Definition around_low_x : expr :=
+  Min (Var "x1") (Var "x2").
+
+(** contest.Contest._prepare, parallel rays, two of them: around low y *)
+Definition around_low_y : expr :=
+  Min (Var "y1") (Var "y2").
+
+(** contest.Contest._prepare, parallel rays, two of them: around low z *)
+Definition around_low_z : expr :=
+  Min (Var "z1") (Var "z2").
+
+(** contest.Contest._prepare, parallel rays, two of them: around high x *)
+Definition around_high_x : expr :=
+  Max (Var "x1") (Var "x2").
+
+(** contest.Contest._prepare, parallel rays, two of them: around high y *)
+Definition around_high_y : expr :=
+  Max (Var "y1") (Var "y2").
+
+(** contest.Contest._prepare, parallel rays, two of them: around high z *)
+Definition around_high_z : expr :=
+  Max (Var "z1") (Var "z2").
+
+(** camera.corner_rays, film positions: px0 *)
+Definition corner_ray_px0 : expr :=
+  Add (Num 1 (-1)) (Var "dx").
+
+(** camera.corner_rays, film positions: px1 *)
+Definition corner_ray_px1 : expr :=
+  Add (Num 1 (-1)) (Var "dx").
+
+(** camera.corner_rays, film positions: px2 *)
+Definition corner_ray_px2 : expr :=
+  Add (Sub (Var "width") (Num 1 (-1))) (Var "dx").
+
+(** camera.corner_rays, film positions: px3 *)
+Definition corner_ray_px3 : expr :=
+  Add (Sub (Var "width") (Num 1 (-1))) (Var "dx").
+
+(** camera.corner_rays, film positions: py0 *)
+Definition corner_ray_py0 : expr :=
+  Add (Num 1 (-1)) (Var "dy").
+
+(** camera.corner_rays, film positions: py1 *)
+Definition corner_ray_py1 : expr :=
+  Add (Sub (Var "height") (Num 1 (-1))) (Var "dy").
+
+(** camera.corner_rays, film positions: py2 *)
+Definition corner_ray_py2 : expr :=
+  Add (Num 1 (-1)) (Var "dy").
+
+(** camera.corner_rays, film positions: py3 *)
+Definition corner_ray_py3 : expr :=
+  Add (Sub (Var "height") (Num 1 (-1))) (Var "dy").
+
+(** sweep.Sweep.of_pairs, what is sure: enters *)
+Definition pair_enters : test :=
+  And (Given "sure") (Given "inside").
+
+(** sweep.Sweep.of_pairs, what is sure: path *)
+Definition pair_path : test :=
+  And (Given "sure") (Given "inside").
+
+(** sweep.Sweep.of_pairs, what is in doubt: stays *)
+Definition pair_open_stays : test :=
+  And (Not (Or (And (Given "sure") (Given "inside")) (Less (Var "most") (Var "nearness")))) (Not
+    (Given "outside")).
+
+(** sweep.Sweep.of_pairs, what is in doubt: path *)
+Definition pair_open_path : test :=
+  Not (And (Given "sure") (Given "inside")).
+
+(** boxes.InstanceBoxes.hidden *)
+Definition hidden_instance : test :=
+  Less (Var "nearest") (Var "farthest").
+
+(** sweep.Sweep.not_hidden *)
+Definition not_hidden_box : test :=
+  Not (Less (Var "nearest") (Var "farthest")).
+
+(** depth_buffer.DepthBuffer.not_hidden *)
+Definition not_hidden_fragment : test :=
+  Not (Less (Var "nearest") (Var "nearness")).
+
 (** quotient.two_sum: high *)
 Definition two_sum_high : expr :=
   Add (Var "a") (Var "b").

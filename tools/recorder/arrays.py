@@ -295,6 +295,11 @@ def apply(ufunc: np.ufunc, method: str, inputs, out, options: dict) -> Recorded:
     if method == "reduce" and ufunc.__name__ in _REDUCED:
         return _reduced(ufunc, *inputs, out=out, **options)
     name = ufunc.__name__
+    if method == "at" and name in _REDUCED:
+        target, index, some = inputs
+        for place, value in zip(index, lift(some), strict=True):
+            target[place] = apply(ufunc, "__call__", (target[place], value), (), {})
+        return target
     if method != "__call__" or (name not in _NUMBERS and name not in _LOGIC):
         raise _refused(name if method == "__call__" else f"{name}.{method}")
     if options:

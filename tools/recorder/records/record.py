@@ -24,11 +24,11 @@ class Inputs:
     """The variables of a record, as arrays: recorded, or plain to hold the recorder against."""
 
     def __init__(self, values: Values, choices: Choices | None = None) -> None:
-        self._values, self._choices, self.named = values, choices, set()
+        self.values, self._choices, self.named = values, choices, set()
 
     def one(self, name: str):
         """Return a variable, (1,)."""
-        value = self._values[name]
+        value = self.values[name]
         return np.array([value]) if self._choices is None else variable(name, value)
 
     def scalar(self, name: str):
@@ -59,7 +59,7 @@ class Inputs:
         return lift(value)._each(lambda v: test if v.dtype == object else v)
 
     def __contains__(self, name: str) -> bool:
-        return name in self._values
+        return name in self.values
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,6 @@
 """All records, in the order of `proofs/Recorded.v`."""
 
-from . import bounds, boxes, camera, deciding, edges, film, pixels, quotient
+from . import bounds, boxes, camera, deciding, edges, film, keeping, pixels, quotient
 
 RECORDS = (
     *bounds.RECORDS,
@@ -10,5 +10,6 @@ RECORDS = (
     *film.RECORDS,
     *camera.RECORDS,
     *boxes.RECORDS,
+    *keeping.RECORDS,
     *quotient.RECORDS,
 )

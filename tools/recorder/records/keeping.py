@@ -1,0 +1,194 @@
+"""What is kept, and what is dropped, by what is in front: `contest.py`, `sweep/`."""
+
+from __future__ import annotations
+
+from collections import Counter
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+from reference_tracer.projections import PERSPECTIVE
+from reference_tracer.tracer import camera
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.certified import contest
+from reference_tracer.tracer.certified.contest import Contest
+from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
+from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
+from reference_tracer.tracer.certified.sweep.rasterise import Covered
+from reference_tracer.tracer.certified.sweep.sweep import Sweep
+
+from . import film
+from .bounds import FIRST
+from .record import Inputs, Kept, Record
+
+_HIT = dict(low=2.0, high=2.5, start=0.5, end=100.0, farthest=3.0, sure=True)
+_PAIR = dict(least=0.5, most=0.75, nearness=0.625, inside=True, outside=False, sure=True)
+_RAYS = dict(x1=0.5, y1=-1.5, z1=0.25, x2=-0.75, y2=2.5, z2=1.25)
+
+
+def _candidates(v: Inputs, prefix: str) -> Kept:
+    """t's interval is variables: `Fractions.interval` and `in_range` are recorded by themselves."""
+    own = Contest.__new__(Contest)
+    own._clip, own._farthest = (v.scalar("start"), v.scalar("end")), v.one("farthest")
+    fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
+    own._candidates(FIRST, FIRST, fractions, v.one("sure"))
+    return {
+        f"{prefix}_certain": v.chosen(1, is_path=True),
+        f"{prefix}_kept": v.chosen(2),
+        f"{prefix}_farthest": own._farthest,
+    }
+
+
+def _prepare(v: Inputs, shares_origin: bool) -> Kept:
+    """Of two rays around all others: `corner_rays` has four."""
+    several = v.stacked([v.vector(f"{k}1 {k}2").reshape(-1) for k in "xyz"])
+    one = np.zeros((3, 1))
+    own = Contest.__new__(Contest)
+    own._around = Rays(one, several) if shares_origin else Rays(several, one)
+    with (
+        mock.patch.object(contest, "FromPoint", lambda _, reach, __: [reach]),
+        mock.patch.object(contest, "Parallel", lambda _, low, high, __: [low, high]),
+    ):
+        found = own._prepare(None)
+    names = ("reach",) if shares_origin else ("low", "high")
+    return {
+        f"around_{name}_{k}": value
+        for name, vector in zip(names, found, strict=True)
+        for k, value in zip("xyz", vector, strict=True)
+    }
+
+
+def _corner_rays(v: Inputs) -> Kept:
+    with mock.patch.object(camera, "camera_rays", lambda _, px, py: (px, py)):
+        found = camera.corner_rays(film.camera(v, PERSPECTIVE), v.scalar("dx"), v.scalar("dy"))
+    return {
+        f"corner_ray_{k}{n}": values[n : n + 1]
+        for k, values in zip(("px", "py"), found, strict=True)
+        for n in range(4)
+    }
+
+
+def _of_pairs(v: Inputs, prefix: str) -> Kept:
+    """Whether the nearness is in the clip range is given: `ClipRange` is recorded by itself."""
+    nothing = Fragments(*(np.zeros(0) for _ in range(3)))
+    own = SimpleNamespace(
+        _statistics=SimpleNamespace(pairs_tested=0),
+        _clip=SimpleNamespace(
+            inside=lambda *_: v.one("inside"), outside=lambda *_: v.one("outside")
+        ),
+        _depths=SimpleNamespace(nearness=v.one("nearness"), enter=lambda *_: [nothing]),
+    )
+    pairs = Covered(FIRST, FIRST, v.one("least"), v.one("most"), v.one("sure"))
+    with mock.patch.object(Fragments, "joined", lambda parts: parts):
+        Sweep.of_pairs(own, pairs, FIRST)
+    if v.values["sure"]:
+        return {f"{prefix}_enters": v.chosen(0, is_path=True)}
+    return {f"{prefix}_stays": v.chosen(2)}
+
+
+def _hidden(v: Inputs) -> Kept:
+    own = InstanceBoxes(None, None, np.zeros((2, 1)), np.zeros((2, 1)), v.one("nearest"))
+    region = SimpleNamespace(x0=0, x1=1, y0=0, y1=1)
+    depths = SimpleNamespace(region=region, farthest_around=lambda *_: v.scalar("farthest"))
+    return {"hidden_instance": own.hidden(FIRST, depths)}
+
+
+def _not_hidden(v: Inputs) -> Kept:
+    own = SimpleNamespace(
+        _statistics=SimpleNamespace(culling=Counter()),
+        _depths=SimpleNamespace(farthest_in=lambda *_: v.one("farthest")),
+    )
+    Sweep.not_hidden(own, None, None, v.one("nearest"))
+    return {"not_hidden_box": v.chosen(0)}
+
+
+def _fragment(v: Inputs) -> Kept:
+    depths = DepthBuffer.__new__(DepthBuffer)
+    depths.nearness = v.one("nearness")
+    depths.not_hidden(Fragments(FIRST, FIRST, v.one("nearest")))
+    return {"not_hidden_fragment": v.chosen(0)}
+
+
+def _named(theorem: str, names: str) -> dict[str, str]:
+    return dict.fromkeys(names.split(), theorem)
+
+
+_HIDDEN = dict(nearest=0.5, farthest=0.25)
+RECORDS = (
+    *(
+        Record(
+            name,
+            "contest.Contest._candidates",
+            _HIT | dict(sure=sure),
+            lambda v, name=name: _candidates(v, name),
+            _named("candidates_right", f"{name}_certain {name}_kept {name}_farthest"),
+            note,
+        )
+        for name, sure, note in (
+            ("candidate_sure", True, "what is sure"),
+            ("candidate_open", False, "what is in doubt"),
+        )
+    ),
+    Record(
+        "around_directions",
+        "contest.Contest._prepare",
+        _RAYS,
+        lambda v: _prepare(v, True),
+        _named("around_right", "around_reach_x around_reach_y around_reach_z"),
+        "rays from one point, two of them",
+    ),
+    Record(
+        "around_origins",
+        "contest.Contest._prepare",
+        _RAYS,
+        lambda v: _prepare(v, False),
+        _named("around_right", " ".join(f"around_{e}_{k}" for e in ("low", "high") for k in "xyz")),
+        "parallel rays, two of them",
+    ),
+    Record(
+        "corner_ray",
+        "camera.corner_rays",
+        dict(width=640.0, height=480.0, dx=0.125, dy=-0.25),
+        _corner_rays,
+        _named(
+            "around_right", " ".join(f"corner_ray_{k}{n}" for k in ("px", "py") for n in "0123")
+        ),
+        "film positions",
+        film.DOMAIN,
+    ),
+    *(
+        Record(
+            name,
+            "sweep.Sweep.of_pairs",
+            _PAIR | dict(sure=sure),
+            lambda v, name=name: _of_pairs(v, name),
+            _named("pairs_right", f"{name}_enters {name}_stays"),
+            note,
+        )
+        for name, sure, note in (
+            ("pair", True, "what is sure"),
+            ("pair_open", False, "what is in doubt"),
+        )
+    ),
+    Record(
+        "hidden_instance",
+        "boxes.InstanceBoxes.hidden",
+        _HIDDEN,
+        _hidden,
+        _named("hidden_right", "hidden_instance"),
+    ),
+    Record(
+        "not_hidden_box",
+        "sweep.Sweep.not_hidden",
+        _HIDDEN,
+        _not_hidden,
+        _named("hidden_right", "not_hidden_box"),
+    ),
+    Record(
+        "not_hidden_fragment",
+        "depth_buffer.DepthBuffer.not_hidden",
+        dict(nearest=0.5, nearness=0.25),
+        _fragment,
+        _named("hidden_right", "not_hidden_fragment"),
+    ),
+)
