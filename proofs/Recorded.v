@@ -1399,6 +1399,1503 @@ Definition set_up_edge_on_path : test :=
     x11) (Add (Mul (Mul (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11)
     x13))) (Num 1 (-1000))) x14) (Finite x14))).
 
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: bc 1 *)
+Definition set_up_edge_on_parallel_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  Mul x7 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x5 (Var "wc"))
+    (Mul (Var "wb") x4))) (Mul (Sub (Var "qa") (Mul x3 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x2
+    (Var "wc"))))) (Mul (Var "wa") x7)) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: bc y *)
+Definition set_up_edge_on_parallel_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x6 (Var "wc"))
+    (Mul (Var "wb") x7))) (Mul (Sub (Var "qa") (Mul x5 (Var "wa"))) x4)) (Mul (Var "wa") (Sub (Mul
+    x3 x7) (Mul x6 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: bc x *)
+Definition set_up_edge_on_parallel_bc_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul (Sub (Var "qa")
+    (Mul x1 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul
+    x7 x3) (Mul x2 x6)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: ca 1 *)
+Definition set_up_edge_on_parallel_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x6 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x5))) (Mul x4 (Sub (Mul (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x8 x5) (Mul x7 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: ca y *)
+Definition set_up_edge_on_parallel_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x6) (Mul x5 x3)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: ca x *)
+Definition set_up_edge_on_parallel_ca_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x2) (Mul x5 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: ab 1 *)
+Definition set_up_edge_on_parallel_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x5 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x8 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x4 (Var "wc")) (Mul
+    (Var "wb") x7))) (Mul x5 (Sub (Mul (Var "wb") x8) (Mul x6 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x6 x7) (Mul x4 x8)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: ab y *)
+Definition set_up_edge_on_parallel_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Sub (Mul (Var "wa") x2) (Mul x3 (Var "wb"))) (Where (Less (Add (Add (Mul x3 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x7) (Mul x2 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x2 x6) (Mul x5 x7)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: ab x *)
+Definition set_up_edge_on_parallel_ab_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Sub (Mul x2 (Var "wb")) (Mul (Var "wa") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul
+    x4 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x5))) (Mul x2 (Sub (Mul (Var "wb") x6)
+    (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x5) (Mul x3 x6)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: nearness 1 *)
+Definition set_up_edge_on_parallel_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: nearness y *)
+Definition set_up_edge_on_parallel_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: nearness x *)
+Definition set_up_edge_on_parallel_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: edge error *)
+Definition set_up_edge_on_parallel_edge_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Add (Var "y0") (Num 1 (-1)) in
+  let x8 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x6 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x6 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x6 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x7 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x7 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x7 (Var "wc"))))) x3 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3 x5) (Mul x8 x4))) (Mul (Mul
+    (Num 1 2) x8) x3)) (Mul (Num 1 (-50)) (Mul x8 (Add (Mul x1 x5) (Mul (Num 1 1) x8))))))
+    (Num 1 (-1000)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: sure *)
+Definition set_up_edge_on_parallel_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: nearness error *)
+Definition set_up_edge_on_parallel_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other bc 1 *)
+Definition set_up_edge_on_parallel_other_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x5 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x7 := Sub (Mul x2 x4) (Mul x5 x6) in
+  Mul (Mul x7 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x4))) (Mul (Sub (Var "qa") (Mul x3 (Var "wa"))) (Sub (Mul (Var "wb")
+    x6) (Mul x2 (Var "wc"))))) (Mul (Var "wa") x7)) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other bc y *)
+Definition set_up_edge_on_parallel_other_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Mul (Var "wb") x2) (Mul x3 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  Mul (Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x6
+    (Var "wc")) (Mul (Var "wb") x7))) (Mul (Sub (Var "qa") (Mul x5 (Var "wa"))) x4)) (Mul (Var "wa")
+    (Sub (Mul x3 x7) (Mul x6 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other bc x *)
+Definition set_up_edge_on_parallel_other_bc_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x4 := Sub (Mul x2 (Var "wc")) (Mul (Var "wb") x3) in
+  let x5 := Add (Var "x0") (Num 1 (-1)) in
+  let x6 := Sub (Var "pc") (Mul x5 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x5 (Var "wb")) in
+  Mul (Mul x4 (Where (Less (Add (Add (Mul (Sub (Var "pa") (Mul x5 (Var "wa"))) x4) (Mul (Sub
+    (Var "qa") (Mul x1 (Var "wa"))) (Sub (Mul (Var "wb") x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa")
+    (Sub (Mul x7 x3) (Mul x2 x6)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other ca 1 *)
+Definition set_up_edge_on_parallel_other_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x5 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x6 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x8 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x6 (Sub (Mul x7 (Var "wc"))
+    (Mul (Var "wb") x5))) (Mul x4 (Sub (Mul (Var "wb") x2) (Mul x8 (Var "wc"))))) (Mul (Var "wa")
+    (Sub (Mul x8 x5) (Mul x7 x2)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other ca y *)
+Definition set_up_edge_on_parallel_other_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Mul (Mul (Sub (Mul (Var "wc") x2) (Mul x3 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x3) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x6) (Mul x5 x3)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other ca x *)
+Definition set_up_edge_on_parallel_other_ca_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x3 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Mul (Sub (Mul x2 (Var "wa")) (Mul (Var "wc") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa")
+    (Mul x4 (Var "wa"))) (Sub (Mul x5 (Var "wc")) (Mul (Var "wb") x2))) (Mul x3 (Sub (Mul (Var "wb")
+    x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x2) (Mul x5 x6)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other ab 1 *)
+Definition set_up_edge_on_parallel_other_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Add (Var "y0") (Num 1 (-1)) in
+  let x4 := Sub (Var "qb") (Mul x3 (Var "wb")) in
+  let x5 := Sub (Var "qa") (Mul x3 (Var "wa")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x7 := Sub (Var "qc") (Mul x3 (Var "wc")) in
+  let x8 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Mul (Sub (Mul x2 x4) (Mul x5 x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x4 (Var "wc"))
+    (Mul (Var "wb") x7))) (Mul x5 (Sub (Mul (Var "wb") x8) (Mul x6 (Var "wc"))))) (Mul (Var "wa")
+    (Sub (Mul x6 x7) (Mul x4 x8)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other ab y *)
+Definition set_up_edge_on_parallel_other_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x3 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x4 := Add (Var "y0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qb") (Mul x4 (Var "wb")) in
+  let x6 := Sub (Var "qc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  Mul (Mul (Sub (Mul (Var "wa") x2) (Mul x3 (Var "wb"))) (Where (Less (Add (Add (Mul x3 (Sub (Mul x5
+    (Var "wc")) (Mul (Var "wb") x6))) (Mul (Sub (Var "qa") (Mul x4 (Var "wa"))) (Sub (Mul (Var "wb")
+    x7) (Mul x2 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x2 x6) (Mul x5 x7)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other ab x *)
+Definition set_up_edge_on_parallel_other_ab_x : expr :=
+  let x1 := Add (Var "y0") (Num 1 (-1)) in
+  let x2 := Sub (Var "qa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "qb") (Mul x1 (Var "wb")) in
+  let x4 := Add (Var "x0") (Num 1 (-1)) in
+  let x5 := Sub (Var "qc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pc") (Mul x4 (Var "wc")) in
+  let x7 := Sub (Var "pb") (Mul x4 (Var "wb")) in
+  Mul (Mul (Sub (Mul x2 (Var "wb")) (Mul (Var "wa") x3)) (Where (Less (Add (Add (Mul (Sub (Var "pa")
+    (Mul x4 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x5))) (Mul x2 (Sub (Mul (Var "wb")
+    x6) (Mul x7 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x7 x5) (Mul x3 x6)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other nearness 1 *)
+Definition set_up_edge_on_parallel_other_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other nearness y *)
+Definition set_up_edge_on_parallel_other_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other nearness x *)
+Definition set_up_edge_on_parallel_other_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other edge error *)
+Definition set_up_edge_on_parallel_other_edge_error : expr :=
+  let x1 := Mul (Num 1 2) (Var "reach") in
+  let x2 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x3 := Add (Var "c0") (Mul (Var "c1") x2) in
+  let x4 := Mul (Var "weight") x2 in
+  let x5 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x4 in
+  let x6 := Add (Var "x0") (Num 1 (-1)) in
+  let x7 := Add (Var "y0") (Num 1 (-1)) in
+  let x8 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x6 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x6 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x6 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x7 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x7 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x7 (Var "wc"))))) x3 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x1 (Add (Mul x3 x5) (Mul x8 x4))) (Mul (Mul
+    (Num 1 2) x8) x3)) (Mul (Num 1 (-50)) (Mul x8 (Add (Mul x1 x5) (Mul (Num 1 1) x8))))))
+    (Num 1 (-1000)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other sure *)
+Definition set_up_edge_on_parallel_other_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: other nearness error
+    *)
+Definition set_up_edge_on_parallel_other_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: T *)
+Definition set_up_edge_on_parallel_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Sub (Var "qb") (Mul x2 (Var "wb")) in
+  let x4 := Sub (Var "qc") (Mul x2 (Var "wc")) in
+  let x5 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x4)))
+    (Mul (Sub (Var "qa") (Mul x2 (Var "wa"))) (Sub (Mul (Var "wb") x5) (Mul x6 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x6 x4) (Mul x3 x5))).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: T error *)
+Definition set_up_edge_on_parallel_T_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Var "weight") x3 in
+  let x7 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x6 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x5) (Add (Mul (Mul (Num 1 1) x4)
+    x7) (Mul x5 x6))) (Mul (Mul (Mul (Num 25 (-52)) x5) x5) x7))) (Num 1 (-1000)).
+
+(** edge_functions.set_up, parallel rays, where the sign of T is not known: path *)
+Definition set_up_edge_on_parallel_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And (Not (Not (Less (Mul (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1)
+    x11))) (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000)))) (Not
+    (And (Less (Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul
+    (Num 1 1) x10) x13) (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13)))
+    (Num 1 (-1000))) x14) (Finite x14))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: bc 1 *)
+Definition set_up_lost_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x3 x8) (Mul x7 x4) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") x11))
+    (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: bc y *)
+Definition set_up_lost_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc")) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 x11)) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: bc x *)
+Definition set_up_lost_bc_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul x11 (Where (Less (Add (Add (Mul x2 x11) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: ca 1 *)
+Definition set_up_lost_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x4 x6) (Mul x8 x2)) (Where (Less (Add (Add (Mul x2 (Sub
+    (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3
+    (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: ca y *)
+Definition set_up_lost_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul (Var "wc") x2) (Mul x4 (Var "wa"))) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: ca x *)
+Definition set_up_lost_ca_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x8 (Var "wa")) (Mul (Var "wc") x6)) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: ab 1 *)
+Definition set_up_lost_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x2 x7) (Mul x6 x3)) (Where (Less (Add (Add (Mul x2 (Sub
+    (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3
+    (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: ab y *)
+Definition set_up_lost_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul (Var "wa") x3) (Mul x2 (Var "wb"))) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: ab x *)
+Definition set_up_lost_ab_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs (Var "wa"))
+    (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x6 (Var "wb")) (Mul (Var "wa") x7)) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: nearness 1 *)
+Definition set_up_lost_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where numbers are too large: nearness y *)
+Definition set_up_lost_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where numbers are too large: nearness x *)
+Definition set_up_lost_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where numbers are too large: edge error *)
+Definition set_up_lost_edge_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Num 1 2) (Var "reach") in
+  let x7 := Mul (Var "weight") x3 in
+  let x8 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x7 in
+  let x9 := Mul x5 (Add (Mul x6 x8) (Mul (Num 1 1) x5)) in
+  Where (Not (Less x9 (Num 1 1000))) Inf (Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x6
+    (Add (Mul x4 x8) (Mul x5 x7))) (Mul (Mul (Num 1 2) x5) x4)) (Mul (Num 1 (-50)) x9)))
+    (Num 1 (-1000))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: sure *)
+Definition set_up_lost_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Not (Less (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1) x11)))
+    (Num 1 1000)) in
+  let x15 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  Or (And x14 (Not (Same (Num 0 0) (Num 0 0)))) (And (Not x14) (And (Less (Add (Mul
+    (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13)
+    (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13))) (Num 1 (-1000))) x15) (Finite
+    x15))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: nearness error *)
+Definition set_up_lost_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, perspective, where numbers are too large: other bc 1 *)
+Definition set_up_lost_other_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x3 x8) (Mul x7 x4) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") x11))
+    (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other bc y *)
+Definition set_up_lost_other_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc")) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 x11)) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other bc x *)
+Definition set_up_lost_other_bc_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul x11 (Where (Less (Add (Add (Mul x2 x11) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0))
+    (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other ca 1 *)
+Definition set_up_lost_other_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x4 x6) (Mul x8 x2)) (Where (Less (Add (Add (Mul x2 (Sub
+    (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3
+    (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other ca y *)
+Definition set_up_lost_other_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul (Var "wc") x2) (Mul x4 (Var "wa"))) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other ca x *)
+Definition set_up_lost_other_ca_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x8 (Var "wa")) (Mul (Var "wc") x6)) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other ab 1 *)
+Definition set_up_lost_other_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x2 x7) (Mul x6 x3)) (Where (Less (Add (Add (Mul x2 (Sub
+    (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3
+    (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other ab y *)
+Definition set_up_lost_other_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul (Var "wa") x3) (Mul x2 (Var "wb"))) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other ab x *)
+Definition set_up_lost_other_ab_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Num 1 1000))) (Num 0 0) (Mul (Sub (Mul x6 (Var "wb")) (Mul (Var "wa") x7)) (Where (Less (Add
+    (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4)
+    (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other nearness 1 *)
+Definition set_up_lost_other_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where numbers are too large: other nearness y *)
+Definition set_up_lost_other_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where numbers are too large: other nearness x *)
+Definition set_up_lost_other_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, perspective, where numbers are too large: other edge error *)
+Definition set_up_lost_other_edge_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Num 1 2) (Var "reach") in
+  let x7 := Mul (Var "weight") x3 in
+  let x8 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x7 in
+  let x9 := Mul x5 (Add (Mul x6 x8) (Mul (Num 1 1) x5)) in
+  Where (Not (Less x9 (Num 1 1000))) Inf (Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x6
+    (Add (Mul x4 x8) (Mul x5 x7))) (Mul (Mul (Num 1 2) x5) x4)) (Mul (Num 1 (-50)) x9)))
+    (Num 1 (-1000))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other sure *)
+Definition set_up_lost_other_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Not (Less (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1) x11)))
+    (Num 1 1000)) in
+  let x15 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  Or (And x14 (Not (Same (Num 0 0) (Num 0 0)))) (And (Not x14) (And (Less (Add (Mul
+    (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13)
+    (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13))) (Num 1 (-1000))) x15) (Finite
+    x15))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: other nearness error *)
+Definition set_up_lost_other_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, perspective, where numbers are too large: T *)
+Definition set_up_lost_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Sub (Var "qb") (Mul x2 (Var "wb")) in
+  let x4 := Sub (Var "qc") (Mul x2 (Var "wc")) in
+  let x5 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x4)))
+    (Mul (Sub (Var "qa") (Mul x2 (Var "wa"))) (Sub (Mul (Var "wb") x5) (Mul x6 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x6 x4) (Mul x3 x5))).
+
+(** edge_functions.set_up, perspective, where numbers are too large: T error *)
+Definition set_up_lost_T_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Var "weight") x3 in
+  let x7 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x6 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x5) (Add (Mul (Mul (Num 1 1) x4)
+    x7) (Mul x5 x6))) (Mul (Mul (Mul (Num 25 (-52)) x5) x5) x7))) (Num 1 (-1000)).
+
+(** edge_functions.set_up, perspective, where numbers are too large: path *)
+Definition set_up_lost_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Not (Less (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1) x11)))
+    (Num 1 1000)) in
+  let x15 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And x14 (Not (Or (And x14 (Not (Same (Num 0 0) (Num 0 0)))) (And (Not x14) (And (Less (Add (Mul
+    (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13)
+    (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13))) (Num 1 (-1000))) x15) (Finite
+    x15))))).
+
+(** edge_functions.set_up, parallel rays, likewise: bc 1 *)
+Definition set_up_lost_parallel_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x3 x8) (Mul x7 x4) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6
+    (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") x11)) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: bc y *)
+Definition set_up_lost_parallel_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc")) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6
+    x11)) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: bc x *)
+Definition set_up_lost_parallel_bc_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul x11 (Where (Less (Add (Add (Mul x2 x11) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3
+    (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: ca 1 *)
+Definition set_up_lost_parallel_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x4 x6) (Mul x8 x2)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: ca y *)
+Definition set_up_lost_parallel_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul (Var "wc") x2) (Mul x4 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: ca x *)
+Definition set_up_lost_parallel_ca_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x8 (Var "wa")) (Mul (Var "wc") x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: ab 1 *)
+Definition set_up_lost_parallel_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x2 x7) (Mul x6 x3)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: ab y *)
+Definition set_up_lost_parallel_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul (Var "wa") x3) (Mul x2 (Var "wb"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: ab x *)
+Definition set_up_lost_parallel_ab_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x6 (Var "wb")) (Mul (Var "wa") x7)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))).
+
+(** edge_functions.set_up, parallel rays, likewise: nearness 1 *)
+Definition set_up_lost_parallel_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, likewise: nearness y *)
+Definition set_up_lost_parallel_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, likewise: nearness x *)
+Definition set_up_lost_parallel_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, likewise: edge error *)
+Definition set_up_lost_parallel_edge_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Num 1 2) (Var "reach") in
+  let x7 := Mul (Var "weight") x3 in
+  let x8 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x7 in
+  let x9 := Mul x5 (Add (Mul x6 x8) (Mul (Num 1 1) x5)) in
+  Where (Not (Less (Mul x9 (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs
+    (Var "tc"))) (Abs (Sub (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0)))
+    (Num 1 1000))) Inf (Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x6 (Add (Mul x4 x8)
+    (Mul x5 x7))) (Mul (Mul (Num 1 2) x5) x4)) (Mul (Num 1 (-50)) x9))) (Num 1 (-1000))).
+
+(** edge_functions.set_up, parallel rays, likewise: sure *)
+Definition set_up_lost_parallel_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Not (Less (Mul (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1)
+    x11))) (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000)) in
+  let x15 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  Or (And x14 (Not (Same (Num 0 0) (Num 0 0)))) (And (Not x14) (And (Less (Add (Mul
+    (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13)
+    (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13))) (Num 1 (-1000))) x15) (Finite
+    x15))).
+
+(** edge_functions.set_up, parallel rays, likewise: nearness error *)
+Definition set_up_lost_parallel_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, parallel rays, likewise: other bc 1 *)
+Definition set_up_lost_parallel_other_bc_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x3 x8) (Mul x7 x4) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6
+    (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") x11)) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other bc y *)
+Definition set_up_lost_parallel_other_bc_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc")) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul x11 (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6
+    x11)) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0))))
+    (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other bc x *)
+Definition set_up_lost_parallel_other_bc_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  let x11 := Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul x11 (Where (Less (Add (Add (Mul x2 x11) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3
+    (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0)
+    (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other ca 1 *)
+Definition set_up_lost_parallel_other_ca_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x4 x6) (Mul x8 x2)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other ca y *)
+Definition set_up_lost_parallel_other_ca_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul (Var "wc") x2) (Mul x4 (Var "wa"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other ca x *)
+Definition set_up_lost_parallel_other_ca_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x8 (Var "wa")) (Mul (Var "wc") x6)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other ab 1 *)
+Definition set_up_lost_parallel_other_ab_1 : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x2 x7) (Mul x6 x3)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul
+    (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub
+    (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other ab y *)
+Definition set_up_lost_parallel_other_ab_y : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul (Var "wa") x3) (Mul x2 (Var "wb"))) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other ab x *)
+Definition set_up_lost_parallel_other_ab_x : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    (Add (Var "c0") (Mul (Var "c1") x9)) in
+  Mul (Where (Not (Less (Mul (Mul x10 (Add (Mul (Mul (Num 1 2) (Var "reach")) (Add (Max (Max (Abs
+    (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) (Mul (Var "weight") x9))) (Mul (Num 1 1) x10)))
+    (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000))) (Num 0 0)
+    (Mul (Sub (Mul x6 (Var "wb")) (Mul (Var "wa") x7)) (Where (Less (Add (Add (Mul x2 (Sub (Mul x7
+    (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) (Num 0 0)) (Num (-1) 0) (Num 1 0)))) (Num (-1) 0).
+
+(** edge_functions.set_up, parallel rays, likewise: other nearness 1 *)
+Definition set_up_lost_parallel_other_nearness_1 : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, likewise: other nearness y *)
+Definition set_up_lost_parallel_other_nearness_y : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, likewise: other nearness x *)
+Definition set_up_lost_parallel_other_nearness_x : expr :=
+  Num 0 0.
+
+(** edge_functions.set_up, parallel rays, likewise: other edge error *)
+Definition set_up_lost_parallel_other_edge_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Num 1 2) (Var "reach") in
+  let x7 := Mul (Var "weight") x3 in
+  let x8 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x7 in
+  let x9 := Mul x5 (Add (Mul x6 x8) (Mul (Num 1 1) x5)) in
+  Where (Not (Less (Mul x9 (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs
+    (Var "tc"))) (Abs (Sub (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0)))
+    (Num 1 1000))) Inf (Add (Mul (Num 4548635623644201 (-52)) (Add (Add (Mul x6 (Add (Mul x4 x8)
+    (Mul x5 x7))) (Mul (Mul (Num 1 2) x5) x4)) (Mul (Num 1 (-50)) x9))) (Num 1 (-1000))).
+
+(** edge_functions.set_up, parallel rays, likewise: other sure *)
+Definition set_up_lost_parallel_other_sure : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Not (Less (Mul (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1)
+    x11))) (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000)) in
+  let x15 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  Or (And x14 (Not (Same (Num 0 0) (Num 0 0)))) (And (Not x14) (And (Less (Add (Mul
+    (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13)
+    (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13))) (Num 1 (-1000))) x15) (Finite
+    x15))).
+
+(** edge_functions.set_up, parallel rays, likewise: other nearness error *)
+Definition set_up_lost_parallel_other_nearness_error : expr :=
+  Inf.
+
+(** edge_functions.set_up, parallel rays, likewise: T *)
+Definition set_up_lost_parallel_T : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Sub (Var "qb") (Mul x2 (Var "wb")) in
+  let x4 := Sub (Var "qc") (Mul x2 (Var "wc")) in
+  let x5 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x6 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  Add (Add (Mul (Sub (Var "pa") (Mul x1 (Var "wa"))) (Sub (Mul x3 (Var "wc")) (Mul (Var "wb") x4)))
+    (Mul (Sub (Var "qa") (Mul x2 (Var "wa"))) (Sub (Mul (Var "wb") x5) (Mul x6 (Var "wc"))))) (Mul
+    (Var "wa") (Sub (Mul x6 x4) (Mul x3 x5))).
+
+(** edge_functions.set_up, parallel rays, likewise: T error *)
+Definition set_up_lost_parallel_T_error : expr :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Add (Var "y0") (Num 1 (-1)) in
+  let x3 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x4 := Add (Var "c0") (Mul (Var "c1") x3) in
+  let x5 := Add (Max (Max (Max (Max (Max (Abs (Sub (Var "pa") (Mul x1 (Var "wa")))) (Abs (Sub
+    (Var "pb") (Mul x1 (Var "wb"))))) (Abs (Sub (Var "pc") (Mul x1 (Var "wc"))))) (Abs (Sub
+    (Var "qa") (Mul x2 (Var "wa"))))) (Abs (Sub (Var "qb") (Mul x2 (Var "wb"))))) (Abs (Sub
+    (Var "qc") (Mul x2 (Var "wc"))))) x4 in
+  let x6 := Mul (Var "weight") x3 in
+  let x7 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x6 in
+  Add (Mul (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x5) (Add (Mul (Mul (Num 1 1) x4)
+    x7) (Mul x5 x6))) (Mul (Mul (Mul (Num 25 (-52)) x5) x5) x7))) (Num 1 (-1000)).
+
+(** edge_functions.set_up, parallel rays, likewise: path *)
+Definition set_up_lost_parallel_path : test :=
+  let x1 := Add (Var "x0") (Num 1 (-1)) in
+  let x2 := Sub (Var "pa") (Mul x1 (Var "wa")) in
+  let x3 := Sub (Var "pb") (Mul x1 (Var "wb")) in
+  let x4 := Sub (Var "pc") (Mul x1 (Var "wc")) in
+  let x5 := Add (Var "y0") (Num 1 (-1)) in
+  let x6 := Sub (Var "qa") (Mul x5 (Var "wa")) in
+  let x7 := Sub (Var "qb") (Mul x5 (Var "wb")) in
+  let x8 := Sub (Var "qc") (Mul x5 (Var "wc")) in
+  let x9 := Max (Max (Var "sa") (Var "sb")) (Var "sc") in
+  let x10 := Add (Var "c0") (Mul (Var "c1") x9) in
+  let x11 := Add (Max (Max (Max (Max (Max (Abs x2) (Abs x3)) (Abs x4)) (Abs x6)) (Abs x7)) (Abs x8))
+    x10 in
+  let x12 := Mul (Var "weight") x9 in
+  let x13 := Add (Max (Max (Abs (Var "wa")) (Abs (Var "wb"))) (Abs (Var "wc"))) x12 in
+  let x14 := Not (Less (Mul (Mul x11 (Add (Mul (Mul (Num 1 2) (Var "reach")) x13) (Mul (Num 1 1)
+    x11))) (Max (Max (Max (Max (Max (Abs (Var "ta")) (Abs (Var "tb"))) (Abs (Var "tc"))) (Abs (Sub
+    (Var "tb") (Var "ta")))) (Abs (Sub (Var "tc") (Var "ta")))) (Num 1 0))) (Num 1 1000)) in
+  let x15 := Abs (Add (Add (Mul x2 (Sub (Mul x7 (Var "wc")) (Mul (Var "wb") x8))) (Mul x6 (Sub (Mul
+    (Var "wb") x4) (Mul x3 (Var "wc"))))) (Mul (Var "wa") (Sub (Mul x3 x8) (Mul x7 x4)))) in
+  And x14 (Not (Or (And x14 (Not (Same (Num 0 0) (Num 0 0)))) (And (Not x14) (And (Less (Add (Mul
+    (Num 4548635623644201 (-52)) (Add (Mul (Mul (Num 3 1) x11) (Add (Mul (Mul (Num 1 1) x10) x13)
+    (Mul x11 x12))) (Mul (Mul (Mul (Num 25 (-52)) x11) x11) x13))) (Num 1 (-1000))) x15) (Finite
+    x15))))).
+
 (** rasterise._block: edge *)
 Definition block_edge : expr :=
   let x1 := Add (Add (Var "y") (Sub (Var "region_y") (Var "origin_y"))) (Num 0 0) in

@@ -8,6 +8,3 @@ from pathlib import Path
 TOOLS = str(Path(__file__).parents[2] / "tools")
 if TOOLS not in sys.path:
     sys.path.append(TOOLS)
-HERE = str(Path(__file__).parent)
-if HERE not in sys.path:
-    sys.path.append(HERE)

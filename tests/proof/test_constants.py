@@ -7,9 +7,10 @@ import importlib
 from collections import defaultdict
 
 import pytest
-from constants import FOLDER, numbers, of_module
 from recorder.nodes import in_order
 from recorder.records import RECORDS, outputs
+
+from .constants import FOLDER, numbers, of_module
 
 U = 2.0**-53
 _STEP = "how much is worked on at a time: each pair is decided as if it were alone"

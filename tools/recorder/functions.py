@@ -14,6 +14,7 @@ from unittest import mock
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.tracer import vector
 
 from .arrays import Choices, Recorded, apply, choices, holds, lift, paired, where
 from .nodes import RefusedError, number, truth
@@ -123,6 +124,7 @@ def recording() -> Iterator[Choices]:
         for name, module in list(sys.modules.items()):
             if name.startswith("reference_tracer.") and getattr(module, "np", None) is np:
                 stack.enter_context(mock.patch.object(module, "np", proxy))
+        stack.enter_context(mock.patch.object(vector, "_TAKE_IS_FAST", True))  # either way the same
         choices.append(made)
         try:
             yield made

@@ -20,6 +20,7 @@ _VALUES = dict(
     **dict(nearest=1.01, x0=1.0, y0=2.0, reach=20.0),
 )
 _EDGE_ON = dict(pc=8.75, pb=16.0, pa=1.5, qa=2.5, qb=5.0, qc=3.75, wa=1.0, wb=2.0, wc=1.5)
+_LOST = dict(pa=-(2.0**520), pb=2.0**521)
 _NAMES = [f"{side}_{of}" for side in _SIDES for of in _OF]
 
 
@@ -87,24 +88,30 @@ VALUES = (
 
 
 def _theorems(prefix: str) -> dict[str, str]:
-    of_edges = [f"{prefix}_{side}_{of}" for side in _SIDES[:3] for of in _OF]
-    of_nearness = [f"{prefix}_nearness_{of}" for of in _OF]
-    return (
-        dict.fromkeys([*of_edges, f"{prefix}_edge_error"], f"{prefix}_edges")
-        | dict.fromkeys([*of_nearness, f"{prefix}_nearness_error"], f"{prefix}_nearness")
-        | dict.fromkeys([f"{prefix}_sure", f"{prefix}_T", f"{prefix}_T_error"], f"{prefix}_sign")
-    )
+    of = {
+        "edges": [*(f"{side}_{of}" for side in _SIDES[:3] for of in _OF), "edge_error"],
+        "nearness": [*(f"nearness_{of}" for of in _OF), "nearness_error"],
+        "sign": ["sure", "T", "T_error"],
+    }
+    copies = f"{prefix}_", f"{prefix}_other_"  # the other is of the other sign of T
+    return {
+        f"{copy}{name}": f"{prefix}_{theorem}"
+        for copy in copies
+        for theorem, names in of.items()
+        for name in names
+    }
 
 
-def _record(name: str, projection: Projection, values: dict[str, float], note: str) -> Record:
-    return Record(
-        name,
-        "edge_functions.set_up",
-        values,
-        lambda v: _set_up(v, name, projection),
-        _theorems(name),
-        note,
-    )
+def _record(
+    name: str, projection: Projection, values: dict[str, float], note: str, only: str = ""
+) -> Record:
+    """Return a record; of what is as in another one, `only` some results are kept."""
+
+    def call(v: Inputs) -> Kept:
+        kept = _set_up(v, name, projection)
+        return {f"{name}_{k}": kept[f"{name}_{k}"] for k in only.split()} or kept
+
+    return Record(name, "edge_functions.set_up", values, call, _theorems(name), note)
 
 
 RECORDS = (
@@ -116,4 +123,14 @@ RECORDS = (
         _VALUES | _EDGE_ON,
         "perspective, where the sign of T is not known",
     ),
+    _record(
+        "set_up_edge_on_parallel",
+        ORTHOGRAPHIC,
+        _VALUES | _EDGE_ON,
+        "parallel rays, where the sign of T is not known",
+    ),
+    _record(
+        "set_up_lost", PERSPECTIVE, _VALUES | _LOST, "perspective, where numbers are too large"
+    ),
+    _record("set_up_lost_parallel", ORTHOGRAPHIC, _VALUES | _LOST, "parallel rays, likewise"),
 )
