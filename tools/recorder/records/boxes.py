@@ -115,7 +115,8 @@ RECORDS = (
         "boxes._corners",
         MATRIX | _MESH,
         _corners,
-        {"box_size": "box_size_right"},
+        {f"box_corner_{n}_{k}": "box_right" for n in range(8) for k in "xyz"}
+        | {"box_size": "box_right"},
         "the box of a mesh",
     ),
     *(

@@ -143,6 +143,6 @@ RECORDS = (
         "vector.transform_points",
         MATRIX | dict(vx=0.75, vy=0.5, vz=-2.0),
         _transform,
-        _named("transform", "x y z", ""),
+        _named("transform", "x y z", "box_right"),
     ),
 )

@@ -128,9 +128,16 @@ RECORDS = (
         ORTHOGRAPHIC,
         _VALUES | _EDGE_ON,
         "parallel rays, where the sign of T is not known",
+        "bc_1 other_bc_1 nearness_1 nearness_error sure",
     ),
-    _record(
-        "set_up_lost", PERSPECTIVE, _VALUES | _LOST, "perspective, where numbers are too large"
+    *(
+        _record(
+            f"set_up_lost_{name}",
+            projection,
+            _VALUES | _LOST,
+            f"{projection.name}, where numbers are too large",
+            "bc_1 edge_error nearness_1 nearness_error sure",
+        )
+        for name, projection in (("perspective", PERSPECTIVE), ("parallel", ORTHOGRAPHIC))
     ),
-    _record("set_up_lost_parallel", ORTHOGRAPHIC, _VALUES | _LOST, "parallel rays, likewise"),
 )
