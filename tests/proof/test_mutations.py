@@ -10,6 +10,8 @@ import pytest
 from ..copied import copied, run
 from .conftest import TOOLS
 
+pytestmark = pytest.mark.slow  # a Python of its own for each
+
 CHECK = f"""
 import sys
 sys.path.append({TOOLS!r})
