@@ -20,6 +20,7 @@ from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import NDArray
 
 from .nodes import Node, RefusedError, node, number, truth
+from .operations import LOGIC, NUMBERS, REDUCED, refused, select
 
 Choices = list[tuple[Node, bool]]
 choices: list[Choices] = []  # of the recordings that are on
@@ -95,7 +96,7 @@ class Recorded(NDArrayOperatorsMixin):
         return choose(self.nodes.reshape(-1)[0], self.values.reshape(-1)[0])
 
     def __matmul__(self, other):
-        raise _refused("@")
+        raise refused("@")
 
     __rmatmul__ = __imatmul__ = __matmul__
 
@@ -151,7 +152,7 @@ class Recorded(NDArrayOperatorsMixin):
     def __getattr__(self, name: str):
         if name.startswith("_"):
             raise AttributeError(name)
-        raise _refused(f".{name}")
+        raise refused(f".{name}")
 
 
 class Bits:
@@ -220,7 +221,7 @@ def where(test, yes, no) -> Recorded:
         test = np.asarray(test)
         return paired(np.where(test, yes.values, no.values), np.where(test, yes.nodes, no.nodes))
     yes, no = lift(yes), lift(no)
-    nodes = _each(_where, test.nodes, yes.nodes, no.nodes)
+    nodes = _each(select, test.nodes, yes.nodes, no.nodes)
     return paired(np.where(test.values, yes.values, no.values), nodes)
 
 
@@ -230,85 +231,25 @@ def most(*values):
     return reduce(lambda a, b: apply(np.maximum, "__call__", (a, b), (), {}), some)
 
 
-def _where(test: Node, yes: Node, no: Node) -> Node:
-    if yes.is_test:
-        return node("Or", node("And", test, yes), node("And", node("Not", test), no))
-    return node("Where", test, yes, no)
-
-
-def _sign(x: Node) -> Node:
-    """Of NaN, numpy's is NaN and this is 0: nothing asks for it."""
-    zero = number(0)
-    below = node("Where", node("Less", x, zero), number(-1), zero)
-    return node("Where", node("Less", zero, x), number(1), below)
-
-
-def _nextafter(x: Node, towards: Node) -> Node:
-    inf = node("Inf")
-    kinds = {inf: "Next", node("Neg", inf): "Prev"}
-    if towards not in kinds:
-        raise RefusedError("nextafter goes towards neither inf nor -inf")
-    return node(kinds[towards], x)
-
-
-def _made(kind: str) -> Callable[..., Node]:
-    return lambda *args: node(kind, *args)
-
-
-_NUMBERS: dict[str, Callable[..., Node]] = {
-    "add": _made("Add"),
-    "subtract": _made("Sub"),
-    "multiply": _made("Mul"),
-    "divide": _made("Div"),
-    "absolute": _made("Abs"),
-    "negative": _made("Neg"),
-    "maximum": _made("Max"),
-    "minimum": _made("Min"),
-    "floor": _made("Floor"),
-    "ceil": _made("Ceil"),
-    "copysign": _made("CopySign"),
-    "sign": _sign,
-    "nextafter": _nextafter,
-    "less": _made("Less"),
-    "less_equal": _made("LessEq"),
-    "greater": lambda a, b: node("Less", b, a),
-    "greater_equal": lambda a, b: node("LessEq", b, a),
-    "equal": _made("Same"),
-    "not_equal": lambda a, b: node("Not", node("Same", a, b)),
-    "isfinite": _made("Finite"),
-    "isnan": lambda a: node("Not", node("Same", a, a)),
-}
-_LOGIC: dict[str, Callable[..., Node]] = {
-    "bitwise_and": _made("And"),
-    "logical_and": _made("And"),
-    "bitwise_or": _made("Or"),
-    "logical_or": _made("Or"),
-    "invert": _made("Not"),
-    "logical_not": _made("Not"),
-}
-# In any order the same but for the sign of zero, so that numpy may choose it.
-_REDUCED = frozenset({"maximum", "minimum", "logical_and", "logical_or"})
-
-
 def apply(ufunc: np.ufunc, method: str, inputs, out, options: dict) -> Recorded:
     """Compute a ufunc of recorded and plain arrays, and record it."""
-    if method == "reduce" and ufunc.__name__ in _REDUCED:
+    if method == "reduce" and ufunc.__name__ in REDUCED:
         return _reduced(ufunc, *inputs, out=out, **options)
     name = ufunc.__name__
-    if method == "at" and name in _REDUCED:
+    if method == "at" and name in REDUCED:
         target, index, some = inputs
         for place, value in zip(index, lift(some), strict=True):
             target[place] = apply(ufunc, "__call__", (target[place], value), (), {})
         return target
-    if method != "__call__" or (name not in _NUMBERS and name not in _LOGIC):
-        raise _refused(name if method == "__call__" else f"{name}.{method}")
+    if method != "__call__" or (name not in NUMBERS and name not in LOGIC):
+        raise refused(name if method == "__call__" else f"{name}.{method}")
     if options:
         raise RefusedError(f"{name} is given {', '.join(options)}")
     lifted = [lift(v) for v in inputs]
-    if any((v.dtype == bool) != (name in _LOGIC) for v in lifted):
+    if any((v.dtype == bool) != (name in LOGIC) for v in lifted):
         raise RefusedError(f"{name} mixes numbers and tests")
     # Integers, which are pixels, are computed exactly, and so are floats of their size.
-    nodes = _each((_NUMBERS | _LOGIC)[name], *(v.nodes for v in lifted))
+    nodes = _each((NUMBERS | LOGIC)[name], *(v.nodes for v in lifted))
     result = paired(ufunc(*(v.values for v in lifted)), nodes)
     target = out[0] if isinstance(out, tuple) and out else None
     if target is None:
@@ -355,15 +296,3 @@ def _chosen(index):
 def _integral(values: NDArray) -> None:
     if not np.array_equal(values, np.floor(values)) or (np.abs(values) > 2**53).any():
         raise RefusedError("numbers that are not whole are made integers")
-
-
-def _refused(name: str) -> RefusedError:
-    why = {
-        "@": "numpy chooses the order of its sums, and may use fused operations",
-        "matmul": "numpy chooses the order of its sums, and may use fused operations",
-        "add.reduce": "numpy chooses the order of a sum: write it with +",
-        ".sum": "numpy chooses the order of a sum: write it with +",
-        ".mean": "numpy chooses the order of a sum: write it with +",
-        ".dot": "numpy chooses the order of its sums, and may use fused operations",
-    }.get(name, "proofs/Trees.v has no word for it")
-    return RefusedError(f"{name} of recorded numbers: {why}")
