@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from record_trees import RECORDED
@@ -33,7 +35,9 @@ def test_a_difference_is_told_in_words(found):
     every = [output for some in found.values() for output in some]
     other = coq.text(every).replace("(Num 3 (-51))", "(Num 3 (-52))", 1)
     [said] = coq.differences(other, every)
-    assert "bounds.FromPoint.edges: error" in said and "theorem concerned: from_point" in said
+    assert (
+        "bounds.FromPoint.edges: error" in said and "theorem concerned: Forms.from_point_e" in said
+    )
     assert "Num 3 (-52)" in said and "Num 3 (-51)" in said
     assert "recorded now is" in coq.differences(other.replace("Add", "Sub"), every)[0]
     [said] = coq.differences(coq.text(every[1:]), every)
@@ -66,6 +70,15 @@ def test_an_expression_is_worth_what_the_function_returns(record, found, rng):
         for output, value in again:
             assert output.name not in worth or same(value, worth[output.name][k])
     assert not seen
+
+
+def test_a_theorem_that_is_said_to_be_proven_is_there():
+    named = {theorem for record in RECORDS for theorem in record.theorems.values()}
+    for theorem in sorted(t for t in named if "." in t):
+        file, name = theorem.split(".")
+        text = (RECORDED.parent / f"{file}.v").read_text(encoding="utf-8")
+        proven = re.findall(r"^ *(?:Theorem|Corollary|Lemma) (\w+)", text, re.M)
+        assert name in proven, f"proofs/{file}.v has no theorem {name}"
 
 
 def samples(record, rng):

@@ -56,9 +56,12 @@ def _interval(v: Inputs) -> Kept:
 
 
 def _theorems(prefix: str) -> dict[str, str]:
-    edges = dict.fromkeys((f"{prefix}_{k}" for k in ("ab", "bc", "ca", "error")), f"{prefix}_edges")
-    names = (f"{prefix}_{k}" for k in ("T", "T_error", "D", "D_error"))
-    return edges | dict.fromkeys(names, f"{prefix}_fractions")
+    names = {"e": "ab bc ca error", "T": "T T_error", "D": "D D_error"}
+    return {
+        f"{prefix}_{name}": f"Forms.{prefix}_{of}"
+        for of, results in names.items()
+        for name in results.split()
+    }
 
 
 RECORDS = (
@@ -104,6 +107,6 @@ RECORDS = (
         "bounds.Fractions.interval",
         dict(T=5.0, ET=1e-15, D=2.0, ED=1e-15),
         _interval,
-        {"interval_low": "interval_encloses", "interval_high": "interval_encloses"},
+        {"interval_low": "Pairs.interval_right", "interval_high": "Pairs.interval_right"},
     ),
 )

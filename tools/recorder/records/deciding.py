@@ -81,7 +81,7 @@ RECORDS = (
         "contest.sides",
         _EDGES,
         _sides,
-        {"sides_possible": "sides_possible_right", "sides_sure": "sides_sure_right"},
+        {"sides_possible": "Pairs.sides_impossible_right", "sides_sure": "Pairs.sides_sure_right"},
     ),
     Record(
         "in_range",
