@@ -68,8 +68,8 @@ class Record:
 
     `values` are those of its variables that it is recorded with: they decide which way it goes.
     `theorems` has the Coq name of each result, and of the theorem about it: with its file, as in
-    Forms.plane_T, where it is proven, without one where that is still to be done. Of a variable that is
-    no number of any size, `domain` has some values.
+    Forms.plane_T, where it is proven, without one where that is still to be done. Of a variable
+    that is no number of any size, `domain` has some values.
     """
 
     name: str
