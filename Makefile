@@ -10,7 +10,7 @@ WORKERS := 3
 PYTEST := $(PYTHON_IN_VENV) -m pytest
 SHARED = -n $(WORKERS) --no-loadscope-reorder
 
-.PHONY: help demo check test test-browser test-gui torture bench docs lint extension clean
+.PHONY: help demo check test prove test-browser test-gui torture bench docs lint extension clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -30,6 +30,10 @@ test: lint extension ## run all tests, those in a browser and in a window too wh
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
 	$(PYTEST) $(SHARED) -rs -m "not torture"
+
+prove: .venv/.stamp ## have Coq read the proofs: two minutes; root installs it where it is not there
+	tools/coq.sh setup
+	$(PYTHON_IN_VENV) tools/prove.py
 
 test-browser: .venv/.stamp ## run the tests of the page in a headless Chromium; root installs it
 	tools/browser.sh setup

@@ -1,0 +1,102 @@
+"""Has Coq read the proofs, and says what it has read.
+
+    python tools/prove.py
+
+First proofs/Recorded.v is compared with what the tracer does now. Then every file of proofs/ is
+compiled, and proofs/Claims.v asks Coq for each theorem of the claim what it assumes. Nothing may be
+left out (`Admitted`), and nothing assumed but what Coq's real numbers rest on. tools/coq.sh installs
+Coq.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+PROOFS = Path(__file__).resolve().parents[1] / "proofs"
+# What Coq's library of real numbers, and Flocq on it, take for granted: classical logic, and that
+# functions that are equal everywhere are equal.
+AXIOMS = {
+    "ClassicalDedekindReals.sig_not_dec",
+    "ClassicalDedekindReals.sig_forall_dec",
+    "FunctionalExtensionality.functional_extensionality_dep",
+    "Classical_Prop.classic",
+}
+# What would let a theorem stand without its proof.
+HOLES = re.compile(
+    r"\b(Admitted|admit|give_up|Axioms?|Parameters?|Conjecture|Abort All|Unset\s+Guard\s+Checking"
+    r"|bypass_check|Unset\s+Universe\s+Checking|Unset\s+Positivity\s+Checking)\b"
+)
+_CLAIM = re.compile(r"\(\*\*\s*(.*?)\s*\*\)\s*Print Assumptions (\S+)\.", re.DOTALL)
+
+
+def without_comments(text: str) -> str:
+    """Return Coq's text without its comments, which may stand in one another."""
+    out, level = [], 0
+    for piece in re.split(r"(\(\*|\*\))", text):
+        level += (piece == "(*") - (piece == "*)")
+        if not level and piece != "*)":
+            out.append(piece)
+    return "".join(out)
+
+
+def holes(folder: Path = PROOFS) -> list[str]:
+    """Return where in the proofs something is left out or taken for granted."""
+    found = []
+    for path in sorted(folder.glob("*.v")):
+        for match in HOLES.finditer(without_comments(path.read_text(encoding="utf-8"))):
+            found.append(f"{path.name}: {match.group(1)}")
+    return found
+
+
+def claims() -> list[tuple[str, str]]:
+    """Return name and words of each theorem that is claimed."""
+    text = (PROOFS / "Claims.v").read_text(encoding="utf-8")
+    return [(name, " ".join(words.split())) for words, name in _CLAIM.findall(text)]
+
+
+def run(*command: str) -> str:
+    """Return what a command says; the whole program ends where it fails."""
+    done = subprocess.run(command, cwd=PROOFS, text=True, capture_output=True)
+    if done.returncode:
+        sys.exit(f"{done.stdout[-4000:]}{done.stderr[-4000:]}\n{' '.join(command)}: failed")
+    return done.stdout
+
+
+def main() -> None:
+    """Compare, compile, ask, and print."""
+    check = [sys.executable, str(PROOFS.parent / "tools/record_trees.py"), "--check"]
+    if changed := subprocess.run(check, text=True, capture_output=True).stderr:
+        sys.exit(f"{changed}\nThe theorems speak of other code than this. See docs/proof.md.")
+    listed = set((PROOFS / "_CoqProject").read_text(encoding="utf-8").split())
+    if missing := {path.name for path in PROOFS.glob("*.v")} - listed:
+        sys.exit(f"not in proofs/_CoqProject: {', '.join(sorted(missing))}")
+    if left_out := holes():
+        sys.exit("\n".join(["The proofs have holes:", *left_out]))
+    run("coq_makefile", "-f", "_CoqProject", "-o", "Makefile.coq")
+    run("make", "-f", "Makefile.coq", "-j2", "--no-print-directory")
+    said = run("coqc", "-Q", ".", "Reftrace", "Claims.v")
+    answers = re.split(r"^(?=Axioms:|Closed under)", said, flags=re.MULTILINE)[1:]
+    every = claims()
+    if len(answers) != len(every):
+        sys.exit(f"{len(every)} claims, but {len(answers)} answers")
+    assumed = set()
+    for (name, words), answer in zip(every, answers, strict=True):
+        assumed |= set(re.findall(r"^([A-Za-z_][\w.]*)\s*:", answer, flags=re.MULTILINE)) - {
+            "Axioms"
+        }
+        print(f"{name}\n    {words}")
+    if others := assumed - AXIOMS:
+        sys.exit(f"assumed beyond Coq's real numbers: {', '.join(sorted(others))}")
+    files = sorted(PROOFS.glob("*.v"))
+    lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in files)
+    print(
+        f"\n{len(every)} theorems of {len(files)} files, {lines:,} lines: read by Coq; 0 admitted."
+        f"\nThey assume what Coq's real numbers do: {', '.join(sorted(assumed))}"
+    )
+
+
+if __name__ == "__main__":
+    main()
