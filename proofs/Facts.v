@@ -60,7 +60,8 @@ Definition moved_sees (answer : option surface) : Prop :=
       t moved s < t moved s' \/ (same_plane s s' /\ before s s' = true)
   end.
 
-Record facts : Prop := {
+(** *** Of the stored ray, and what is computed for it *)
+Record ray_facts : Prop := {
   (** *** The scene *)
   names_differ : forall s s', In s scene -> In s' scene -> called s = called s' -> s = s';
   (* clip ends are float64 *)
@@ -94,21 +95,34 @@ Record facts : Prop := {
   hit_right : forall s, In s scene -> (hit a s = true <-> met s);
   on_edge_right : forall s, met s -> (on_edge a s = false <-> meets_within r s);
   gap_right : forall s s', met s -> met s' -> gap a s s' = Rcompare (t r s) (t r s');
-  (** *** Ties.v: [is_hit], [sign_of_difference], and that the moved ray is near *)
+  (** *** Integers.v and Quotient.v *)
+  t_right : forall s, met s -> computed_t a s = nearest_float (t r s)
+}.
+
+(** *** Ties.v: the signs of the rule are the moved ray's *)
+Record rule_facts : Prop := {
   is_hit_right : forall s, met s -> (is_hit a s = true <-> meets_within moved s);
   sign_right : forall s s', met s -> met s' -> meets_within moved s -> meets_within moved s' ->
     match sign_of_difference a s s' with
     | Lt => t moved s < t moved s'
     | Gt => t moved s' < t moved s
     | Eq => same_plane s s'
-    end;
+    end
+}.
+
+(** *** Nearby.v: the moved ray is near enough *)
+Record near_facts : Prop := {
   moved_stays_inside : forall s, met s -> meets_within r s -> meets_within moved s;
   moved_keeps_order : forall s s', met s -> met s' -> meets_within moved s ->
     meets_within moved s' -> t r s < t r s' -> t moved s < t moved s';
   moved_meets_no_more : forall s, In s scene -> meets_within moved s -> D r s <> 0 ->
-    meets_closed r s;
-  (** *** Integers.v and Quotient.v *)
-  t_right : forall s, met s -> computed_t a s = nearest_float (t r s)
+    meets_closed r s
+}.
+
+Record facts : Prop := {
+  of_ray :> ray_facts;
+  of_rule :> rule_facts;
+  of_near :> near_facts
 }.
 
 End Facts.
@@ -117,4 +131,7 @@ Arguments met : clear implicits.
 Arguments clearly_sees : clear implicits.
 Arguments moved_meets : clear implicits.
 Arguments moved_sees : clear implicits.
+Arguments ray_facts : clear implicits.
+Arguments rule_facts : clear implicits.
+Arguments near_facts : clear implicits.
 Arguments facts : clear implicits.

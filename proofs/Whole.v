@@ -1,5 +1,7 @@
 (** The whole: what [plain] says of a ray is true, in whatever batches it sees the scene.
 
+    Here the moved ray is one that is near enough; [Nearby.v] says the same of all that are.
+
     The words of the theorem are defined in [Facts.v], as are its premises; the model of the tracer
     is in [Contest.v]. Why it holds, in words: *)
 Require Import ZArith Reals Psatz List Bool Classical ClassicalDedekindReals.
@@ -106,7 +108,7 @@ Proof.
     (fun s => negb (is (meets_within r s))) (fun s => is (meets_within moved s))
     (fun s s' => Rcompare (t r s) (t r s')) (fun s s' => Rcompare (t moved s) (t moved s'))
     (fun s => nearest_float (t r s))).
-  constructor; simpl; auto; try easy.
+  split; constructor; simpl; auto; try easy.
   - intros s _. rewrite negb_false_iff. apply Is.
   - intros s s' Hs Hs' V V'. case Rcompare_spec; auto. now apply K.
   - intros s s' Hs Hs' V V'. now apply K.
