@@ -182,7 +182,7 @@ Proof.
     vsub, vscale; simpl; ring.
 Qed.
 (** The factors are positive, so every sign is that of the integers. A plane's normal has a power of
-    two of its own, M' below. *)
+    two of its own: k below. *)
 Lemma positive_sign k x : 0 < k -> (0 < k * x <-> 0 < x) /\ (k * x < 0 <-> x < 0) /\ (k * x = 0 <-> x = 0).
 Proof. intros H. repeat split; intros; nra. Qed.
 Lemma factor_pos : 0 < L * L * M.
@@ -253,114 +253,4 @@ Proof.
   all: try (assert (Q1 : (D1 < 0)%Z) by lia; apply IZR_lt in Q1).
   all: try (assert (Q2 : (D2 < 0)%Z) by lia; apply IZR_lt in Q2).
   all: try apply IZR_lt in P1; try apply IZR_lt in P2; nra.
-Qed.
-
-(** * The clip range *)
-
-(** [IntegerBatch._limit]; None is for an infinite value, which is no limit. *)
-Definition _limit (shift : Z) (value : option R) : option (Z * Z) :=
-  match value with
-  | None => None
-  | Some value =>
-      let mantissa := shifted [value] value in
-      let shift := (shift - snd (integers [value]))%Z in
-      Some (if (0 <=? shift)%Z then (mantissa, shift) else (Z.shiftl mantissa (- shift), 0%Z))
-  end.
-
-(** [IntegerBatch._seen]; [side] is 1 for the start, -1 for the end. *)
-Definition out_of (limit : option (Z * Z)) (side numerator denominator : Z) : bool :=
-  match limit with
-  | None => false
-  | Some (end_, shift) =>
-      (side * (Z.shiftl numerator shift - end_ * Z.abs denominator) <? 0)%Z
-  end.
-Definition _seen (start end_ : option (Z * Z)) (open : bool) (h : Hit) : option Hit :=
-  let denominator := denominator_ h in
-  if (denominator =? 0)%Z then None else
-  let numerator := (if 0 <? denominator then numerator_ h else - numerator_ h)%Z in
-  if ((numerator =? 0)%Z && open)%bool then None else
-  if (out_of start 1 numerator denominator || out_of end_ (-1) numerator denominator)%bool
-  then None else Some h.
-
-Lemma limit_exact shift value n s numerator denominator : is_float value ->
-  _limit shift (Some value) = Some (n, s) -> (0 < denominator)%Z ->
-  exists k, 0 < k /\ IZR (Z.shiftl numerator s - n * denominator) =
-    k * (IZR numerator / IZR denominator * bpow radix2 shift - value).
-Proof.
-  intros F H P. apply IZR_lt in P.
-  assert (V := integers_exact [value] value (or_introl eq_refl) F).
-  unfold _limit in H. set (m := shifted [value] value) in *. set (e := snd (integers [value])) in *.
-  clearbody m e. injection H as H. rewrite V.
-  destruct (Z.leb_spec 0 (shift - e)) as [S|S]; injection H as <- <-.
-  - exists (IZR denominator * bpow radix2 (- e)).
-    split; [apply Rmult_lt_0_compat; [lra | apply bpow_gt_0]|].
-    rewrite Z.shiftl_mul_pow2, minus_IZR, !mult_IZR, (IZR_Zpower radix2) by lia.
-    unfold Z.sub. rewrite bpow_plus, bpow_opp. generalize (bpow_gt_0 radix2 e). intros. field. lra.
-  - exists (IZR denominator * bpow radix2 (- shift)).
-    split; [apply Rmult_lt_0_compat; [lra | apply bpow_gt_0]|].
-    rewrite Z.shiftl_0_r, Z.shiftl_mul_pow2, minus_IZR, !mult_IZR, (IZR_Zpower radix2) by lia.
-    replace (- (shift - e))%Z with (e + - shift)%Z by lia.
-    rewrite bpow_plus, !bpow_opp. generalize (bpow_gt_0 radix2 shift). intros. field. lra.
-Qed.
-
-(** A hit is seen where t exists and start <= t <= end, with t = T / D 2^shift exactly; but for t = 0
-    where [open]. *)
-Definition t_exact (shift : Z) (h : Hit) : R := ratio h * bpow radix2 shift.
-Definition within (P : R -> Prop) (value : option R) : Prop :=
-  match value with None => True | Some value => is_float value -> P value end.
-Lemma out_exact shift value side h : (side = 1 \/ side = -1)%Z -> denominator_ h <> 0%Z ->
-  match value with None => True | Some v => is_float v end ->
-  let numerator := (if 0 <? denominator_ h then numerator_ h else - numerator_ h)%Z in
-  out_of (_limit shift value) side numerator (denominator_ h) = false <->
-  match value with None => True | Some v => 0 <= IZR side * (t_exact shift h - v) end.
-Proof.
-  intros Hside D F numerator. destruct value as [v|]; [| simpl; tauto].
-  destruct (_limit shift (Some v)) as [[n s]|] eqn:E; [| discriminate].
-  assert (P : (0 < Z.abs (denominator_ h))%Z) by lia.
-  destruct (limit_exact shift v n s numerator _ F E P) as (k & K & Q).
-  assert (T : IZR numerator / IZR (Z.abs (denominator_ h)) = ratio h).
-  { unfold numerator, ratio. apply not_0_IZR in D. destruct (Z.ltb_spec 0 (denominator_ h)).
-    - now rewrite Z.abs_eq by lia.
-    - rewrite Z.abs_neq, !opp_IZR by lia. field. exact D. }
-  rewrite T in Q. fold (t_exact shift h) in Q. unfold out_of.
-  rewrite Z.ltb_ge. set (w := (Z.shiftl numerator s - n * Z.abs (denominator_ h))%Z) in *.
-  destruct Hside as [-> | ->]; split; intros H.
-  - assert (0 <= IZR w) by (apply IZR_le; lia). nra.
-  - assert (0 <= IZR w) by nra. apply le_IZR in H0. lia.
-  - assert (IZR w <= 0) by (apply IZR_le; lia). nra.
-  - assert (IZR w <= 0) by nra. apply le_IZR in H0. lia.
-Qed.
-Theorem seen_exact shift start end_ open h :
-  match start with None => True | Some v => is_float v end ->
-  match end_ with None => True | Some v => is_float v end ->
-  _seen (_limit shift start) (_limit shift end_) open h = Some h <->
-  denominator_ h <> 0%Z /\ (open = true -> t_exact shift h <> 0) /\
-  match start with None => True | Some v => v <= t_exact shift h end /\
-  match end_ with None => True | Some v => t_exact shift h <= v end.
-Proof.
-  intros F1 F2. unfold _seen. destruct (Z.eqb_spec (denominator_ h) 0) as [E|D].
-  { split; [discriminate | tauto]. }
-  assert (S1 := out_exact shift start 1 h (or_introl eq_refl) D F1).
-  assert (S2 := out_exact shift end_ (-1) h (or_intror eq_refl) D F2). simpl in S1, S2.
-  set (n := (if 0 <? denominator_ h then numerator_ h else - numerator_ h)%Z) in *.
-  assert (Z0 : n = 0%Z <-> t_exact shift h = 0).
-  { unfold t_exact, ratio. apply not_0_IZR in D. generalize (bpow_gt_0 radix2 shift). intros B.
-    assert (n = 0%Z <-> numerator_ h = 0%Z) as -> by (unfold n; destruct (0 <? denominator_ h)%Z; lia).
-    split; [intros ->; field; exact D|]. intros H. apply eq_IZR.
-    apply Rmult_integral in H. destruct H as [H|H]; [|lra].
-    apply Rmult_integral in H. destruct H as [H|H]; [exact H|].
-    now apply Rinv_neq_0_compat in D. }
-  destruct (Z.eqb_spec n 0) as [N|N]; simpl.
-  - destruct open; simpl.
-    { split; [discriminate|]. intros (_ & H & _). tauto. }
-    rewrite N in *. destruct (out_of (_limit shift start) 1 0 (denominator_ h)),
-      (out_of (_limit shift end_) (-1) 0 (denominator_ h)); simpl;
-    (split; [try discriminate; intros _ | intros (_ & _ & A & B)]);
-    destruct start, end_; try reflexivity; repeat split; try discriminate; try tauto;
-    try (destruct S1, S2; intuition lra).
-  - destruct (out_of (_limit shift start) 1 n (denominator_ h)),
-      (out_of (_limit shift end_) (-1) n (denominator_ h)); simpl;
-    (split; [try discriminate; intros _ | intros (_ & _ & A & B)]);
-    destruct start, end_; try reflexivity; repeat split; try discriminate; try tauto;
-    try (destruct S1, S2; intuition lra).
 Qed.

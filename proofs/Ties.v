@@ -1,137 +1,12 @@
 (** The rule for ties is one real ray, moved as little as need be. See "Ties" in docs/accuracy.md.
 
-    "For an infinitesimal x" means: for all x > 0 that are small enough; here [small]. *)
+    "For an infinitesimal x" means: for all x > 0 that are small enough. That is [small],
+    in Small.v; [small2] is for x, and then for all y small enough for that x. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core.
-From Reftrace Require Import Geometry Trees Integers.
+From Reftrace Require Import Geometry Trees Small Integers.
 Import ListNotations.
 Open Scope R_scope.
-
-Definition small (P : R -> Prop) : Prop := exists x0, 0 < x0 /\ forall x, 0 < x < x0 -> P x.
-
-Lemma small_mono (P Q : R -> Prop) : (forall x, 0 < x -> P x -> Q x) -> small P -> small Q.
-Proof. intros H (e & E & S). exists e. split; [exact E|]. intros x X. apply H; [lra | now apply S]. Qed.
-Lemma small_always (P : R -> Prop) : (forall x, 0 < x -> P x) -> small P.
-Proof. intros H. exists 1. split; [lra|]. intros; apply H; lra. Qed.
-Lemma small_and (P Q : R -> Prop) : small P -> small Q -> small (fun x => P x /\ Q x).
-Proof.
-  intros (e & E & S) (f & F & U). exists (Rmin e f). split; [now apply Rmin_pos|].
-  intros x X. assert (A := Rmin_l e f). assert (B := Rmin_r e f). split; [apply S | apply U]; lra.
-Qed.
-(** One x0 does for any finite family: of edges, of triangles, of pairs of hits. *)
-Theorem small_family {A} (P : A -> R -> Prop) l :
-  (forall a, In a l -> small (P a)) -> small (fun x => forall a, In a l -> P a x).
-Proof.
-  induction l as [|a l IH]; intros H; [apply small_always; easy|].
-  eapply small_mono; [| exact (small_and _ _ (H a (or_introl eq_refl)) (IH (fun b I => H b (or_intror I))))].
-  intros x _ [P1 P2] b [<-|I]; auto.
-Qed.
-Theorem small_exists P : small P -> exists x, 0 < x /\ P x.
-Proof. intros (e & E & S). exists (e / 2). split; [lra | apply S; lra]. Qed.
-(** First x, then y: infinitely less. *)
-Definition small2 (P : R -> R -> Prop) : Prop := small (fun x => small (P x)).
-Lemma small2_mono (P Q : R -> R -> Prop) : (forall x y, 0 < x -> 0 < y -> P x y -> Q x y) -> small2 P -> small2 Q.
-Proof. intros H. apply small_mono. intros x X. apply small_mono. intros y Y. now apply H. Qed.
-Lemma small2_always (P : R -> R -> Prop) : (forall x y, 0 < x -> 0 < y -> P x y) -> small2 P.
-Proof. intros H. apply small_always. intros x X. apply small_always. auto. Qed.
-Lemma small2_and P Q : small2 P -> small2 Q -> small2 (fun x y => P x y /\ Q x y).
-Proof.
-  intros H K. eapply small_mono; [| exact (small_and _ _ H K)]. intros x _ [A B]. now apply small_and.
-Qed.
-Theorem small2_family {A} (P : A -> R -> R -> Prop) l :
-  (forall a, In a l -> small2 (P a)) -> small2 (fun x y => forall a, In a l -> P a x y).
-Proof.
-  intros H. eapply small_mono; [| apply (small_family (fun a x => small (P a x)) l H)].
-  intros x _ K. now apply small_family.
-Qed.
-Theorem small2_exists P : small2 P -> exists x y, 0 < x /\ 0 < y /\ P x y.
-Proof.
-  intros H. apply small_exists in H. destruct H as (x & X & H). apply small_exists in H.
-  destruct H as (y & Y & H). eauto.
-Qed.
-
-(** * Signs of polynomials *)
-
-Definition sgn (x : R) : Z := match Rcompare x 0 with Gt => 1 | Lt => -1 | Eq => 0 end.
-Lemma sgn_pos x : sgn x = 1%Z <-> 0 < x.
-Proof. unfold sgn. destruct (Rcompare_spec x 0); split; intros; try easy; lra. Qed.
-Lemma sgn_neg x : sgn x = (-1)%Z <-> x < 0.
-Proof. unfold sgn. destruct (Rcompare_spec x 0); split; intros; try easy; lra. Qed.
-Lemma sgn_0 x : sgn x = 0%Z <-> x = 0.
-Proof. unfold sgn. destruct (Rcompare_spec x 0); split; intros; try easy; lra. Qed.
-Lemma sgn_cases x : (sgn x = 1%Z /\ 0 < x) \/ (sgn x = (-1)%Z /\ x < 0) \/ (sgn x = 0%Z /\ x = 0).
-Proof. unfold sgn. destruct (Rcompare_spec x 0); auto. Qed.
-Lemma sgn_IZR n : sgn (IZR n) = Z.sgn n.
-Proof. unfold sgn. rewrite Rcompare_IZR. now destruct n. Qed.
-Lemma sgn_same x y : (0 < x <-> 0 < y) -> (x < 0 <-> y < 0) -> sgn x = sgn y.
-Proof. intros H K. destruct (sgn_cases x) as [[-> X]|[[-> X]|[-> X]]], (sgn_cases y) as [[-> Y]|[[-> Y]|[-> Y]]]; auto; exfalso; intuition lra. Qed.
-Lemma sgn_scale k x : 0 < k -> sgn (k * x) = sgn x.
-Proof. intros K. apply sgn_same; split; intros; nra. Qed.
-Lemma sgn_opp x : sgn (- x) = (- sgn x)%Z.
-Proof. destruct (sgn_cases x) as [[-> X]|[[-> X]|[-> X]]]; [apply sgn_neg | apply sgn_pos | apply sgn_0]; lra. Qed.
-
-(** c0 + c1 x + c2 x^2 + ..., and the first coefficient that is not zero (0 if all are). *)
-Fixpoint poly (cs : list R) (x : R) : R := match cs with [] => 0 | c :: cs => c + x * poly cs x end.
-Fixpoint first (cs : list R) : R :=
-  match cs with [] => 0 | c :: cs => if Req_bool c 0 then first cs else c end.
-Lemma first_0 c cs : first (c :: cs) = 0 <-> c = 0 /\ first cs = 0.
-Proof. simpl. destruct (Req_bool_spec c 0); intuition lra. Qed.
-Lemma first_all cs : first cs = 0 <-> forall c, In c cs -> c = 0.
-Proof.
-  induction cs as [|c cs IH]; [simpl; tauto|]. rewrite first_0, IH. simpl.
-  split; [intros [H K] b [<-|I]; auto | intros H; split; auto].
-Qed.
-Lemma first_app cs ds : first (cs ++ ds) = if Req_bool (first cs) 0 then first ds else first cs.
-Proof.
-  induction cs as [|c cs IH]; simpl; [now rewrite Req_bool_true|].
-  destruct (Req_bool_spec c 0) as [->|N]; [exact IH | now rewrite Req_bool_false].
-Qed.
-Lemma poly_zero cs x : first cs = 0 -> poly cs x = 0.
-Proof. induction cs as [|c cs IH]; [easy|]. rewrite first_0. intros [-> H]. simpl. rewrite IH; lra. Qed.
-Lemma poly_bound cs : exists b, 0 < b /\ forall x, 0 < x < 1 -> Rabs (poly cs x) <= b.
-Proof.
-  induction cs as [|c cs (b & B & H)]; simpl.
-  - exists 1. split; [lra|]. intros. rewrite Rabs_R0. lra.
-  - exists (Rabs c + b). split; [generalize (Rabs_pos c); lra|]. intros x X.
-    eapply Rle_trans; [apply Rabs_triang|]. rewrite Rabs_mult, (Rabs_right x) by lra.
-    specialize (H x X). assert (P := Rabs_pos (poly cs x)). nra.
-Qed.
-Theorem sign_of_poly cs : small (fun x => sgn (poly cs x) = sgn (first cs)).
-Proof.
-  induction cs as [|c cs IH]; [now apply small_always|]. simpl.
-  destruct (Req_bool_spec c 0) as [->|N].
-  - revert IH. apply small_mono. intros x X <-. rewrite Rplus_0_l. now apply sgn_scale.
-  - destruct (poly_bound cs) as (b & B & H).
-    assert (C : 0 < Rabs c) by now apply Rabs_pos_lt.
-    exists (Rmin 1 (Rabs c / b)). split; [apply Rmin_pos; [lra | now apply Rdiv_lt_0_compat]|].
-    intros x X. assert (M1 := Rmin_l 1 (Rabs c / b)). assert (M2 := Rmin_r 1 (Rabs c / b)).
-    assert (K : x * b < Rabs c).
-    { apply Rlt_le_trans with (Rabs c / b * b); [apply Rmult_lt_compat_r; lra|].
-      right. field. lra. }
-    assert (P : Rabs (poly cs x) <= b) by (apply H; lra).
-    assert (Q : Rabs (x * poly cs x) < Rabs c).
-    { rewrite Rabs_mult, (Rabs_right x) by lra. nra. }
-    clear - Q. apply sgn_same; revert Q; unfold Rabs;
-      destruct (Rcase_abs c), (Rcase_abs (x * poly cs x)); split; intros; lra.
-Qed.
-(** For the rule's own direction: c0 + c1 x + c2 x^2 + c3 x^3. *)
-Corollary sign_of_cubic c0 c1 c2 c3 : exists x0, 0 < x0 /\ forall x, 0 < x < x0 ->
-  sgn (c0 + c1 * x + c2 * x ^ 2 + c3 * x ^ 3) = sgn (first [c0; c1; c2; c3]).
-Proof.
-  destruct (sign_of_poly [c0; c1; c2; c3]) as (e & E & S). exists e. split; [exact E|].
-  intros x X. rewrite <- (S x X). f_equal. simpl. ring.
-Qed.
-(** A polynomial in y with coefficients that are polynomials in x: the first of all, row by row. *)
-Lemma sign_of_rows rows :
-  small (fun x => sgn (first (map (fun cs => poly cs x) rows)) = sgn (first (concat rows))).
-Proof.
-  induction rows as [|cs rows IH]; [now apply small_always|].
-  eapply small_mono; [| exact (small_and _ _ IH (sign_of_poly cs))].
-  intros x _ [H K]. simpl. rewrite first_app. destruct (Req_bool_spec (first cs) 0) as [Z|N].
-  - now rewrite Req_bool_true by now apply poly_zero.
-  - rewrite Req_bool_false; [exact K|]. intros E. rewrite E in K.
-    assert (sgn (first cs) = 0%Z) by (rewrite <- K; now apply sgn_0). now apply sgn_0 in H0.
-Qed.
 
 (** * The moved ray *)
 
@@ -151,6 +26,11 @@ Proof.
   unfold moved, moved_direction, vadd, vscale; simpl. f_equal; apply V_eq; ring.
 Qed.
 
+(** One way, as ties.py tries them: d + x u and o + y u. *)
+Lemma moved_way u r x y : moved [u] r x y =
+  Ray (vadd (origin r) (vscale y u)) (vadd (direction r) (vscale x u)).
+Proof. unfold moved, moved_direction, vadd, vscale; simpl. f_equal; apply V_eq; ring. Qed.
+
 Lemma dot_path moves m x : dot (path moves x) m = poly (map (fun u => dot u m) moves) x.
 Proof.
   induction moves as [|u moves IH]; simpl; [unfold dot; simpl; ring|].
@@ -159,6 +39,16 @@ Qed.
 Lemma dot_moved d moves m x :
   dot (moved_direction d moves x) m = poly (dot d m :: map (fun u => dot u m) moves) x.
 Proof. simpl. rewrite <- dot_path. unfold moved_direction, dot, vadd, vscale; simpl; ring. Qed.
+
+(** The direction alone, along (x, x^2, x^3): the first of e, m_x, m_y, m_z that is not zero. *)
+Theorem direction_rule r a b :
+  let m := cross (vsub a (origin r)) (vsub b (origin r)) in
+  small (fun x => sgn (edge (Ray (origin r) (vadd (direction r) (V x (x ^ 2) (x ^ 3)))) a b) =
+                  sgn (first [edge r a b; vx m; vy m; vz m])).
+Proof.
+  intros m. eapply small_mono; [| apply sign_of_cubic]. intros x _ <-. f_equal.
+  rewrite !edge_other. unfold m, dot, cross, vadd, vsub; simpl; ring.
+Qed.
 
 (** What depends on how the ray is moved: m on its direction, span on its origin. *)
 Definition turned (d m span : vec) (moves : list vec) (x y : R) : R :=
@@ -299,52 +189,89 @@ Proof.
   apply Rmult_integral in P, Q, S. f_equal; tauto.
 Qed.
 
-Theorem sign_is_of_moved_ray m span d moves : _dot m span = 0%Z ->
-  small2 (fun x y => sgn (turned (real d) (real m) (real span) (map real moves) x y) =
-                     _sign (_dot d m) m span d moves).
+(** The coefficients in the order of their weight, for real numbers: d . m, m's along the moves; and
+    where m is 0, row by row, what the move of the origin adds. *)
+Definition is_null m := (Req_bool (vx m) 0 && Req_bool (vy m) 0 && Req_bool (vz m) 0)%bool.
+Lemma is_null_spec m : is_null m = true <-> m = V 0 0 0.
 Proof.
-  intros P. rewrite sign_is_first, app_comm_cons, zfirst_app.
-  set (cs := dot (real d) (real m) :: map (fun u => dot u (real m)) (map real moves)).
-  assert (E : first cs = IZR (zfirst (_dot d m :: map (_dot m) moves))).
-  { rewrite <- first_IZR. unfold cs. cbn [map]. rewrite real_dot. f_equal. f_equal.
-    rewrite !map_map. apply map_ext. intros u. rewrite real_dot. unfold dot. ring. }
-  set (v := zfirst _) in *. unfold turned. destruct (Z.eqb_spec v 0) as [V|N].
+  destruct m as [x y z]. unfold is_null; simpl.
+  destruct (Req_bool_spec x 0), (Req_bool_spec y 0), (Req_bool_spec z 0); simpl;
+    split; try discriminate; try (intros [= -> -> ->]; tauto); now subst.
+Qed.
+Definition real_rows span alongs moves :=
+  map (fun u => map (fun along => dot (cross span along) u) alongs) moves.
+Definition coefficients d m span moves : list R :=
+  (dot d m :: map (fun u => dot u m) moves) ++
+  if is_null m then concat (real_rows span (d :: moves) moves) else [].
+Theorem sign_of_turned d m span moves : dot m span = 0 ->
+  small2 (fun x y => sgn (turned d m span moves x y) = sgn (first (coefficients d m span moves))).
+Proof.
+  intros P. unfold coefficients. rewrite first_app.
+  set (cs := dot d m :: map (fun u => dot u m) moves). unfold turned.
+  destruct (Req_bool_spec (first cs) 0) as [V|N].
   - (* the direction decides nothing *)
-    rewrite V in E. assert (A := proj1 (first_all cs) E).
-    assert (Z : forall x, dot (moved_direction (real d) (map real moves) x) (real m) = 0).
+    assert (Z : forall x, dot (moved_direction d moves x) m = 0).
     { intros x. rewrite dot_moved. now apply poly_zero. }
-    destruct (is_zero m) eqn:M.
+    destruct (is_null m) eqn:M.
     + (* the origin is moved off the edge's line *)
-      set (rs := map (fun u => map (fun along => dot (cross (real span) along) u) (real d :: map real moves)) (map real moves)).
-      assert (F : first (concat rs) = IZR (zfirst (concat (rows span (d :: moves) moves)))).
-      { rewrite <- first_IZR, concat_map. f_equal. f_equal. unfold rs, rows. rewrite !map_map.
-        apply map_ext. intros u. change (real d :: map real moves) with (map real (d :: moves)).
-        rewrite !map_map. apply map_ext. intros a. now rewrite real_dot, real_cross. }
-      rewrite <- sgn_IZR, <- F. eapply small_mono; [| apply (sign_of_rows rs)].
-      intros x X <-. unfold rs. rewrite map_map.
+      set (rs := real_rows span (d :: moves) moves).
+      eapply small_mono; [| apply (sign_of_rows rs)].
+      intros x X <-. unfold rs, real_rows. rewrite map_map.
       eapply small_mono; [| apply sign_of_poly]. intros y Y H.
       rewrite Z, Rplus_0_l, sgn_scale, dot_path by exact Y.
-      transitivity (sgn (poly (map (fun u => poly (map (fun along => dot (cross (real span) along) u)
-        (real d :: map real moves)) x) (map real moves)) y)); [|exact H].
-      f_equal. f_equal. apply map_ext. intros u.
-      transitivity (dot (moved_direction (real d) (map real moves) x) (cross u (real span))).
+      etransitivity; [|exact H]. f_equal. f_equal. apply map_ext. intros u.
+      transitivity (dot (moved_direction d moves x) (cross u span)).
       { unfold dot, cross; simpl; ring. }
       rewrite dot_moved. simpl. f_equal; [unfold dot, cross; simpl; ring|]. f_equal. f_equal.
       apply map_ext. intros a. unfold dot, cross; simpl; ring.
-    + (* the line that is seen edge-on is moved along itself *)
-      simpl. apply small2_always. intros x y X Y. apply sgn_0. rewrite Z, Rplus_0_l.
-      rewrite (one_plane (path (map real moves) y) (real span) _ (real m)); [ring| | |apply Z|].
-      * rewrite dot_path. apply poly_zero. now apply first_0 in E.
-      * apply (f_equal IZR) in P. rewrite real_dot in P. rewrite <- P. unfold dot. ring.
-      * intros M'. assert (is_zero m = true); [|congruence]. apply is_zero_spec.
-        destruct m as [a b c]. injection M' as Ha Hb Hc. apply eq_IZR in Ha, Hb, Hc.
-        now subst.
+    + (* a line that is not seen end-on is moved along itself *)
+      apply small2_always. intros x y X Y. apply (f_equal sgn). rewrite Z, Rplus_0_l.
+      rewrite (one_plane (path moves y) span _ m); [simpl; ring| | |apply Z|].
+      * rewrite dot_path. apply poly_zero. now apply first_0 in V.
+      * rewrite <- P. unfold dot. ring.
+      * intros M'. apply is_null_spec in M'. congruence.
   - (* the direction decides *)
-    eapply small_mono; [| apply (sign_of_poly cs)]. intros x X S. rewrite E, sgn_IZR in S.
-    unfold cs in S. rewrite <- dot_moved in S.
-    set (c := dot (moved_direction _ _ _) (real m)) in *.
-    eapply small_mono; [| apply (sign_of_poly (c :: map (fun u => dot u (cross (real span)
-      (moved_direction (real d) (map real moves) x))) (map real moves)))].
+    eapply small_mono; [| apply (sign_of_poly cs)]. intros x X S.
+    unfold cs in S at 1. rewrite <- dot_moved in S. set (c := dot (moved_direction _ _ _) m) in *.
+    eapply small_mono; [| apply (sign_of_poly (c :: map (fun u => dot u (cross span (moved_direction d moves x))) moves))].
     intros y Y H. rewrite dot_path. simpl in H. rewrite Req_bool_false in H; [now rewrite H|].
-    intros C. rewrite C in S. replace (sgn 0) with 0%Z in S by (symmetry; now apply sgn_0). lia.
+    intros C. apply N, sgn_0. rewrite <- S. now apply sgn_0.
+Qed.
+
+(** The code's list has their signs, whatever power of two each vector is scaled by (Integers.v). *)
+Definition like (x : R) (n : Z) := exists k, 0 < k /\ x = k * IZR n.
+Lemma first_like l k : Forall2 like l k -> sgn (first l) = Z.sgn (zfirst k).
+Proof.
+  induction 1 as [|x n l k (f & F & ->) _ IH]; simpl; [now apply sgn_0|].
+  destruct (Z.eqb_spec n 0) as [->|N].
+  - now rewrite Rmult_0_r, Req_bool_true.
+  - apply not_0_IZR in N. rewrite Req_bool_false, sgn_scale, sgn_IZR; auto.
+    apply Rmult_integral_contrapositive_currified; lra.
+Qed.
+Lemma like_map {A} (f : A -> R) (g : A -> Z) l : (forall a, like (f a) (g a)) -> Forall2 like (map f l) (map g l).
+Proof. intros H. induction l; simpl; constructor; auto. Qed.
+Theorem sign_is_of_moved_ray m span d moves a b c : _dot m span = 0%Z -> 0 < a -> 0 < b -> 0 < c ->
+  small2 (fun x y =>
+    sgn (turned (vscale a (real d)) (vscale b (real m)) (vscale c (real span)) (map real moves) x y) =
+    _sign (_dot d m) m span d moves).
+Proof.
+  intros P A B C. eapply small2_mono; [| apply sign_of_turned].
+  - intros x y _ _ ->. rewrite sign_is_first, app_comm_cons. apply first_like. unfold coefficients.
+    assert (Z : is_null (vscale b (real m)) = is_zero m).
+    { apply eq_iff_eq_true. rewrite is_null_spec, is_zero_spec. split.
+      - destruct m as [u v w]. unfold vscale, real; simpl. intros [= U V W].
+        unfold ZERO. f_equal; apply eq_IZR; nra.
+      - intros ->. unfold vscale, real; simpl. apply V_eq; ring. }
+    rewrite Z. apply Forall2_app; [constructor|].
+    + exists (a * b). split; [nra|]. rewrite real_dot. unfold dot, vscale; simpl; ring.
+    + rewrite map_map. apply like_map. intros u. exists b. split; [exact B|].
+      rewrite real_dot. unfold dot, vscale; simpl; ring.
+    + destruct (is_zero m); [|constructor]. unfold real_rows, rows. rewrite map_map.
+      induction moves as [|u us IH] at 2 4; [constructor|].
+      cbn [map concat app]. rewrite !app_comm_cons. apply Forall2_app; [|exact IH].
+      constructor; [|rewrite map_map; apply like_map; intros e].
+      * exists (c * a). split; [nra|]. rewrite real_dot, real_cross. unfold dot, cross, vscale; simpl; ring.
+      * exists c. split; [exact C|]. rewrite real_dot, real_cross. unfold dot, cross, vscale; simpl; ring.
+  - apply (f_equal IZR) in P. rewrite real_dot in P.
+    transitivity (b * c * dot (real m) (real span)); [unfold dot, vscale; simpl; ring|]. rewrite P. ring.
 Qed.

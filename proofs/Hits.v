@@ -1,7 +1,7 @@
 (** What the rule says of hits: [is_hit] and [sign_of_difference] are those of the moved ray. *)
 Require Import ZArith Reals Psatz List Bool.
 From Flocq Require Import Core.
-From Reftrace Require Import Geometry Trees Integers Ties.
+From Reftrace Require Import Geometry Trees Small Integers Ties.
 Import ListNotations.
 Open Scope R_scope.
 
@@ -12,15 +12,32 @@ Definition edge_sign (moves : list Integers) (o d a b : Integers) : Z :=
   let a := _sub a o in let b := _sub b o in
   _sign (_dot d (_cross a b)) (_cross a b) (_sub a b) d moves.
 Notation moved_ray moves o d x y := (moved (map real moves) (real_ray o d) x y).
+Lemma vscale_1 v : vscale 1 v = v.
+Proof. destruct v. unfold vscale; simpl. apply V_eq; ring. Qed.
 
-(** It is the sign of the edge function of the moved ray, for any list of moves. *)
+(** It is the sign of the edge function of the moved ray, for any list of moves: with the stored floats,
+    which are the integers times one L for lengths and one M for directions, and so with 1 and 1. *)
+Section Stored.
+Variables L M : R.
+Hypothesis L_pos : 0 < L.
+Hypothesis M_pos : 0 < M.
+Definition stored_ray o d := Ray (vscale L (real o)) (vscale M (real d)).
+Theorem edge_rule_stored moves o d a b : small2 (fun x y =>
+  sgn (edge (moved (map real moves) (stored_ray o d) x y) (vscale L (real a)) (vscale L (real b))) =
+  edge_sign moves o d a b).
+Proof.
+  unfold edge_sign.
+  eapply small2_mono; [| apply (sign_is_of_moved_ray (_cross (_sub a o) (_sub b o))
+    (_sub (_sub a o) (_sub b o)) d moves M (L * L) L); [unfold _dot, _cross, _sub; cbn [ix iy iz]; ring | | |]; nra].
+  intros x y _ _ <-. rewrite edge_moved. f_equal. unfold stored_ray; cbn [origin direction].
+  rewrite !real_cross, !real_sub. f_equal; unfold vsub, cross, vscale; simpl; apply V_eq; ring.
+Qed.
+End Stored.
 Theorem edge_rule moves o d a b : small2 (fun x y =>
   sgn (edge (moved_ray moves o d x y) (real a) (real b)) = edge_sign moves o d a b).
 Proof.
-  unfold edge_sign. eapply small2_mono; [| apply (sign_is_of_moved_ray (_cross (_sub a o) (_sub b o))
-    (_sub (_sub a o) (_sub b o)) d moves); unfold _dot, _cross, _sub; cbn [ix iy iz]; ring].
-  intros x y _ _ <-. rewrite edge_moved. f_equal. unfold real_ray; simpl.
-  rewrite !real_cross, !real_sub. f_equal. unfold vsub; simpl. apply V_eq; ring.
+  assert (H := edge_rule_stored 1 1 Rlt_0_1 Rlt_0_1 moves o d a b). unfold stored_ray in H.
+  now rewrite !vscale_1 in H.
 Qed.
 
 (** Seen from the other triangle at the edge, it is the other sign: *)
@@ -108,13 +125,21 @@ Proof.
   unfold is_hit, on_edge. cbn [edges sides spans direction_ combine map]. reflexivity.
 Qed.
 (** The rule's answer is the moved ray's: it passes inside the triangle. *)
+Theorem met_rule_stored L M moves o d a b c : 0 < L -> 0 < M -> small2 (fun x y =>
+  meets_inside (moved (map real moves) (stored_ray L M o d) x y)
+    (Triangle (vscale L (real a)) (vscale L (real b)) (vscale L (real c))) <->
+  met moves o d a b c = true).
+Proof.
+  intros HL HM. eapply small2_mono; [| exact (small2_and _ _ (edge_rule_stored L M HL HM moves o d a b)
+    (small2_and _ _ (edge_rule_stored L M HL HM moves o d b c) (edge_rule_stored L M HL HM moves o d c a)))].
+  intros x y _ _ (A & B & C). rewrite met_signs. cbv zeta. rewrite <- A, <- B, <- C.
+  unfold meets_inside. cbn [ca cb cc]. now rewrite !sgn_pos, !sgn_neg.
+Qed.
 Theorem met_rule moves o d a b c : small2 (fun x y =>
   meets_inside (moved_ray moves o d x y) (real_triangle a b c) <-> met moves o d a b c = true).
 Proof.
-  eapply small2_mono; [| exact (small2_and _ _ (edge_rule moves o d a b)
-    (small2_and _ _ (edge_rule moves o d b c) (edge_rule moves o d c a)))].
-  intros x y _ _ (A & B & C). rewrite met_signs. cbv zeta. rewrite <- A, <- B, <- C.
-  unfold meets_inside. cbn [ca cb cc real_triangle]. now rewrite !sgn_pos, !sgn_neg.
+  assert (H := met_rule_stored 1 1 moves o d a b c Rlt_0_1 Rlt_0_1). unfold stored_ray in H.
+  now rewrite !vscale_1 in H.
 Qed.
 (** One moved ray for all: whatever is proven of one real ray in general position holds of the rule. *)
 Definition rule_is moves o d (s : Integers * Integers * Integers) (x y : R) : Prop :=
@@ -160,13 +185,17 @@ Proof.
   destruct (sgn_cases x) as [[-> X]|[[-> X]|[-> X]]], (sgn_cases y) as [[-> Y]|[[-> Y]|[-> Y]]];
     simpl; ((apply sgn_pos; nra) || (apply sgn_neg; nra) || (apply sgn_0; nra)).
 Qed.
-Lemma moved_denominator moves o d n : _dot d n <> 0%Z ->
-  small2 (fun x y => sgn (D_of (moved_ray moves o d x y) (real n)) = Z.sgn (_dot d n)).
+Lemma moved_denominator L M k moves o d n : 0 < M -> 0 < k -> _dot d n <> 0%Z ->
+  small2 (fun x y => sgn (D_of (moved (map real moves) (stored_ray L M o d) x y) (vscale k (real n))) =
+                     Z.sgn (_dot d n)).
 Proof.
-  intros N. unfold D_of, moved. cbn [direction real_ray].
+  intros HM K N. unfold D_of, moved, stored_ray. cbn [direction].
   eapply small_mono; [| apply sign_of_poly]. intros x _ H.
   apply small_always. intros y _. rewrite dot_moved, H. cbn [first].
-  rewrite <- real_dot. rewrite Req_bool_false by now apply not_0_IZR. apply sgn_IZR.
+  replace (dot (vscale M (real d)) (vscale k (real n))) with (M * k * IZR (_dot d n))
+    by (rewrite real_dot; unfold dot, vscale; simpl; ring).
+  apply not_0_IZR in N. rewrite Req_bool_false, sgn_scale; [apply sgn_IZR | nra|].
+  apply Rmult_integral_contrapositive_currified; nra.
 Qed.
 (** Where T1 is not 0, the code leaves out the span; then it has no say. *)
 Lemma crossing_span moves value h1 h2 d :
@@ -184,43 +213,49 @@ Proof.
   - replace (_ * _)%Z with (x * (T1 * y' - T2 * y) - y * (T1 * x' - T2 * x))%Z by ring. rewrite Wx, Wy. ring.
 Qed.
 Definition t_of r p n := T_of r p n / D_of r n.
-(** The rule's order is that of the moved ray's t, for any list of moves. *)
-Theorem order_rule moves o d p1 h1 p2 h2 : hit_on o d p1 h1 -> hit_on o d p2 h2 ->
-  small2 (fun x y => let r := moved_ray moves o d x y in
-    D_of r (real (normal_ h1)) <> 0 /\ D_of r (real (normal_ h2)) <> 0 /\
-    sgn (t_of r (real p1) (real (normal_ h1)) - t_of r (real p2) (real (normal_ h2))) =
-    sign_of_difference moves h1 h2).
+(** The rule's order is that of the moved ray's t, for any list of moves; with stored floats, and k1 and
+    k2 for the normals (1 and 1 with L = M = 1; L * L of a triangle). *)
+Theorem order_rule L M k1 k2 moves o d p1 h1 p2 h2 : 0 < L -> 0 < M -> 0 < k1 -> 0 < k2 ->
+  hit_on o d p1 h1 -> hit_on o d p2 h2 ->
+  small2 (fun x y => let r := moved (map real moves) (stored_ray L M o d) x y in
+    let n1 := vscale k1 (real (normal_ h1)) in let n2 := vscale k2 (real (normal_ h2)) in
+    D_of r n1 <> 0 /\ D_of r n2 <> 0 /\
+    sgn (t_of r (vscale L (real p1)) n1 - t_of r (vscale L (real p2)) n2) = sign_of_difference moves h1 h2).
 Proof.
-  intros (T1 & D1 & d1 & N1) (T2 & D2 & _ & N2).
+  intros HL HM K1 K2 (T1 & D1 & d1 & N1) (T2 & D2 & _ & N2).
   assert (M1 := N1). assert (M2 := N2). rewrite D1 in M1. rewrite D2 in M2.
-  set (n1 := normal_ h1) in *. set (n2 := normal_ h2) in *. set (w := fst (crossing h1 h2)).
-  assert (W : real w = w_of (T_of (real_ray o d) (real p1) (real n1)) (real n1)
-                            (T_of (real_ray o d) (real p2) (real n2)) (real n2)).
-  { unfold T_of. cbn [origin real_ray]. rewrite <- !real_sub, <- !real_dot, <- T1, <- T2.
-    unfold w, crossing, real, w_of, vsub, vscale. cbn [fst ix iy iz vx vy vz].
-    now rewrite !minus_IZR, !mult_IZR. }
+  set (m1 := normal_ h1) in *. set (m2 := normal_ h2) in *. set (w := fst (crossing h1 h2)).
   assert (E : (numerator_ h1 * denominator_ h2 - numerator_ h2 * denominator_ h1)%Z = _dot d w).
-  { rewrite D1, D2. unfold w, crossing, _dot. cbn [fst ix iy iz]. fold n1 n2. ring. }
-  assert (P : _dot w (_cross n1 n2) = 0%Z).
-  { unfold w, crossing, _dot, _cross. cbn [fst ix iy iz]. fold n1 n2. ring. }
-  eapply small2_mono; [| exact (small2_and _ _ (sign_is_of_moved_ray w (_cross n1 n2) d moves P)
-    (small2_and _ _ (moved_denominator moves o d n1 M1) (moved_denominator moves o d n2 M2)))].
-  intros x y _ _ (S & S1 & S2) r. fold r in S1, S2.
-  assert (A1 : D_of r (real n1) <> 0).
+  { rewrite D1, D2. unfold w, crossing, _dot. cbn [fst ix iy iz]. fold m1 m2. ring. }
+  assert (P : _dot w (_cross m1 m2) = 0%Z).
+  { unfold w, crossing, _dot, _cross. cbn [fst ix iy iz]. fold m1 m2. ring. }
+  assert (K : 0 < k1 * k2) by nra. assert (LK : 0 < L * (k1 * k2)) by nra.
+  eapply small2_mono; [| exact (small2_and _ _ (sign_is_of_moved_ray w (_cross m1 m2) d moves _ _ _ P HM LK K)
+    (small2_and _ _ (moved_denominator L M k1 moves o d m1 HM K1 M1) (moved_denominator L M k2 moves o d m2 HM K2 M2)))].
+  intros x y _ _ (S & S1 & S2) r n1 n2. fold r in S1, S2. fold n1 in S1. fold n2 in S2.
+  assert (A1 : D_of r n1 <> 0).
   { intros A. apply sgn_0 in A. rewrite A in S1. lia. }
-  assert (A2 : D_of r (real n2) <> 0).
+  assert (A2 : D_of r n2 <> 0).
   { intros A. apply sgn_0 in A. rewrite A in S2. lia. }
   split; [exact A1|]. split; [exact A2|].
-  rewrite W, real_cross in S.
-  change (real d) with (direction (real_ray o d)) in S. rewrite <- difference_moved in S. fold r in S.
-  unfold sign_of_difference. rewrite crossing_span, d1, E. fold w n1 n2. rewrite <- S.
+  assert (W : vscale (L * (k1 * k2)) (real w) =
+    w_of (T_of (stored_ray L M o d) (vscale L (real p1)) n1) n1 (T_of (stored_ray L M o d) (vscale L (real p2)) n2) n2).
+  { unfold w, crossing. cbn [fst]. fold m1 m2. rewrite T1, T2.
+    unfold w_of, T_of, n1, n2, stored_ray, real, vsub, vscale, dot, _dot, _sub. cbn [origin vx vy vz ix iy iz].
+    rewrite !minus_IZR, !mult_IZR, !plus_IZR, !mult_IZR, !minus_IZR. apply V_eq; ring. }
+  assert (X : vscale (k1 * k2) (real (_cross m1 m2)) = cross n1 n2).
+  { rewrite real_cross. unfold n1, n2, cross, vscale; simpl. apply V_eq; ring. }
+  rewrite W, X in S.
+  change (vscale M (real d)) with (direction (stored_ray L M o d)) in S. rewrite <- difference_moved in S. fold r in S.
+  clear W X. set (q1 := vscale L (real p1)) in *. set (q2 := vscale L (real p2)) in *.
+  unfold sign_of_difference. rewrite crossing_span, d1, E. fold w m1 m2. rewrite <- S.
   rewrite <- D1 in S1. rewrite <- D2 in S2. clear S.
-  assert (Q : 0 < (D_of r (real n1) * D_of r (real n2)) * (D_of r (real n1) * D_of r (real n2))).
-  { assert (D_of r (real n1) * D_of r (real n2) <> 0) by now apply Rmult_integral_contrapositive_currified.
+  assert (Q : 0 < (D_of r n1 * D_of r n2) * (D_of r n1 * D_of r n2)).
+  { assert (D_of r n1 * D_of r n2 <> 0) by now apply Rmult_integral_contrapositive_currified.
     nra. }
   rewrite <- (sgn_scale _ _ Q).
-  replace (_ * _) with ((D_of r (real n1) * D_of r (real n2)) *
-    (T_of r (real p1) (real n1) * D_of r (real n2) - T_of r (real p2) (real n2) * D_of r (real n1)))
+  replace (_ * _) with ((D_of r n1 * D_of r n2) *
+    (T_of r q1 n1 * D_of r n2 - T_of r q2 n2 * D_of r n1))
     by (unfold t_of; field; auto).
   rewrite !sgn_mult, S1, S2. set (X := sgn (_ - _)). clearbody X.
   destruct (Z.ltb_spec 0 (denominator_ h1)), (Z.ltb_spec 0 (denominator_ h2)); simpl Bool.eqb; cbv iota.
