@@ -23,10 +23,10 @@ check: lint ## check the style, run the fast tests that need neither Blender nor
 	$(PYTEST) $(SHARED) --ignore tests/blender -q \
 		-m "not blender and not browser and not gui and not slow and not torture"
 
-# What the tests in a browser and in a window need, only root can install: where that is not
-# possible they are skipped, the run says so and is still a success.
+# What the tests in a browser and in a window need, only root can install, and other Pythons have to
+# be there: where that is not possible they are skipped, the run says so and is still a success.
 test: lint extension ## run all tests, those in a browser and in a window too where that is possible
-	@for tool in browser whole_blender; do \
+	@for tool in browser whole_blender others; do \
 		if tools/$$tool.sh check; then tools/$$tool.sh setup || exit; fi; \
 	done
 	$(PYTEST) $(SHARED) -rs -m "not torture"

@@ -40,6 +40,7 @@ LONGEST = (
     "tests/gui/",
     "tests/blender/test_attacks.py",
     "tests/blender/test_hard_cases.py",
+    "tests/blender/test_digests.py",
     "tests/suites/test_exact.py",
     "tests/tracer/certified/sweep/test_sweep.py",
     "tests/test_docs.py",

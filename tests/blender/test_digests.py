@@ -1,0 +1,132 @@
+"""The certified picture of every sample scene is the same to the bit, wherever it is traced.
+
+Digests of pictures are kept beside those of what Blender exported: where the second is another one,
+it is Blender that has changed its mind, not the tracer. Pictures are traced here, and by other
+Pythons with other numpys (tools/others.sh), which read the scenes from files. With numpy's choices
+of this CPU switched off, all loops run as the compiler made them for any CPU.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender.compare import export_open_file
+from reference_tracer.scene import Scene
+from reference_tracer.scene_files import save_scene
+
+from ..tracer.certified import digest
+
+PROJECT = Path(__file__).parents[2]
+OTHERS = PROJECT / ".venv" / "others"
+KEPT = Path(digest.__file__).with_name("digests.json")
+SCENES = sorted((PROJECT / "sample_scenes").glob("*.blend"))
+# Pictures are a third as wide and high as the scene says, as all take their time: but this one,
+# whose rays meet edges and corners at its own size.
+WHOLE = "technical_view"
+# Pythons with their numpys, and whether numpy is to do without what it could choose of this CPU.
+ELSEWHERE = [
+    ("3.11-1.26.4", False),
+    ("3.11-1.26.4", True),
+    ("3.11-2.4.6", False),
+    ("3.13-2.5.5", True),
+]
+
+
+@pytest.fixture(scope="module")
+def kept() -> dict[str, dict[str, str]]:
+    return json.loads(KEPT.read_text(encoding="utf-8"))
+
+
+@pytest.fixture(scope="module")
+def scenes() -> dict[str, Scene]:
+    out = {}
+    for path in SCENES:
+        bpy.ops.wm.open_mainfile(filepath=str(path), load_ui=False, use_scripts=False)
+        scene = export_open_file(bpy.context)[0]
+        camera, part = scene.camera, 1 if path.stem == WHOLE else 3
+        size = camera.width // part, camera.height // part
+        camera = replace(camera, width=size[0], height=size[1], region=None)
+        out[path.stem] = scene.seen_by(camera)
+    return out
+
+
+@pytest.fixture(scope="module")
+def folder(scenes, tmp_path_factory) -> Path:
+    """The scenes in files, and the add-on where another Python finds it."""
+    out = tmp_path_factory.mktemp("digests")
+    for name, scene in scenes.items():
+        save_scene(out / f"{name}.npz", scene)
+    (out / "reference_tracer").symlink_to(PROJECT / "addon")
+    return out
+
+
+def python(name: str) -> str:
+    """The Python of an environment, which may be the tests' own; skips where there is none."""
+    version, numpy = name.split("-")
+    if name == "{}.{}-{}".format(*sys.version_info[:2], np.__version__):
+        return sys.executable
+    if not (OTHERS / name / ".ready").exists():
+        pytest.skip(f"no Python {version} with numpy {numpy}: tools/others.sh setup makes one")
+    return str(OTHERS / name / "bin" / "python")
+
+
+def traced_by(name: str, folder: Path, without: bool) -> dict:
+    """What another Python makes of the scenes in a folder, `without` numpy's choices of the CPU."""
+    command = [python(name), "-s", digest.__file__, str(folder)]
+    env = os.environ | {"PYTHONPATH": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+    env.pop(digest.OFF, None)
+    if without:
+        env[digest.OFF] = "all"
+    done = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
+    assert not done.returncode, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_pictures_are_the_ones_that_are_kept(scenes, kept):
+    """Where all of it is meant to be another, what is printed is the file's new content."""
+    found = {
+        name: {"scene": digest.of_scene(scene), "picture": digest.of_picture(scene)}
+        for name, scene in scenes.items()
+    }
+    exported = [
+        name for name, of in found.items() if name in kept and kept[name]["scene"] != of["scene"]
+    ]
+    assert not exported, f"Blender exports other numbers of {exported}: pictures say nothing"
+    assert found == kept, json.dumps(found, indent=1)
+
+
+@pytest.mark.parametrize(("name", "without"), ELSEWHERE)
+def test_pictures_are_the_same_elsewhere(folder, kept, name, without):
+    found = traced_by(name, folder, without)
+    assert name == f"{found['python']}-{found['numpy']}"
+    assert not (without and found["features"])
+    assert found["pictures"] == {scene: of["picture"] for scene, of in kept.items()}
+
+
+def test_all_environments_are_asked():
+    made = re.search(r"others=\((.+)\)", (PROJECT / "tools" / "others.sh").read_text("utf-8"))
+    assert set(made[1].split()) == {name for name, _ in ELSEWHERE}
+
+
+def test_a_digest_is_of_every_bit(make):
+    scene = make.scene(make.camera(), make.quad(-1, 1, -1, 1, -3))
+    nudged = np.eye(4)
+    nudged[2, 3] = 2.0**-51  # half of the ulp of -3: the quad's t rounds to the same
+    assert digest.of_scene(scene) != digest.of_scene(moved(scene, nudged))
+    nudged[2, 3] = 2.0**-50
+    assert digest.of_picture(scene) != digest.of_picture(moved(scene, nudged))
+    assert digest.sha256(np.zeros(2)) != digest.sha256(np.array([0.0, -0.0]))
+    assert digest.sha256(np.zeros(2)) != digest.sha256(np.zeros((2, 1)))
+
+
+def moved(scene: Scene, by: np.ndarray) -> Scene:
+    return replace(scene, instances=[replace(i, world_from_object=by) for i in scene.instances])

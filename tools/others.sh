@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# Other Pythons with other numpys, in which the tests hold certified pictures equal to the bit:
+# environments of their own in .venv/others, for each Python that is there.
+#
+#   tools/others.sh check  exits 0 if there is one or it can be made, else says why not
+#   tools/others.sh setup  makes those that are not there: some seconds and 80 MB each, once
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+# Python-numpy: what older Blenders have, the newest for Python 3.11, and the newest.
+others=(3.11-1.26.4 3.11-2.4.6 3.13-2.5.5)
+
+say() { echo "others: $*" >&2; }
+
+# As in tools/venv.sh: it is asked rather than judged by its name.
+is_python() { # COMMAND VERSION
+    "$1" -c '
+import sys, venv
+sys.exit("%d.%d" % sys.version_info[:2] != sys.argv[1])
+' "$2" 2>/dev/null
+}
+
+find_python() { # VERSION
+    local candidate pyenv_versions=""
+    if command -v pyenv >/dev/null; then pyenv_versions="$(pyenv root)/versions"; fi
+    for candidate in .venv/bin/python "python$1" "$pyenv_versions/$1".*/bin/python python3; do
+        if is_python "$candidate" "$1"; then
+            echo "$candidate"
+            return
+        fi
+    done
+    return 1
+}
+
+own() { # the project's own Python is one of them
+    .venv/bin/python -c '
+import sys, numpy
+print("{}.{}".format(*sys.version_info), numpy.__version__, sep="-")
+'
+}
+
+# The stamp marks what is complete: whatever was interrupted is done again.
+is_there() { [ -e ".venv/others/$1/.ready" ] || [ "$1" = "$(own)" ]; }
+
+check() {
+    local other
+    for other in "${others[@]}"; do
+        if is_there "$other" || find_python "${other%-*}" >/dev/null; then return; fi
+    done
+    echo "no other Python here: neither 3.11 nor 3.13 with its venv module"
+    return 1
+}
+
+setup() {
+    local other python folder
+    for other in "${others[@]}"; do
+        folder=".venv/others/$other"
+        if is_there "$other" || ! python="$(find_python "${other%-*}")"; then continue; fi
+        say "making $folder"
+        "$python" -m venv --clear --without-pip "$folder"
+        .venv/bin/python -m pip --python "$folder/bin/python" install --quiet \
+            --only-binary=:all: "numpy==${other#*-}"
+        touch "$folder/.ready"
+    done
+}
+
+case "${1:-}" in
+    check) check ;;
+    setup) check >&2 && setup ;;
+    *)
+        sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "$0" >&2
+        exit 2
+        ;;
+esac
