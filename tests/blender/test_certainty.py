@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.engine import ENGINE
+from reference_tracer.scene import Region
 from reference_tracer.tracer.certified import certainty
 from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+from ..tracer.second_tie_rule import compared
 
 SIZE = 40
 
@@ -72,3 +79,15 @@ def test_the_operator_says_so_too(method, square, broken, capfd):
     else:
         assert bpy.ops.reference_tracer.compare() == {"FINISHED"}
         assert "traced by watertight in float64" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("corner", [(416, 192), (64, 312)])
+def test_a_second_rule_finds_the_same_ambiguous_pixels(opened, export, corner):
+    """In two places of the view that is built to be ambiguous, through edges and corners."""
+    opened("technical_view")
+    scene, (x, y) = export.render()[0], corner
+    camera = replace(scene.camera, region=Region(x, y, x + 24, y + 18))
+    scene = scene.seen_by(camera)
+    frame = render(scene, Settings("certified"))
+    assert (frame.certainty == Certainty.AMBIGUOUS).sum() > 30
+    assert not compared(scene, frame)
