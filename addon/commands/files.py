@@ -17,7 +17,9 @@ from ..running import progress_bar
 from ..scene import SceneError
 from ..scene_files import MESH_SUFFIXES, save_scene
 from ..tracer.coloring import Color
+from ..tracer.progress import result_of
 from ..tracer.render import render
+from ..tracer.rounding import check_rounding
 from .parts import command
 
 _PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
@@ -31,6 +33,8 @@ def add_trace(parser: Parser) -> None:
     add_settings(parser)
     color = "what a surface shows (default what a .blend stores, else object: its own colour)"
     parser.add_argument("--color", choices=[c.value for c in Color], help=color)
+    check = "count the pixels of which rounding rays and corners before the proof changes the owner"
+    parser.add_argument("--check-rounding", action="store_true", help=check)
     add_camera(parser)
 
 
@@ -38,9 +42,13 @@ def trace(options: argparse.Namespace) -> None:
     """Trace, and write the picture."""
     with folders.made_for_file(options.out):
         scene, stored = load(options.scene, choice_from(options, options.scene))
-        settings = settings_from(options, stored)
+        settings, checked = settings_from(options, stored), []
+        if options.check_rounding and settings.method.is_plain:
+            raise SceneError("--check-rounding is about proven pixels: --method certified has them")
         with progress_bar() as progress:
             frame = render(scene, settings, progress)
+            if options.check_rounding:
+                checked = result_of(check_rounding(scene, frame), progress)
         with folders.replacing_file(options.out) as new:
             if options.out.suffix.lower() == ".png":
                 images.save_png(new, images.to_display(frame.color))
@@ -52,7 +60,7 @@ def trace(options: argparse.Namespace) -> None:
         f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({s.method}, "
         f"{settings.precision.value}): {options.out}"
     )
-    for line in s.required():
+    for line in (*s.required(), *checked):
         print(line)
     drawn = options.out.suffix.lower() == ".png" and not options.color
     if drawn and options.scene.suffix.lower() in MESH_SUFFIXES:

@@ -17,6 +17,7 @@ from ..tracer.hits import NOTHING
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
+from ..tracer.rounding import rounding
 from .case import Case
 from .cause import Cause, Causes
 from .causes import explain
@@ -113,6 +114,7 @@ class Comparison:
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as JSON can hold it."""
         s, certificate = self.frame.statistics, self.case.certificate
+        off = rounding(self.scene)._asdict()
         return {
             "schema": SCHEMA,
             "scene": self.manifest.to_dict(),
@@ -126,6 +128,7 @@ class Comparison:
                 "refused_triangles": s.refused,
                 "pairs_tested": s.pairs_tested,
                 "pairs_exact": s.pairs_exact,
+                "rounding": {k: v if v < np.inf else None for k, v in off.items()},
                 "exact_reasons": {reason.name.lower(): n for reason, n in s.reasons.items()},
                 "certainty": {
                     c.name.lower(): int((self.frame.certainty == c).sum()) for c in Certainty

@@ -31,6 +31,7 @@ class Statistics:
     triangles: int = 0  # over all instances
     refused: int = 0  # of those, left out as a corner is not finite in world space
     pairs_tested: int = 0  # (ray, triangle or plane)
+    rounding: str = ""  # how far it goes before that, in words
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
@@ -53,7 +54,7 @@ class Statistics:
                 "space (clear the scale or the position that overflows)"
             )
         if self.method == "certified":
-            lines += sentences(self.pairs_tested, self.reasons)
+            lines += [*sentences(self.pairs_tested, self.reasons), self.rounding]
         return lines
 
 
@@ -172,6 +173,11 @@ class Hits:
 
     def __len__(self) -> int:
         return len(self.instance)
+
+    @property
+    def names(self) -> list[Name]:
+        """Instance and triangle of each."""
+        return list(zip(self.instance.tolist(), self.triangle.tolist(), strict=True))
 
     @classmethod
     def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:

@@ -24,6 +24,7 @@ from .frame import Frame
 from .hits import Hits, Statistics
 from .nearest import plan, trace_tile
 from .progress import Steps, Work, result_of, scaled, timed
+from .rounding import rounding
 from .settings import Precision, Settings
 from .vector import parts
 from .world import refused
@@ -143,7 +144,7 @@ def _tracer(
 ) -> Work[Callable[[Region, float, float], Work[Hits]]]:
     """Prepare the settings' method; yields 0, as nothing is traced yet."""
     if not settings.method.is_plain:
-        statistics.refused = refused(scene)
+        statistics.refused, statistics.rounding = refused(scene), str(rounding(scene))
         return lambda band, dx, dy: certified(scene, band, settings.memory // 2, dx, dy, statistics)
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused

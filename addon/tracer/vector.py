@@ -9,12 +9,14 @@ vertex differently in arrays of different length, which would tear shared vertic
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from functools import reduce
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
 
+rational = np.vectorize(lambda x: Fraction(float(x)), otypes=[object])  # of floats, exactly
 _TAKE_IS_FAST = np.lib.NumpyVersion(np.__version__) >= "2.0.0"
 
 Floats = NDArray[np.float64]
@@ -131,16 +133,16 @@ def cross(a: Vectors, b: Vectors, out: Vectors | None = None) -> Vectors:
 
 
 def transform_points(target_from_source: NDArray[np.float64], points: Vectors) -> Vectors:
-    """Return the points in target space, (3, n) float64.
+    """Return the points in target space, (3, n) float64; fractions, if both are.
 
     Parameters
     ----------
     target_from_source : (4, 4) or (4, 4, n) float64
     points : (3, n)
     """
-    m = target_from_source
-    x, y, z = np.asarray(points, dtype=np.float64)
-    out = np.empty((3, *np.broadcast(m[0, 0], x).shape))
+    m, dtype = target_from_source, np.result_type(target_from_source, np.float64)
+    x, y, z = np.asarray(points, dtype)
+    out = np.empty((3, *np.broadcast(m[0, 0], x).shape), dtype)
     for i, to in enumerate((out[0, ...], out[1, ...], out[2, ...])):
         np.multiply(m[i, 0], x, out=to)
         to += m[i, 1] * y

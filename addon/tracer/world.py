@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .camera import project
-from .vector import Arrays, Index, transform_points
+from .vector import Arrays, Index, rational, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -123,9 +123,13 @@ def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> World
     return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
 
 
-def world_corners(scene: Scene, instance: Index, triangle: Index) -> NDArray[np.float64]:
-    """Return the corners of named triangles in world space, (3, 3, m): corner, component."""
-    out = np.empty((3, 3, len(instance)))
+def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> NDArray:
+    """Return the corners of named triangles in world space, (3, 3, m): corner, component.
+
+    In float64; with the dtype `object` as fractions, without any rounding.
+    """
+    cast = rational if dtype is object else np.asarray
+    out = np.empty((3, 3, len(instance)), dtype)
     groups = [slice(None)]
     if len(instance) and (instance[0] != instance).any():
         of = scene.instance_meshes[instance]
@@ -136,24 +140,29 @@ def world_corners(scene: Scene, instance: Index, triangle: Index) -> NDArray[np.
             if not len(own):
                 continue
             one = bool((own == own[0]).all())
-            matrices = scene.instance_matrices[..., own[:1] if one else own]
+            matrices = cast(scene.instance_matrices[..., own[:1] if one else own])
             mesh = scene.meshes[scene.instances[own[0]].mesh]
             corners = mesh.triangles.take(which, axis=0)
             for corner in range(3):
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
-                out[corner][:, rows] = transform_points(matrices, local)
+                out[corner][:, rows] = transform_points(matrices, cast(local))
     return out
+
+
+def reaches(scene: Scene) -> NDArray[np.float64]:
+    """Return what the terms of world_from_object . vertex sum up to at most, (3, instances)."""
+    if not scene.instances:
+        return np.zeros((3, 0))
+    reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
+    m = scene.instance_matrices
+    return (np.abs(m[:3, :3]) * reach).sum(axis=1) + np.abs(m[:3, 3])
 
 
 def refused(scene: Scene) -> int:
     """Return how many triangles have a corner that is not finite in world space."""
-    if not scene.instances:
-        return 0
-    reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
     m, count = scene.instance_matrices, 0
     with np.errstate(over="ignore", invalid="ignore"):
-        most = (np.abs(m[:3, :3]) * reach).sum(axis=1) + np.abs(m[:3, 3])
-        for k in np.flatnonzero(~np.isfinite(most).all(axis=0)).tolist():
+        for k in np.flatnonzero(~np.isfinite(reaches(scene)).all(axis=0)).tolist():
             mesh = scene.meshes[scene.instances[k].mesh]
             finite = np.isfinite(transform_points(m[..., k], mesh.vertices.T)).all(axis=0)
             count += int((~finite[mesh.triangles]).any(axis=1).sum())

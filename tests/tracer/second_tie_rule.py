@@ -15,11 +15,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import gcd, inf
+from math import gcd, inf, lcm
 from typing import NamedTuple
 
 import numpy as np
-from reference_tracer.scene import Scene
+from reference_tracer.scene import Camera, Scene
 from reference_tracer.tracer.camera import camera_rays, film_positions
 from reference_tracer.tracer.frame import Frame
 
@@ -51,11 +51,12 @@ class Seen(NamedTuple):
         return all(e[0] for e in self.edges)
 
 
-def possible(scene: Scene) -> list[set[Answer]]:
+def possible(scene: Scene, unrounded: bool = False) -> list[set[Answer]]:
     """Return for every pixel of the camera's region all that may be said to be seen.
 
     Of each ray that is asked, the names of all that is nearest: several, where they lie in one
-    plane. More than one name in all: the pixel is ambiguous.
+    plane. More than one name in all: the pixel is ambiguous. Rays and corners are the stored ones,
+    or `unrounded` those of the camera and the matrices, in fractions.
     """
     camera = scene.camera
     rays = camera_rays(camera, *film_positions(camera.region))
@@ -68,11 +69,47 @@ def possible(scene: Scene) -> list[set[Answer]]:
     ]
     clip = camera.clip_start, camera.clip_end
     out = []
-    for o, d in zip(origins, directions, strict=True):
-        near = np.flatnonzero(_may_meet(o, d, corners))
-        triangles = [(names[k], corners[k].tolist()) for k in near.tolist()]
-        out.append(_of_ray(o.tolist(), d.tolist(), triangles, planes, clip, camera.projection))
+    for pixel, (o, d) in enumerate(zip(origins, directions, strict=True)):
+        near = np.flatnonzero(_may_meet(o, d, corners)).tolist()
+        if unrounded:
+            o, d = camera_ray(camera, pixel)
+            triangles = [(names[k], placed(scene, names[k])) for k in near]
+        else:
+            o, d = o.tolist(), d.tolist()
+            triangles = [(names[k], corners[k].tolist()) for k in near]
+        out.append(_of_ray(o, d, triangles, planes, clip, camera.projection))
     return out
+
+
+def camera_ray(camera: Camera, pixel: int) -> tuple[list[Fraction], list[Fraction]]:
+    """Return origin and direction of a region's ray, as the camera has it, without rounding."""
+    y, x = divmod(pixel, camera.region.width)
+    w = {name: Fraction(value) for name, value in vars(camera.window).items()}
+    u = (
+        w["left"]
+        + (w["right"] - w["left"]) * Fraction(2 * (x + camera.region.x0) + 1, 2) / camera.width
+    )
+    v = (
+        w["bottom"]
+        + (w["top"] - w["bottom"]) * Fraction(2 * (y + camera.region.y0) + 1, 2) / camera.height
+    )
+    right, up, back, eye = (
+        [Fraction(c) for c in column] for column in camera.world_from_camera.T[:, :3].tolist()
+    )
+    aside = [u * a + v * b for a, b in zip(right, up, strict=True)]
+    if camera.projection.is_parallel:
+        return [e + a for e, a in zip(eye, aside, strict=True)], [-b for b in back]
+    return eye, [a - b for a, b in zip(aside, back, strict=True)]
+
+
+def placed(scene: Scene, name: Name) -> list[list[Fraction]]:
+    """Return where a triangle's corners are, without rounding."""
+    instance = scene.instances[name[0]]
+    mesh = scene.meshes[instance.mesh]
+    rows = [[Fraction(x) for x in row] for row in instance.world_from_object[:3].tolist()]
+    vertices = mesh.vertices[mesh.triangles[name[1]]].astype(np.float64).tolist()
+    local = [[Fraction(x) for x in v] + [1] for v in vertices]
+    return [[sum(a * b for a, b in zip(row, v, strict=True)) for row in rows] for v in local]
 
 
 def compared(scene: Scene, frame: Frame) -> list[tuple[int, str]]:
@@ -157,9 +194,9 @@ def _of_ray(o, d, triangles, planes, clip, projection) -> set[Answer]:
 
 
 def _integers(vectors: Sequence[Sequence[float]]) -> tuple[list[Whole], int]:
-    """Return vectors times a power of two, and that."""
+    """Return vectors times a number that makes them whole, and that."""
     ratios = [[x.as_integer_ratio() for x in v] for v in vectors]
-    unit = max(below for v in ratios for _, below in v)
+    unit = lcm(*(below for v in ratios for _, below in v))
     return [tuple(above * (unit // below) for above, below in v) for v in ratios], unit
 
 

@@ -63,7 +63,8 @@ class Contest:
         self._count = max(rays.origins.shape[1], rays.directions.shape[1])
         self._farthest = np.full(self._count, np.inf)  # the nearest hit is not farther than this
         self._first_plane = first_plane
-        self._possible: list[Candidates] = []
+        none = np.zeros((2, 0))
+        self._possible = [Candidates(*none.astype(np.intp), *none, np.zeros(0, np.uint8))]
         self._surfaces = len(planes)
         self._triangles: list[WorldTriangles] = [WorldTriangles.none()]
         self._batch: WorldTriangles | None = None  # of the last pairs
@@ -76,11 +77,11 @@ class Contest:
             self._possible.append(found)
 
     @classmethod
-    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None) -> Contest:
+    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None, **own: float) -> Contest:
         """Return one with a scene's planes, in its camera's clip range."""
         planes, camera = [(p.point, p.normal) for p in scene.planes], scene.camera
         clip = camera.clip_start, camera.clip_end
-        return cls(rays, planes, len(scene.instances), *clip, around)
+        return cls(rays, planes, len(scene.instances), *clip, around, **own)
 
     def enter(self, some: Pairs) -> None:
         """Test pairs of a ray and a triangle; those of one batch follow one another."""
@@ -106,14 +107,9 @@ class Contest:
         Counts in the statistics what integers were asked for.
         """
         hits = Hits.none(self._count, Certainty.BOUND)
-        if not self._possible:
+        found, clear, surfaces = self.left()
+        if not len(found):
             return hits
-        found = Candidates.joined(self._possible)
-        found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
-        alone = np.bincount(found.ray, minlength=self._count)[found.ray] == 1
-        clear = alone & (found.doubt == SURE)
-        triangles = WorldTriangles.joined(self._triangles)
-        surfaces = Surfaces(self._planes, self._first_plane, triangles)
         decisions = Decisions(
             hits, self._rays, surfaces, self._clip, self._around, statistics.reasons
         )
@@ -130,6 +126,15 @@ class Contest:
                 yield 1.0
         hits.ties = Ties.joined(decisions.ties)
         return hits
+
+    def left(self) -> tuple[Candidates, NDArray[np.bool_], Surfaces]:
+        """Return what may be nearest, which of it surely is, and of which surfaces it is."""
+        found = Candidates.joined(self._possible)
+        found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
+        alone = np.bincount(found.ray, minlength=self._count)[found.ray] == 1
+        triangles = WorldTriangles.joined(self._triangles)
+        surfaces = Surfaces(self._planes, self._first_plane, triangles)
+        return found, alone & (found.doubt == SURE), surfaces
 
     def _prepare(self, corners: NDArray[np.float64]) -> FromPoint | Parallel | None:
         """Return what of triangles (3, 3, m) is the same for all the rays; None if nothing is."""

@@ -232,7 +232,13 @@ def turning(m: Integers, span: Integers, d: Integers) -> Integers:
 
 
 def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
-    """Return vectors (k, n) as n tuples of k integers, and an exponent e: float = integer * 2^e."""
+    """Return vectors (k, n) as n tuples of k integers, and an exponent e: float = integer * 2^e.
+
+    In place of floats they may be fractions, whose denominators are powers of two.
+    """
+    if vectors.dtype == object:
+        unit = max((v.denominator for v in vectors.flat), default=1)
+        return [tuple(int(v * unit) for v in row) for row in vectors.T], 1 - unit.bit_length()
     mantissa, exponent = np.frexp(vectors)
     zero = mantissa == 0
     least = int(exponent[~zero].min()) if not zero.all() else 0

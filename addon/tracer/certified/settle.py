@@ -51,7 +51,7 @@ class Decisions:
     surfaces: Surfaces
     clip: tuple[float, float]
     around: Rays
-    reasons: Counter[Reason]
+    reasons: Counter[Reason] | None = None
     ties: list[Ties] = field(default_factory=list)
 
     def by_bound(self, ray: NDArray[np.intp], surface: NDArray[np.intp]) -> Iterator[None]:
@@ -144,7 +144,8 @@ class Decisions:
                 self.hits.instance[ray], self.hits.triangle[ray] = name
         ray, *name = np.array(tied, np.int64).reshape(-1, 3).T
         self.ties.append(Ties.of(ray, *name))
-        self.reasons.update(self._reasons(found, groups, firsts))
+        if self.reasons is not None:
+            self.reasons.update(self._reasons(found, groups, firsts))
 
     def _reasons(self, found: Candidates, groups, firsts) -> list[Reason]:
         """Return why candidates were not decided by the bounds, one each."""
