@@ -174,11 +174,6 @@ class Hits:
     def __len__(self) -> int:
         return len(self.instance)
 
-    @property
-    def names(self) -> list[Name]:
-        """Instance and triangle of each."""
-        return list(zip(self.instance.tolist(), self.triangle.tolist(), strict=True))
-
     @classmethod
     def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:
         """Return hits of `count` rays that have met nothing yet."""

@@ -101,41 +101,40 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     around, name = corner_rays(camera), "origins" if projection.is_parallel else "directions"
     wide = [getattr(around, name) + by / BOUND for by in (-aside, aside)]
     around = replace(around, **{name: np.hstack(wide)})
+    names = [f"'{scene.objects[s.object]}' (instance {i})" for i, s in enumerate(scene.instances)]
+    stored = np.stack((frame.instance_index, frame.triangle_index))
     plan = yield from cull(loose, np.dtype(float), 1 << 26, reach)
     for y in range(r.y0, r.y1, _ROWS):
         tile = replace(r, y0=y, y1=min(y + _ROWS, r.y1))
         film = film_positions(tile)
-        rays = camera_rays(camera, *film)
-        contest = _Widened.of(scene, rays, around, aside=aside, along=along)
+        rays, own = camera_rays(camera, *film), {"aside": aside, "along": along}
+        contest = _Widened.of(scene, rays, around, **own)
         for _, pairs in candidates(plan, tile):
             if pairs:
                 contest.enter(pairs)
         found, clear, surfaces = contest.left()
-        shown = frame.hits(slice(y - r.y0, tile.y1 - r.y0)).names
+        shown = stored[:, y - r.y0 : tile.y1 - r.y0].reshape(2, -1)
         for part in by_ray(found.take(np.flatnonzero(~clear)), BY_INTEGERS):
-            which, seen = _unrounded(scene, film, part, surfaces)
-            asked += len(which)
-            for ray, one in zip(which.tolist(), seen, strict=True):
-                if one == shown[ray]:
-                    continue
-                others.append((r.x0 + ray % r.width, y + ray // r.width))
-                near = surfaces.names(part.surface[part.ray == ray])
+            rays, own = _unrounded(scene, film, part, surfaces)
+            asked += len(rays)
+            for k in np.flatnonzero((own != shown[:, rays]).any(axis=0)).tolist():
+                one, instead = (tuple(v.tolist()) for v in (own[:, k], shown[:, rays[k]]))
+                others.append((int(r.x0 + rays[k] % r.width), int(y + rays[k] // r.width)))
+                near = surfaces.names(part.surface[part.ray == rays[k]])
                 for other in zip(*(v.tolist() for v in near), strict=True):
-                    if shown[ray] not in (one, other) and _parts(scene, one, other):
-                        cracks.setdefault(tuple(sorted((one[0], other[0]))), others[-1])
+                    if instead not in (one, other) and _parts(scene, one, other):
+                        first, second = (names[i] for i in sorted((one[0], other[0])))
+                        both = f"{first} and {second} share an edge, but rounding parts it"
+                        cracks.setdefault(both, f"the ray of pixel {others[-1]} passes between")
         yield (tile.y1 - r.y0) / r.height
-    names = [f"'{scene.objects[s.object]}' (instance {i})" for i, s in enumerate(scene.instances)]
     at = f", as at {others[0]}" if others else ""
-    count = f"{len(others):,} of {r.width * r.height:,} pixels would show another surface"
-    return [f"{count} without rounding{at} ({asked:,} were asked exactly)"] + [
-        f"a crack: {names[i]} and {names[k]} share an edge, but rounding parts it: the ray of "
-        f"pixel {at} passes between"
-        for (i, k), at in cracks.items()
-    ]
+    count = f"{len(others):,} of {stored[0].size:,} pixels would show another surface"
+    count = f"{count} without rounding{at} ({asked:,} were asked exactly)"
+    return [count, *(f"a crack: {both}: {where}" for both, where in cracks.items())]
 
 
-def _unrounded(scene: Scene, film, found: Candidates, surfaces: Surfaces) -> tuple[Index, list]:
-    """Return the rays of these candidates, and the names of what they meet unrounded."""
+def _unrounded(scene: Scene, film, found: Candidates, surfaces: Surfaces) -> tuple[Index, Index]:
+    """Return the rays of these candidates, (n,), and what they meet unrounded: names, (2, n)."""
     camera, (which, ray) = copy(scene.camera), np.unique(found.ray, return_inverse=True)
     window = ViewWindow(*map(Fraction, vars(camera.window).values()))
     vars(camera).update(window=window, world_from_camera=rational(camera.world_from_camera))
@@ -149,7 +148,7 @@ def _unrounded(scene: Scene, film, found: Candidates, surfaces: Surfaces) -> tup
     some = replace(some, planes=planes, triangles=triangles)
     exact = Decisions(hits, rays, some, (camera.clip_start, camera.clip_end), rays)
     exact.by_integers(replace(found, ray=ray, surface=surface))
-    return which, hits.names
+    return which, np.stack((hits.instance, hits.triangle))
 
 
 def _parts(scene: Scene, one: Name, other: Name) -> bool:

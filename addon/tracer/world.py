@@ -124,10 +124,7 @@ def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> World
 
 
 def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> NDArray:
-    """Return the corners of named triangles in world space, (3, 3, m): corner, component.
-
-    In float64; with the dtype `object` as fractions, without any rounding.
-    """
+    """Return named triangles' corners in world space, (3, 3, m); of dtype object as fractions."""
     cast = rational if dtype is object else np.asarray
     out = np.empty((3, 3, len(instance)), dtype)
     groups = [slice(None)]

@@ -46,7 +46,8 @@ def by_hand(scene: Scene) -> tuple[int, int]:
     unrounded ray meets an edge, only the tie rule knows.
     """
     frame = render(scene, Settings("certified"))
-    names, least, most = frame.hits().names, 0, 0
+    names = zip(frame.instance_index.ravel(), frame.triangle_index.ravel(), strict=True)
+    least, most = 0, 0
     for name, answers in zip(names, possible(scene, unrounded=True), strict=True):
         every = frozenset().union(*answers)
         least += name not in every

@@ -232,11 +232,8 @@ def turning(m: Integers, span: Integers, d: Integers) -> Integers:
 
 
 def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
-    """Return vectors (k, n) as n tuples of k integers, and an exponent e: float = integer * 2^e.
-
-    In place of floats they may be fractions, whose denominators are powers of two.
-    """
-    if vectors.dtype == object:
+    """Return vectors (k, n) as n tuples of k integers, and an exponent e: float = integer * 2^e."""
+    if vectors.dtype == object:  # fractions whose denominators are powers of two
         unit = max((v.denominator for v in vectors.flat), default=1)
         return [tuple(int(v * unit) for v in row) for row in vectors.T], 1 - unit.bit_length()
     mantissa, exponent = np.frexp(vectors)
