@@ -61,27 +61,6 @@ def rounding(scene: Scene) -> Rounding:
     return Rounding(float(ray.sum()), float(corner), float(pixels))
 
 
-class _Widened(Contest):
-    """What is sure here is so for rays up to `aside` beside these, and for t farther or nearer.
-
-    A moved corner moves no point of its triangle farther than itself. So what all rays beside this
-    one surely hit, or surely miss, this one does where the triangle truly is.
-    """
-
-    def __init__(self, *given, aside: float, along: float) -> None:
-        self._aside, self._along = aside, along
-        super().__init__(*given)
-
-    def _candidates(self, ray, surface, fractions, sure) -> Candidates:
-        above, below = fractions.numerator_error, fractions.denominator_error
-        if self._batch is None:  # a plane, whose bounds are of each ray, not of all around
-            size = self._aside * np.abs(self._planes[surface[0]][1]).sum()
-            above, below = above + size, below + size
-        above = above + self._along * (np.abs(fractions.denominator) + below)
-        wider = replace(fractions, numerator_error=above, denominator_error=below)
-        return super()._candidates(ray, surface, wider, sure)
-
-
 def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     """Return in how many pixels another surface would be seen had nothing been rounded, in words.
 
@@ -89,8 +68,9 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     """
     check_assumptions()
     off, camera, asked, others, cracks = rounding(scene), scene.camera, 0, [], {}
-    # By how much depths may be other ones, and rays beside themselves for what is seen there: all
-    # twice, as these are rounded, too.
+    # By how much depths may be other ones; and rays beside themselves, as a moved corner moves no
+    # point of its triangle farther than itself, and nothing that is seen by more than at the least
+    # depth. All is twice that, as these are rounded, too.
     axes, projection = np.abs(dual_axes(camera)).sum(axis=1).max(), camera.projection
     along = 2 * (off.ray + off.corner) * axes
     ends = {"clip_start": camera.clip_start - along, "clip_end": camera.clip_end + along}
@@ -98,17 +78,13 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     aside = 2 * (off.ray + off.corner / projection.scale(loose.camera.clip_start))
     slant = projection.slant(max(map(abs, vars(camera.window).values())))
     reach = aside * axes * slant / min(pixel_size(camera))
-    around, name = corner_rays(camera), "origins" if projection.is_parallel else "directions"
-    wide = [getattr(around, name) + by / BOUND for by in (-aside, aside)]
-    around = replace(around, **{name: np.hstack(wide)})
     names = [f"'{scene.objects[s.object]}' (instance {i})" for i, s in enumerate(scene.instances)]
     stored = np.stack((frame.instance_index, frame.triangle_index))
     plan = yield from cull(loose, np.dtype(float), 1 << 26, reach)
     for y in range(r.y0, r.y1, _ROWS):
         tile = replace(r, y0=y, y1=min(y + _ROWS, r.y1))
         film = film_positions(tile)
-        rays, own = camera_rays(camera, *film), {"aside": aside, "along": along}
-        contest = _Widened.of(scene, rays, around, **own)
+        contest = Contest.of(scene, camera_rays(camera, *film), corner_rays(camera), aside / BOUND)
         for _, pairs in candidates(plan, tile):
             if pairs:
                 contest.enter(pairs)
@@ -128,9 +104,9 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
                         cracks.setdefault(both, f"the ray of pixel {others[-1]} passes between")
         yield (tile.y1 - r.y0) / r.height
     at = f", as at {others[0]}" if others else ""
-    count = f"{len(others):,} of {stored[0].size:,} pixels would show another surface"
-    count = f"{count} without rounding{at} ({asked:,} were asked exactly)"
-    return [count, *(f"a crack: {both}: {where}" for both, where in cracks.items())]
+    count = f"{len(others):,} of {stored[0].size:,} pixels would show another surface unrounded"
+    lines = [f"a crack: {both}: {where}" for both, where in cracks.items()]
+    return [f"{count}{at} ({asked:,} were asked exactly)", *lines]
 
 
 def _unrounded(scene: Scene, film, found: Candidates, surfaces: Surfaces) -> tuple[Index, Index]:

@@ -22,6 +22,11 @@ import pytest
 from reference_tracer.blender.compare import export_open_file
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import save_scene
+from reference_tracer.tracer.certified.certainty import Certainty
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.rounding import check_rounding
+from reference_tracer.tracer.settings import Settings
 
 from ..tracer.certified import digest
 
@@ -110,6 +115,16 @@ def test_pictures_are_the_same_elsewhere(folder, kept, name, without):
     assert name == f"{found['python']}-{found['numpy']}"
     assert not (without and found["features"])
     assert found["pictures"] == {scene: of["picture"] for scene, of in kept.items()}
+
+
+def test_no_owner_is_another_one_without_rounding(scenes):
+    """As docs/accuracy.md says; integers are asked for what is ambiguous, and a little more."""
+    for name, scene in scenes.items():
+        frame = render(scene, Settings("certified"))
+        [said] = result_of(check_rounding(scene, frame))
+        asked = int(re.search(r"\(([\d,]+) were", said)[1].replace(",", ""))
+        ties = int((frame.certainty == Certainty.AMBIGUOUS).sum())
+        assert said.startswith("0 of ") and ties <= asked <= 1.1 * ties, (name, said)
 
 
 def test_all_environments_are_asked():

@@ -47,6 +47,8 @@ class Contest:
         Rays that share what these share, and whose components enclose those of these, which are
         the default. Bounds for all rays at once are bounds for them: so what becomes of a ray does
         not depend on which others are in the contest.
+    room : float
+        Times BOUND, how far beside these rays, by component, all that is sure holds, too.
     """
 
     def __init__(
@@ -57,8 +59,9 @@ class Contest:
         start: float = 0.0,
         end: float = np.inf,
         around: Rays | None = None,
+        room: float = 0,
     ) -> None:
-        self._rays, self._planes, self._clip = rays, planes, (start, end)
+        self._rays, self._planes, self._clip, self._room = rays, planes, (start, end), room
         self._around = around or rays
         self._count = max(rays.origins.shape[1], rays.directions.shape[1])
         self._farthest = np.full(self._count, np.inf)  # the nearest hit is not farther than this
@@ -71,17 +74,17 @@ class Contest:
         every = np.arange(self._count)
         for k, (point, normal) in enumerate(planes):
             with np.errstate(all="ignore"):
-                fractions = plane_fractions(rays, point[:, None], normal[:, None])
+                fractions = plane_fractions(rays, point[:, None], normal[:, None], room)
                 sure = np.ones(self._count, bool)
                 found = self._candidates(every, np.full(self._count, k), fractions, sure)
             self._possible.append(found)
 
     @classmethod
-    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None, **own: float) -> Contest:
+    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None, room: float = 0) -> Contest:
         """Return one with a scene's planes, in its camera's clip range."""
         planes, camera = [(p.point, p.normal) for p in scene.planes], scene.camera
         clip = camera.clip_start, camera.clip_end
-        return cls(rays, planes, len(scene.instances), *clip, around, **own)
+        return cls(rays, planes, len(scene.instances), *clip, around, room)
 
     def enter(self, some: Pairs) -> None:
         """Test pairs of a ray and a triangle; those of one batch follow one another."""
@@ -141,10 +144,10 @@ class Contest:
         o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
             if o.shape[1] == 1:
-                return FromPoint(o, np.abs(d).max(axis=1, keepdims=True), corners)
+                return FromPoint(o, np.abs(d).max(axis=1, keepdims=True) + self._room, corners)
             if d.shape[1] == 1:
-                ends = o.min(axis=1, keepdims=True), o.max(axis=1, keepdims=True)
-                return Parallel(d, *ends, corners)
+                low, high = o.min(axis=1, keepdims=True), o.max(axis=1, keepdims=True)
+                return Parallel(d, low - self._room, high + self._room, corners)
         return None
 
     def _candidates(self, ray, surface, fractions: Fractions, sure) -> Candidates:
