@@ -76,11 +76,10 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     ends = {"clip_start": camera.clip_start - along, "clip_end": camera.clip_end + along}
     loose, r = scene.seen_by(replace(camera, **ends)), camera.region
     aside = 2 * (off.ray + off.corner / projection.scale(loose.camera.clip_start))
-    slant = projection.slant(max(map(abs, vars(camera.window).values())))
-    reach = aside * axes * slant / min(pixel_size(camera))
+    reach = aside * axes * projection.slant(np.abs([*vars(camera.window).values()]).max())
     names = [f"'{scene.objects[s.object]}' (instance {i})" for i, s in enumerate(scene.instances)]
     stored = np.stack((frame.instance_index, frame.triangle_index))
-    plan = yield from cull(loose, np.dtype(float), 1 << 26, reach)
+    plan = yield from cull(loose, np.dtype(float), 1 << 26, reach / min(pixel_size(camera)))
     for y in range(r.y0, r.y1, _ROWS):
         tile = replace(r, y0=y, y1=min(y + _ROWS, r.y1))
         film = film_positions(tile)

@@ -152,11 +152,8 @@ class Parallel:
 
 
 def plane_fractions(rays: Rays, point: Vectors, normal: Vectors, room: float = 0) -> Fractions:
-    """Return T = (p - o) . n and D = d . n of n rays with an infinite plane, (3, 1) each.
-
-    The bounds hold for rays up to `room` BOUND beside these, too.
-    """
-    arm = point - rays.origins
+    """Return T = (p - o) . n and D = d . n of n rays with an infinite plane, (3, 1) each."""
+    arm = point - rays.origins  # the bounds hold for rays up to `room` BOUND beside these, too
     sizes = [np.abs(arm) + room, np.abs(rays.directions) + room, np.abs(normal)]
     return Fractions(
         dot(arm, normal),
