@@ -3,9 +3,8 @@
     python tools/prove.py
 
 First proofs/Recorded.v is compared with what the tracer does now. Then every file of proofs/ is
-compiled, and proofs/Claims.v asks Coq for each theorem of the claim what it assumes. Nothing may be
-left out (`Admitted`), and nothing assumed but what Coq's real numbers rest on. tools/coq.sh installs
-Coq.
+compiled, and proofs/Claims.v asks Coq what the theorems of the claim assume. Nothing may be left
+out (`Admitted`), and nothing assumed but what Coq's real numbers rest on.
 """
 
 from __future__ import annotations

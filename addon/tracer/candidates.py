@@ -62,7 +62,8 @@ def has_sound_axes(camera: Camera) -> bool:
     with np.errstate(all="ignore"):
         lengths = np.sqrt((axes * axes).sum(axis=1))
         fits = (lengths > LENGTHS[0]) & (lengths < LENGTHS[1])
-        return bool(fits.all() and abs(np.linalg.det(axes)) >= MIN_DETERMINANT)
+        least = MIN_DETERMINANT * max(1.0, lengths.prod())
+        return bool(fits.all() and abs(np.linalg.det(axes)) >= least)
 
 
 @np.errstate(all="ignore")  # what overflows has no bounds

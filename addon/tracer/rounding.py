@@ -80,10 +80,13 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     names = [f"'{scene.objects[s.object]}' (instance {i})" for i, s in enumerate(scene.instances)]
     stored = np.stack((frame.instance_index, frame.triangle_index))
     plan = yield from cull(loose, np.dtype(float), 1 << 26, reach / min(pixel_size(camera)))
+    # A bound for rays that are as far apart as this is one for those beside these.
+    shared, ends = corner_rays(camera), np.array((-1, 1)).repeat(4) * aside / BOUND
+    around = Rays(*(v if len(v.T) == 1 else np.tile(v, 2) + ends for v in vars(shared).values()))
     for y in range(r.y0, r.y1, _ROWS):
         tile = replace(r, y0=y, y1=min(y + _ROWS, r.y1))
         film = film_positions(tile)
-        contest = Contest.of(scene, camera_rays(camera, *film), corner_rays(camera), aside / BOUND)
+        contest = Contest.of(scene, camera_rays(camera, *film), around, aside)
         for _, pairs in candidates(plan, tile):
             if pairs:
                 contest.enter(pairs)

@@ -20,6 +20,7 @@ _SHARE = "the share of the work that is shown to the user"
 
 # What only makes it faster or slower: by module, and the expression. Why it can't be wrong.
 TUNING = {
+    "sweep.film": {"0.25": "where the bounds hold: the premise `ray_error_small` of Perspective.v"},
     "plain": {"_ROWS": _STEP},
     "settle": {"CLIP": "the name of a doubt, for the reasons that a user reads"},
     "contest": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},

@@ -29,7 +29,7 @@ LEFT_OUT = {
     },
     "contest.py": {
         CALLS: "Contest.__init__ Contest.of Contest.enter",
-        "as Contest._candidates, with what is the farthest at the end": "Contest.hits",
+        "as Contest._candidates, with what is the farthest at the end": "Contest.left Contest.hits",
     },
     "exact.py": {
         EXACT: "Hit.on_edge Hit.weights Hit.is_hit sign_of_difference crossing gap turning "

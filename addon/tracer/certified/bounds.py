@@ -151,10 +151,10 @@ class Parallel:
         return Fractions(dot(m[:3] - rays.origins, m[3:6]), m[6], m[7], m[8])
 
 
-def plane_fractions(rays: Rays, point: Vectors, normal: Vectors, room: float = 0) -> Fractions:
+def plane_fractions(rays: Rays, point: Vectors, normal: Vectors) -> Fractions:
     """Return T = (p - o) . n and D = d . n of n rays with an infinite plane, (3, 1) each."""
-    arm = point - rays.origins  # the bounds hold for rays up to `room` BOUND beside these, too
-    sizes = [np.abs(arm) + room, np.abs(rays.directions) + room, np.abs(normal)]
+    arm = point - rays.origins
+    sizes = [np.abs(v) for v in (arm, rays.directions, normal)]
     return Fractions(
         dot(arm, normal),
         bound(dot(sizes[0], sizes[2]), sizes[0]),

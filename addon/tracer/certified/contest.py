@@ -48,7 +48,7 @@ class Contest:
         the default. Bounds for all rays at once are bounds for them: so what becomes of a ray does
         not depend on which others are in the contest.
     room : float
-        Times BOUND, how far beside these rays, by component, all that is sure holds, too.
+        How far beside these rays, by component, what is said of planes holds, too.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class Contest:
         around: Rays | None = None,
         room: float = 0,
     ) -> None:
-        self._rays, self._planes, self._clip, self._room = rays, planes, (start, end), room
+        self._rays, self._planes, self._clip = rays, planes, (start, end)
         self._around = around or rays
         self._count = max(rays.origins.shape[1], rays.directions.shape[1])
         self._farthest = np.full(self._count, np.inf)  # the nearest hit is not farther than this
@@ -74,7 +74,9 @@ class Contest:
         every = np.arange(self._count)
         for k, (point, normal) in enumerate(planes):
             with np.errstate(all="ignore"):
-                fractions = plane_fractions(rays, point[:, None], normal[:, None], room)
+                fractions = plane_fractions(rays, point[:, None], normal[:, None])
+                for error in (fractions.numerator_error, fractions.denominator_error):
+                    error += room * np.abs(normal).sum()
                 sure = np.ones(self._count, bool)
                 found = self._candidates(every, np.full(self._count, k), fractions, sure)
             self._possible.append(found)
@@ -144,10 +146,10 @@ class Contest:
         o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
             if o.shape[1] == 1:
-                return FromPoint(o, np.abs(d).max(axis=1, keepdims=True) + self._room, corners)
+                return FromPoint(o, np.abs(d).max(axis=1, keepdims=True), corners)
             if d.shape[1] == 1:
-                low, high = o.min(axis=1, keepdims=True), o.max(axis=1, keepdims=True)
-                return Parallel(d, low - self._room, high + self._room, corners)
+                ends = o.min(axis=1, keepdims=True), o.max(axis=1, keepdims=True)
+                return Parallel(d, *ends, corners)
         return None
 
     def _candidates(self, ray, surface, fractions: Fractions, sure) -> Candidates:

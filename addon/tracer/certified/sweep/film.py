@@ -81,7 +81,8 @@ class Film:
     @cached_property
     def is_sound(self) -> bool:
         """Whether the bounds hold; where they do not, they are infinite."""
-        return has_sound_axes(self.camera)
+        parallel = self.camera.projection.is_parallel
+        return has_sound_axes(self.camera) and (parallel or self.ray_error <= 0.25)
 
     @cached_property
     def ray_error(self) -> float:
