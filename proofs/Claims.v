@@ -1,0 +1,65 @@
+(** The theorems of the claim, in the words of docs/proof.md: tools/prove.py asks what they assume. *)
+From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
+From Reftrace Require Import Whole Nearby Batches Sweep.
+
+(** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
+    underflow included; k counts the roundings along its longest path. *)
+Check Rounding.error.
+(** The bound: an e, T or D with at most 8 roundings is off by at most three quarters of
+    E = 12 u P + 2^-1060 (1 + |w|_1), as E is computed. *)
+Check Signs.bound_holds.
+(** Signs: where the comparison E < e turns out true in binary64, the exact e is positive. *)
+Check Signs.sure_positive.
+(** Signs: where e < -E turns out true in binary64, the exact e is negative. *)
+Check Signs.sure_negative.
+(** The forms: the three edge functions of rays from one point have the bound that bounds.py
+    computes, whatever overflows. *)
+Check Forms.from_point_e.
+(** The forms: likewise T of rays from one point. *)
+Check Forms.from_point_T.
+(** The forms: likewise D of rays from one point. *)
+Check Forms.from_point_D.
+(** The forms: likewise the three edge functions of parallel rays. *)
+Check Forms.parallel_e.
+(** The forms: likewise T of parallel rays. *)
+Check Forms.parallel_T.
+(** The forms: likewise D of parallel rays. *)
+Check Forms.parallel_D.
+(** The forms: likewise T of an infinite plane. *)
+Check Forms.plane_T.
+(** The forms: likewise D of an infinite plane. *)
+Check Forms.plane_D.
+(** Sides: what contest.py calls sure is inside all three edges. *)
+Check Pairs.sides_sure_right.
+(** Sides: what it does not call possible is outside of one edge and inside of another. *)
+Check Pairs.sides_impossible_right.
+(** The interval of t, as computed in binary64, contains the exact T / D. *)
+Check Pairs.interval_right.
+(** Order: where order.py knows which of two surfaces is nearer, the sign that decides is right. *)
+Check Nearer.order_sign.
+(** Ties: what the code says of edges is what one real ray does, along d + (x, x^2, x^3) and from
+    o + (y, y^2, y^3), for all small x, and then small y; the same ray for all triangles. *)
+Check Hits.met_rule_all.
+(** Ties: two hits are ordered as that ray meets them. *)
+Check Hits.order_rule.
+(** Ties: where that order is open, the two surfaces lie in one plane. *)
+Check Hits.order_0.
+(** Ties: where two triangles share an edge, and lie on different sides of it, exactly one is met. *)
+Check Fans.shared_edge.
+(** Ties: of a fan that goes once round a corner, a ray through the corner meets exactly one. *)
+Check Fans.fan_rule.
+(** Ties: a closed surface is met an even number of times. *)
+Check Closed.closed_surface_rule.
+(** Integers: every float of a batch is its integer times one power of two. *)
+Check Integers.integers_exact.
+(** Integers: a hit within the clip range is one by its exact t. *)
+Check Clip.seen_exact.
+(** Integers: t is the exact T / D, rounded once. *)
+Check Clip.t_rounded.
+(** The whole, from facts about single surfaces: the owner is the nearest of the moved ray; if
+    certain by a bound or by integers, it is the one nearest of the stored ray; t is rounded once. *)
+Check Nearby.plain_is_right_by_the_rule.
+(** The whole: in whatever order the work is done, the result is the same. *)
+Check Batches.order_does_not_matter.
+(** The sweep sees what plain sees. *)
+Check Sweep.sweep_sees_what_plain_does.
