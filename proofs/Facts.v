@@ -12,12 +12,16 @@ Open Scope R_scope.
 Definition same_plane (s s' : surface) : Prop :=
   exists k, k <> 0 /\ forall q, T q s = k * T q s' /\ D q s = k * D q s'.
 
+(** A number that a float64 is: with an end, unlike [is_float]. *)
+Definition float64 (x : R) : Prop :=
+  exists f : float, BinarySingleNaN.is_finite f = true /\ BinarySingleNaN.B2R f = x.
+
 (** x <= a real number: where float64 ends, x may only be Infinity if the number is above it. *)
 Definition at_most (x : number) (y : R) : Prop :=
   match x with
   | MinusInfinity => True
   | Finite x => x <= y
-  | Infinity => forall f, is_float f -> f < y
+  | Infinity => forall f, float64 f -> f < y
   end.
 
 (** The float64 nearest to x, of two the even one; an infinity where that is beyond float64. *)
@@ -66,7 +70,7 @@ Record ray_facts : Prop := {
   names_differ : forall s s', In s scene -> In s' scene -> called s = called s' -> s = s';
   (* clip ends are float64 *)
   end_is_float :
-    match end_ with Finite e => is_float e | Infinity => True | MinusInfinity => False end;
+    match end_ with Finite e => float64 e | Infinity => True | MinusInfinity => False end;
   (** *** Film.v: [candidates], with the planes: nothing that is met is left out, nothing comes
       twice *)
   proposed_all : forall s, met s -> In s (concat batches);
@@ -78,7 +82,7 @@ Record ray_facts : Prop := {
     match shape_of s with Triangular x => meets_inside r x | Infinite _ _ => True end;
   (** *** Interval.v: [Fractions.interval] *)
   interval_above : forall s h, In s scene -> interval_high a s = Finite h ->
-    is_float h /\ D r s <> 0 /\ t r s <= h;
+    float64 h /\ D r s <> 0 /\ t r s <= h;
   interval_not_minus : forall s, In s scene -> interval_high a s <> MinusInfinity;
   interval_below : forall s, In s scene -> D r s <> 0 ->
     0 <= t r s \/ is_finite (interval_high a s) = true -> at_most (interval_low a s) (t r s);

@@ -102,7 +102,7 @@ Proof. now intros [_ [_ []]]. Qed.
 (** What is sure is met. *)
 Lemma sure_is_met s : In s scene -> SURE s = true ->
   met s /\ meets_within r s /\ start < t r s /\
-  exists h, high s = Finite h /\ t r s <= h /\ is_float h /\ at_most (low s) (t r s).
+  exists h, high s = Finite h /\ t r s <= h /\ float64 h /\ at_most (low s) (t r s).
 Proof.
   intros I H. unfold Contest.SURE, in_range in H. rewrite !andb_true_iff in H.
   destruct H as [[H1 H2] [H3 H4]]. unfold high, Contest.high in *.
@@ -158,7 +158,7 @@ Qed.
 (** ** The contest: whoever is not kept is surely behind someone who is *)
 
 (** [low] above a [high] that is a float: then t is, too. *)
-Lemma low_above h s : met s -> is_float h -> less (Finite h) (low s) = true -> h < t r s.
+Lemma low_above h s : met s -> float64 h -> less (Finite h) (low s) = true -> h < t r s.
 Proof.
   intros M Fh L. assert (A := met_low _ M). destruct (low s) as [|l|]; try discriminate; simpl in A.
   - apply less_spec in L. lra.

@@ -88,7 +88,7 @@ Qed.
     say what is so, fulfil them, for every scene with a moved ray that is near enough. *)
 Theorem facts_are_possible r moved start end_ scene batches :
   (forall s s', In s scene -> In s' scene -> called s = called s' -> s = s') ->
-  match end_ with Finite e => is_float e | Infinity => True | MinusInfinity => False end ->
+  match end_ with Finite e => float64 e | Infinity => True | MinusInfinity => False end ->
   (forall s, met r start end_ scene s -> In s (concat batches)) ->
   NoDup (concat batches) -> incl (concat batches) scene ->
   (forall s, met r start end_ scene s -> meets_within r s -> meets_within moved s) ->
