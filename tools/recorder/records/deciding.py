@@ -63,16 +63,13 @@ class _Several:
 
 
 def _range_theorems(prefix: str) -> dict[str, str]:
-    return {
-        f"{prefix}_low": "in_range_low",
-        f"{prefix}_high": "in_range_low",
-        f"{prefix}_outside": "in_range_outside_right",
-        f"{prefix}_doubt": "in_range_doubt_right",
-    }
+    names = (f"{prefix}_{name}" for name in ("low", "high", "outside", "doubt"))
+    return dict.fromkeys(names, f"CodeRange.{prefix}_is")
 
 
 def _order_theorems(prefix: str) -> dict[str, str]:
-    return dict.fromkeys((prefix, *(f"{prefix}_{k}" for k in ("value", "error", "known"))), prefix)
+    names = (prefix, *(f"{prefix}_{k}" for k in ("value", "error", "known")))
+    return dict.fromkeys(names, "CodeOrder.code_order_right")
 
 
 RECORDS = (

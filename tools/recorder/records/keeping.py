@@ -121,7 +121,7 @@ RECORDS = (
             "contest.Contest._candidates",
             _HIT | dict(sure=sure),
             lambda v, name=name: _candidates(v, name),
-            _named("candidates_right", f"{name}_certain {name}_kept {name}_farthest"),
+            _named("CodeRange.candidates_is", f"{name}_certain {name}_kept {name}_farthest"),
             note,
         )
         for name, sure, note in (
@@ -134,7 +134,7 @@ RECORDS = (
         "contest.Contest._prepare",
         _RAYS,
         lambda v: _prepare(v, True),
-        _named("around_right", "around_reach_x around_reach_y around_reach_z"),
+        _named("AroundRays.reach_is", "around_reach_x around_reach_y around_reach_z"),
         "rays from one point, two of them",
     ),
     Record(
@@ -142,7 +142,9 @@ RECORDS = (
         "contest.Contest._prepare",
         _RAYS,
         lambda v: _prepare(v, False),
-        _named("around_right", " ".join(f"around_{e}_{k}" for e in ("low", "high") for k in "xyz")),
+        _named(
+            "AroundRays.box_is", " ".join(f"around_{e}_{k}" for e in ("low", "high") for k in "xyz")
+        ),
         "parallel rays, two of them",
     ),
     Record(
@@ -162,7 +164,7 @@ RECORDS = (
             "sweep.Sweep.of_pairs",
             _PAIR | dict(sure=sure),
             lambda v, name=name: _of_pairs(v, name),
-            _named("pairs_right", f"{name}_enters {name}_stays"),
+            _named("Cells.all_kept", f"{name}_enters {name}_stays"),
             note,
         )
         for name, sure, note in (
@@ -175,20 +177,20 @@ RECORDS = (
         "boxes.InstanceBoxes.hidden",
         _HIDDEN,
         _hidden,
-        _named("hidden_right", "hidden_instance"),
+        _named("Cells.least_is_bound", "hidden_instance"),
     ),
     Record(
         "not_hidden_box",
         "sweep.Sweep.not_hidden",
         _HIDDEN,
         _not_hidden,
-        _named("hidden_right", "not_hidden_box"),
+        _named("Cells.around_large", "not_hidden_box"),
     ),
     Record(
         "not_hidden_fragment",
         "depth_buffer.DepthBuffer.not_hidden",
         dict(nearest=0.5, nearness=0.25),
         _fragment,
-        _named("hidden_right", "not_hidden_fragment"),
+        _named("Sweep.sweep_sees_what_plain_does", "not_hidden_fragment"),
     ),
 )
