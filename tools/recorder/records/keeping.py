@@ -153,7 +153,8 @@ RECORDS = (
         dict(width=640.0, height=480.0, dx=0.125, dy=-0.25),
         _corner_rays,
         _named(
-            "around_right", " ".join(f"corner_ray_{k}{n}" for k in ("px", "py") for n in "0123")
+            "AroundRays.between_corners",
+            " ".join(f"corner_ray_{k}{n}" for k in ("px", "py") for n in "0123"),
         ),
         "film positions",
         film.DOMAIN,
