@@ -1,6 +1,7 @@
 (** The theorems of the claim, in the words of docs/proof.md: tools/prove.py asks what they assume. *)
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
-From Reftrace Require Import Whole Nearby Batches Sweep.
+From Reftrace Require Import Whole Nearby Batches Sweep Certified Given CameraRays QuotientBinary.
+From Reftrace Require Import Camera Perspective Orthographic Dual EdgeFunctions Cells.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -56,10 +57,47 @@ Check Integers.integers_exact.
 Check Clip.seen_exact.
 (** Integers: t is the exact T / D, rounded once. *)
 Check Clip.t_rounded.
+(** t: where quotient.py is sure of a finite t, it is the exact quotient rounded once, in binary64,
+    whatever overflows; of rays from one origin. *)
+Check QuotientBinary.binary_from_point.
+(** t: likewise of parallel rays. *)
+Check QuotientBinary.binary_parallel.
+(** t: likewise of rays that share nothing. *)
+Check QuotientBinary.binary_alone.
+(** The whole: the owner is the nearest of the moved ray; if certain by a bound or by integers, it is
+    the one nearest of the stored ray, and else there is none; t is its exact T / D, rounded once. *)
+Check Certified.certified.
+(** The whole: its premises can be met. *)
+Check Given.given_is_possible.
+(** Rays of a perspective camera are among those that its bounds are computed for. *)
+Check CameraRays.perspective_reach.
+(** Likewise of an orthographic camera. *)
+Check CameraRays.parallel_box.
 (** The whole, from facts about single surfaces: the owner is the nearest of the moved ray; if
     certain by a bound or by integers, it is the one nearest of the stored ray; t is rounded once. *)
 Check Nearby.plain_is_right_by_the_rule.
 (** The whole: in whatever order the work is done, the result is the same. *)
 Check Batches.order_does_not_matter.
+(** The film: of a stored perspective ray and the stored vertices, p, q and w are off by no more than
+    film.py says, rays' errors included. *)
+Check Perspective.vertex_near.
+(** The film: a triangle's box holds every pixel whose stored ray meets it, perspective. *)
+Check Perspective.box_holds.
+(** The film: nothing that is seen is nearer than the nearest of the corners, perspective. *)
+Check Perspective.nearest_seen.
+(** The film, orthographic: likewise p, q and the depth. *)
+Check Orthographic.vertex_near'.
+(** The film, orthographic: likewise the box. *)
+Check Orthographic.box_holds'.
+(** The film, orthographic: likewise the nearest. *)
+Check Orthographic.nearest_seen'.
+(** Cells: no pixel of a cell that an edge rules out would have been covered. *)
+Check Cells.ruled_out.
+(** Cells: no pixel of a cell that is hidden would have been seen. *)
+Check Cells.hidden.
+(** The depth buffer: whatever may win, and is not kept, is behind a hit that is sure. *)
+Check Cells.all_kept.
+(** Nearness from t encloses what is exact. *)
+Check Cells.nearness_encloses.
 (** The sweep sees what plain sees. *)
 Check Sweep.sweep_sees_what_plain_does.
