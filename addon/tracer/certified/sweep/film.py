@@ -99,7 +99,7 @@ class Film:
 
     @cached_property
     def place(self) -> tuple[float, float]:
-        """c0, c1: p and q of a vertex are off by at most c0 + c1 size, in pixels (times w)."""
+        """c0, c1: p and q of a vertex, counted from any pixel, are off by at most c0 + c1 size."""
         c = self.camera
         if not self.is_sound:
             return np.inf, 0.0
