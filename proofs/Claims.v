@@ -1,7 +1,7 @@
 (** The theorems of the claim, in the words of docs/proof.md: tools/prove.py asks what they assume. *)
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
-From Reftrace Require Import Whole Nearby Batches Sweep Certified Given CameraRays QuotientBinary.
-From Reftrace Require Import Camera Perspective Orthographic Dual EdgeFunctions Cells.
+From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
+From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -66,9 +66,9 @@ Check QuotientBinary.binary_parallel.
 Check QuotientBinary.binary_alone.
 (** The whole: the owner is the nearest of the moved ray; if certain by a bound or by integers, it is
     the one nearest of the stored ray, and else there is none; t is its exact T / D, rounded once. *)
-Check Certified.certified.
+Check CertifiedDepth.certified_with_depth.
 (** The whole: its premises can be met. *)
-Check Given.given_is_possible.
+Check CertifiedDepth.given_but_depth_is_possible.
 (** Rays of a perspective camera are among those that its bounds are computed for. *)
 Check CameraRays.perspective_reach.
 (** Likewise of an orthographic camera. *)
@@ -91,6 +91,21 @@ Check Orthographic.vertex_near'.
 Check Orthographic.box_holds'.
 (** The film, orthographic: likewise the nearest. *)
 Check Orthographic.nearest_seen'.
+(** The sweep: what set_up and a pixel's edge functions call sure is met by the stored ray, inside and
+    before the eye; perspective. *)
+Check Fit.surely_inside.
+(** The sweep: what they drop is not met before the eye; perspective. *)
+Check Fit.dropped.
+(** The sweep: where the sign of T is not known, what both signs drop is not met; perspective. *)
+Check Fit.dropped_by_both.
+(** The sweep: what is called sure is met; orthographic. *)
+Check FitParallel.surely_inside'.
+(** The sweep: what is dropped is not met; orthographic. *)
+Check FitParallel.dropped'.
+(** The sweep: likewise where the sign of T is not known; orthographic. *)
+Check FitParallel.dropped_by_both'.
+(** The film: axes that has_sound_axes lets pass are far enough from a plane. *)
+Check FitParallel.well_apart_holds.
 (** Cells: no pixel of a cell that an edge rules out would have been covered. *)
 Check Cells.ruled_out.
 (** Cells: no pixel of a cell that is hidden would have been seen. *)
