@@ -9,7 +9,7 @@
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Recorded Rounding Camera Place Film Dual Bounds Boxes.
-From Reftrace Require EdgeFunctions Perspective Orthographic.
+From Reftrace Require EdgeBounds EdgeFunctions Perspective Orthographic.
 Open Scope R_scope.
 Open Scope string_scope.
 Opaque rnd.
@@ -129,7 +129,7 @@ Lemma depth_error_code : is_float ($"ray_error") ->
   fl v film_depth_error_constant = 2 * $"ray_error" /\ fl v film_depth_error_slope = weight ($"spread").
 Proof.
   unfold film_depth_error_constant, film_depth_error_slope. code.
-  split; [now apply EdgeFunctions.rnd_2 | reflexivity].
+  split; [now apply EdgeBounds.rnd_2 | reflexivity].
 Qed.
 
 Notation far_reach := (rnd (reach ax_ + reach ay_)).
@@ -148,7 +148,7 @@ Lemma place_code : is_float ($"ray_error") -> fl v film_place_perspective_consta
   Rmax (Rmax 0 (along ($"left") width_ (reach ax_))) (along ($"bottom") height_ (reach ay_)).
 Proof.
   intros F. unfold film_place_perspective_constant, film_place_perspective_slope. code.
-  split; [reflexivity|]. rewrite (EdgeFunctions.rnd_2 _ F). reflexivity.
+  split; [reflexivity|]. rewrite (EdgeBounds.rnd_2 _ F). reflexivity.
 Qed.
 Lemma place_code' : is_float ($"ray_error") ->
   fl v film_place_parallel_constant =
@@ -157,7 +157,7 @@ Lemma place_code' : is_float ($"ray_error") ->
   fl v film_place_parallel_slope = Rmax (Rmax 0 (slope' ($"spread") width_)) (slope' ($"spread") height_).
 Proof.
   intros F. unfold film_place_parallel_constant, film_place_parallel_slope. code.
-  split; [rewrite (EdgeFunctions.rnd_2 _ F)|]; reflexivity.
+  split; [rewrite (EdgeBounds.rnd_2 _ F)|]; reflexivity.
 Qed.
 
 (** ** [enter]: where a vertex is *)
@@ -207,7 +207,7 @@ Lemma and_iff a b P Q : (a = true <-> P) -> (b = true <-> Q) -> (a && b = true <
 Proof. intros. rewrite andb_true_iff. tauto. Qed.
 Lemma less_eq_iff a b : Rle_bool a b = true <-> a <= b.
 Proof. split; [case Rle_bool_spec; [auto | discriminate] | apply Rle_bool_true]. Qed.
-Notation more := EdgeFunctions.more. (* the float 1.01 *)
+Notation more := EdgeBounds.more. (* the float 1.01 *)
 Definition far_ := rnd (2 * Rmax ($"width") ($"height")).
 Theorem certain_code (wt := $"weight") : truth rnd v film_perspective_certain = true <->
   margin_2 ($"c0") ($"c1") wt Z_ far_ more w_ <= bpow radix2 (-26) /\
@@ -234,7 +234,7 @@ Theorem nearest_code' : fl v film_parallel_nearest = nearest' w_ Z_ ($"d0") ($"d
 Proof. unfold film_parallel_nearest. code. reflexivity. Qed.
 
 (** ** Boxes *)
-Lemma more_ok : 10099 / 10000 <= more. Proof. generalize EdgeFunctions.more_value. lra. Qed.
+Lemma more_ok : 10099 / 10000 <= more. Proof. generalize EdgeBounds.more_value. lra. Qed.
 
 Section Boxes.
 (** What depends on the projection: the vertex's w, and the film's [weight]. *)
@@ -247,7 +247,7 @@ Notation high := (highest ($"c0") ($"c1")).
 
 Lemma far_value : far_ = 2 * Rmax (IZR n) (IZR n').
 Proof.
-  unfold far_. rewrite width_int, height_int. apply EdgeFunctions.rnd_2. unfold Rmax.
+  unfold far_. rewrite width_int, height_int. apply EdgeBounds.rnd_2. unfold Rmax.
   destruct (Rle_dec (IZR n) (IZR n')); apply int_float; lia.
 Qed.
 Lemma far_ok : 2 * IZR n <= far_ /\ 2 * IZR n' <= far_ /\ far_ <= 2 * (IZR n + IZR n').

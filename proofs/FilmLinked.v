@@ -6,7 +6,7 @@
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Recorded Rounding Camera Place Film Dual Bounds Boxes FilmCode.
-From Reftrace Require EdgeFunctions Perspective Orthographic Fit FitParallel.
+From Reftrace Require EdgeBounds EdgeFunctions Perspective Orthographic Fit FitParallel.
 Open Scope R_scope.
 Open Scope string_scope.
 Opaque rnd.
@@ -85,7 +85,7 @@ Qed.
 (** Vertices, and the ends of their boxes: [K] is the float 1.01, [far] 2 max (width, height). *)
 Theorem perspective_recorded_vertex (b := fun f dz =>
     f (r_ v) (u_ v) (f_ v) (o_ v) m S_ x0 x1 y0 y1 width height dz
-    (far_ v) EdgeFunctions.more (v_ v) (Z_ v) : R) :
+    (far_ v) EdgeBounds.more (v_ v) (Z_ v) : R) :
   fl v film_perspective_lowest_x = b Perspective.low_x ($"dx") /\
   fl v film_perspective_lowest_y = b Perspective.low_y ($"dy") /\
   fl v film_perspective_minus_highest_x = b Perspective.high_x ($"dx") /\
@@ -142,7 +142,7 @@ Proof.
 Qed.
 Theorem parallel_recorded_vertex (b := fun f dz =>
     f (r_ v) (u_ v) (f_ v) (o_ v) m most S_ x0 x1 y0 y1 width height dz
-    (far_ v) EdgeFunctions.more (v_ v) (Z_ v) : R) :
+    (far_ v) EdgeBounds.more (v_ v) (Z_ v) : R) :
   fl v film_parallel_lowest_x = b Orthographic.low_x ($"dx") /\
   fl v film_parallel_lowest_y = b Orthographic.low_y ($"dy") /\
   fl v film_parallel_minus_highest_x = b Orthographic.high_x ($"dx") /\

@@ -11,10 +11,12 @@
 Require Import ZArith Reals Psatz.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place Film Dual Bounds Boxes FitSteps.
-From Reftrace Require EdgeFunctions Perspective.
+From Reftrace Require EdgeBounds EdgeRoundings EdgeFunctions Perspective.
 Open Scope R_scope.
 Opaque rnd.
 Module E := EdgeFunctions.
+Module EB := EdgeBounds.
+Module ER := EdgeRoundings.
 Module P := Perspective.
 
 (** ** A perspective camera *)
@@ -100,7 +102,7 @@ Proof.
     assert (0 <= u * S) by (apply Rmult_le_pos; lra). lra.
 Qed.
 
-Theorem relative_near v Z (c := E.relative zx zy (stored v)) (c' := E.moved zx zy (see v)) : sees v Z ->
+Theorem relative_near v Z (c := EB.relative zx zy (stored v)) (c' := E.moved zx zy (see v)) : sees v Z ->
   near (vx c) (vx c') (92 / 100 * (place_slope * Z)) /\ near (vy c) (vy c') (92 / 100 * (place_slope * Z)) /\
   near (vz c) (vz c') (92 / 100 * (wt * Z)) /\ Rabs (vz c) <= 102 / 100 * (S * Z) /\ bpow radix2 (-960) <= Z.
 Proof.
@@ -215,7 +217,7 @@ Qed.
 
 (** The premise of EdgeFunctions.v, for a perspective camera's stored triangle, at any pixel. *)
 Theorem perspective_fit a b c Za Zb Zc from_here (size := Rmax (Rmax Za Zb) Zc)
-  (stored_ := fun v => E.relative zx zy (stored v)) (exact_ := fun v => E.moved zx zy (see v)) :
+  (stored_ := fun v => EB.relative zx zy (stored v)) (exact_ := fun v => E.moved zx zy (see v)) :
   sees a Za -> sees b Zb -> sees c Zc -> is_float from_here -> 1 <= from_here <= 4294967296 ->
   E.fit (place_of size) (weight_of size) from_here (stored_ a) (stored_ b) (stored_ c)
     (exact_ a) (exact_ b) (exact_ c).
@@ -225,7 +227,7 @@ Proof.
   assert (Lb : Zb <= size) by (unfold size; eapply Rle_trans; [apply Rmax_r | apply Rmax_l]).
   assert (Lc : Zc <= size) by (unfold size; apply Rmax_r).
   assert (G : forall v Z, sees v Z -> Z <= size ->
-    E.close (place_of size) (weight_of size) (stored_ v) (exact_ v) /\
+    ER.close (place_of size) (weight_of size) (stored_ v) (exact_ v) /\
     Rabs (vz (stored_ v)) <= 102 / 100 * (S * size) /\ bpow radix2 (-960) <= Z).
   { intros v Z Hv Lv. destruct (relative_near v Z Hv) as [X [Y [W [B Z0]]]].
     destruct (enough Z size Z0 Lv) as [E1 [E2 _]].
@@ -239,9 +241,9 @@ Proof.
   assert (Sz : 1 * size <= S * size) by (apply Rmult_le_compat_r; lra).
   assert (usz : u * (1 * size) <= u * (S * size)) by (apply Rmult_le_compat_l; lra).
   assert (g0 : 0 < u * (S * size)) by (repeat (lra || apply Rmult_lt_0_compat)).
-  assert (Ft : forall v, E.float_vec (stored_ v)) by (intros v; repeat split; apply rnd_float).
-  assert (Tp : 0 <= E.top (stored_ a) (stored_ b) (stored_ c) <= 102 / 100 * (S * size)).
-  { unfold E.top. split; [eapply Rle_trans; [apply Rabs_pos | apply Rmax_r]|].
+  assert (Ft : forall v, ER.float_vec (stored_ v)) by (intros v; repeat split; apply rnd_float).
+  assert (Tp : 0 <= EB.top (stored_ a) (stored_ b) (stored_ c) <= 102 / 100 * (S * size)).
+  { unfold EB.top. split; [eapply Rle_trans; [apply Rabs_pos | apply Rmax_r]|].
   repeat apply Rmax_lub; assumption. }
   constructor; try assumption; try apply rnd_float; try apply Ft; try lra.
   - apply Rle_trans with (64 * (u * bpow radix2 (-960))).
@@ -267,23 +269,23 @@ Hypothesis up_float : is_float up_. Hypothesis right_float : is_float right_.
 Hypothesis from_float : is_float from_here. Hypothesis from_size : 1 <= from_here <= 4294967296.
 Hypothesis up_in : Rabs up_ <= from_here. Hypothesis right_in : Rabs right_ <= from_here.
 Let size := Rmax (Rmax Za Zb) Zc.
-Let A := E.relative zx zy (stored a).
-Let B := E.relative zx zy (stored b).
-Let C := E.relative zx zy (stored c).
-Let far := E.far_of (E.span A B C) (place_of size).
-Let high := E.high_of (E.top A B C) (weight_of size).
-Let T_ := E.volume A B C.
-Let t_max := E.volume_error (place_of size) (weight_of size) far high.
-Let e_max := E.edge_error from_here (place_of size) (weight_of size) far high.
+Let A := EB.relative zx zy (stored a).
+Let B := EB.relative zx zy (stored b).
+Let C := EB.relative zx zy (stored c).
+Let far := EB.far_of (EB.span A B C) (place_of size).
+Let high := EB.high_of (EB.top A B C) (weight_of size).
+Let T_ := EB.volume A B C.
+Let t_max := EB.volume_error (place_of size) (weight_of size) far high.
+Let e_max := EB.edge_error from_here (place_of size) (weight_of size) far high.
 Let r := Ray o d.
 Let tri := Triangle a b c.
-Let at_edge s u v := E.signed_edge s u v up_ right_.
+Let at_edge s u v := EB.signed_edge s u v up_ right_.
 Let least s := Rmin (Rmin (at_edge s B C) (at_edge s C A)) (at_edge s A B).
 
 Lemma fits : E.fit (place_of size) (weight_of size) from_here A B C
   (E.moved zx zy (see a)) (E.moved zx zy (see b)) (E.moved zx zy (see c)).
 Proof. apply perspective_fit; assumption. Qed.
-Lemma at_pixel u v : det (E.moved zx zy u) (E.moved zx zy v) (E.pixel_ray up_ right_) =
+Lemma at_pixel u v : det (E.moved zx zy u) (E.moved zx zy v) (ER.pixel_ray up_ right_) =
   det u v (V (IZR i + / 2) (IZR j + / 2) 1).
 Proof.
   rewrite <- (E.moved_det zx zy u v (IZR i + / 2) (IZR j + / 2)).
@@ -309,7 +311,7 @@ Proof.
 Qed.
 
 (** What is sure to be inside: the ray meets the triangle, at no edge, and before the eye. *)
-Theorem surely_inside (s := E.sign_of T_) : Rabs T_ > t_max ->
+Theorem surely_inside (s := EB.sign_of T_) : Rabs T_ > t_max ->
   at_edge s B C > e_max -> at_edge s C A > e_max -> at_edge s A B > e_max ->
   meets_inside r tri /\ 0 < Geometry.depth r tri.
 Proof.
@@ -330,7 +332,7 @@ Proof.
 Qed.
 
 (** What is dropped, where T is sure: the ray does not meet the triangle before the eye. *)
-Theorem dropped (s := E.sign_of T_) : Rabs T_ > t_max -> least s < - e_max ->
+Theorem dropped (s := EB.sign_of T_) : Rabs T_ > t_max -> least s < - e_max ->
   ~ (meets r tri /\ 0 < Geometry.depth r tri).
 Proof.
   intros H1 H2 [[D M] Before].

@@ -6,10 +6,12 @@
 Require Import ZArith Reals Psatz.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place Film Dual Bounds Boxes FitSteps.
-From Reftrace Require EdgeFunctions Orthographic.
+From Reftrace Require EdgeBounds EdgeRoundings EdgeFunctions Orthographic.
 Open Scope R_scope.
 Opaque rnd.
 Module E := EdgeFunctions.
+Module EB := EdgeBounds.
+Module ER := EdgeRoundings.
 Module O := Orthographic.
 
 Lemma abs_hi x B : Rabs x <= B -> Rabs (rnd x) <= 10001 / 10000 * B + eta.
@@ -210,7 +212,7 @@ Proof.
   eapply Rle_trans; [apply Rabs_triang|]. lra.
 Qed.
 
-Theorem relative_near' v Z (c := E.relative zx zy (stored' v)) (c' := E.moved zx zy (see v)) : sees v Z ->
+Theorem relative_near' v Z (c := EB.relative zx zy (stored' v)) (c' := E.moved zx zy (see v)) : sees v Z ->
   near (vx c) (vx c') (95 / 100 * (place_constant + place_slope * Z)) /\
   near (vy c) (vy c') (95 / 100 * (place_constant + place_slope * Z)) /\ bpow radix2 (-960) <= Z.
 Proof.
@@ -258,7 +260,7 @@ Qed.
 
 (** The premise of EdgeFunctions.v, for an orthographic camera's stored triangle, at any pixel. *)
 Theorem parallel_fit a b c Za Zb Zc from_here (size := Rmax (Rmax Za Zb) Zc)
-  (stored_ := fun v => E.relative zx zy (stored' v)) (exact_ := fun v => E.moved zx zy (see v)) :
+  (stored_ := fun v => EB.relative zx zy (stored' v)) (exact_ := fun v => E.moved zx zy (see v)) :
   sees a Za -> sees b Zb -> sees c Zc -> is_float from_here -> 1 <= from_here <= 4294967296 ->
   E.fit (place_of' size) (rnd (0 * size)) from_here (stored_ a) (stored_ b) (stored_ c)
     (exact_ a) (exact_ b) (exact_ c).
@@ -267,7 +269,7 @@ Proof.
   assert (La : Za <= size) by (unfold size; eapply Rle_trans; [apply Rmax_l | apply Rmax_l]).
   assert (Lb : Zb <= size) by (unfold size; eapply Rle_trans; [apply Rmax_r | apply Rmax_l]).
   assert (Lc : Zc <= size) by (unfold size; apply Rmax_r).
-  assert (G : forall v Z, sees v Z -> Z <= size -> E.close (place_of' size) 0 (stored_ v) (exact_ v) /\
+  assert (G : forall v Z, sees v Z -> Z <= size -> ER.close (place_of' size) 0 (stored_ v) (exact_ v) /\
     bpow radix2 (-960) <= Z).
   { intros v Z Hv Lv. destruct (relative_near' v Z Hv) as [X [Y Z0]].
   destruct (enough' Z size Z0 Lv) as [E1 _].
@@ -278,10 +280,10 @@ Proof.
   destruct (G a Za Ha La) as [Ca Z0]. destruct (G b Zb Hb Lb) as [Cb _]. destruct (G c Zc Hc Lc) as [Cc _].
   destruct (enough' Za size Z0 La) as [_ E1].
   assert (F1 : is_float 1) by (apply (int_float 1); lia).
-  assert (Ft : forall v, E.float_vec (stored_ v)).
+  assert (Ft : forall v, ER.float_vec (stored_ v)).
   { intros v. split; [apply rnd_float | split; [apply rnd_float | exact F1]]. }
-  assert (Tp : E.top (stored_ a) (stored_ b) (stored_ c) = 1).
-  { unfold E.top, stored_. simpl. rewrite Rabs_R1, (Rmax_left 1 1), Rmax_left; lra. }
+  assert (Tp : EB.top (stored_ a) (stored_ b) (stored_ c) = 1).
+  { unfold EB.top, stored_. simpl. rewrite Rabs_R1, (Rmax_left 1 1), Rmax_left; lra. }
   constructor; try assumption; try apply rnd_float; try apply Ft; try apply Rle_refl;
     try apply generic_format_0.
   - lra.
@@ -302,23 +304,23 @@ Hypothesis from_float : is_float from_here. Hypothesis from_size : 1 <= from_her
 Hypothesis up_in : Rabs up_ <= from_here. Hypothesis right_in : Rabs right_ <= from_here.
 Let size := Rmax (Rmax Za Zb) Zc.
 Let weight := rnd (0 * size).
-Let A := E.relative zx zy (stored' a).
-Let B := E.relative zx zy (stored' b).
-Let C := E.relative zx zy (stored' c).
-Let far := E.far_of (E.span A B C) (place_of' size).
-Let high := E.high_of (E.top A B C) weight.
-Let T_ := E.volume A B C.
-Let t_max := E.volume_error (place_of' size) weight far high.
-Let e_max := E.edge_error from_here (place_of' size) weight far high.
+Let A := EB.relative zx zy (stored' a).
+Let B := EB.relative zx zy (stored' b).
+Let C := EB.relative zx zy (stored' c).
+Let far := EB.far_of (EB.span A B C) (place_of' size).
+Let high := EB.high_of (EB.top A B C) weight.
+Let T_ := EB.volume A B C.
+Let t_max := EB.volume_error (place_of' size) weight far high.
+Let e_max := EB.edge_error from_here (place_of' size) weight far high.
 Let r := Ray oh forward.
 Let tri := Triangle a b c.
-Let at_edge s u v := E.signed_edge s u v up_ right_.
+Let at_edge s u v := EB.signed_edge s u v up_ right_.
 Let least s := Rmin (Rmin (at_edge s B C) (at_edge s C A)) (at_edge s A B).
 
 Lemma fits : E.fit (place_of' size) weight from_here A B C
   (E.moved zx zy (see a)) (E.moved zx zy (see b)) (E.moved zx zy (see c)).
 Proof. apply parallel_fit; assumption. Qed.
-Lemma at_pixel u v : det (E.moved zx zy u) (E.moved zx zy v) (E.pixel_ray up_ right_) =
+Lemma at_pixel u v : det (E.moved zx zy u) (E.moved zx zy v) (ER.pixel_ray up_ right_) =
   det u v (V (IZR i + / 2) (IZR j + / 2) 1).
 Proof.
   rewrite <- (E.moved_det zx zy u v (IZR i + / 2) (IZR j + / 2)).
@@ -339,7 +341,7 @@ Proof.
 Qed.
 
 (** What is sure to be inside: the line of the ray meets the triangle, at no edge. *)
-Theorem surely_inside' (s := E.sign_of T_) : Rabs T_ > t_max ->
+Theorem surely_inside' (s := EB.sign_of T_) : Rabs T_ > t_max ->
   at_edge s B C > e_max -> at_edge s C A > e_max -> at_edge s A B > e_max -> meets_inside r tri.
 Proof.
   intros H1 H2 H3 H4.
@@ -350,7 +352,7 @@ Proof.
 Qed.
 
 (** What is dropped: it does not, be T sure, or be it dropped by the set-ups of both signs. *)
-Theorem dropped' (s := E.sign_of T_) : Rabs T_ > t_max -> least s < - e_max -> ~ meets r tri.
+Theorem dropped' (s := EB.sign_of T_) : Rabs T_ > t_max -> least s < - e_max -> ~ meets r tri.
 Proof.
   intros H1 H2 [D M].
   apply (E.nothing_lost _ _ _ _ _ _ _ _ _ fits up_ right_ up_float right_float up_in right_in H1 H2).

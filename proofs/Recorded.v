@@ -1985,12 +1985,12 @@ Definition clip_perspective_outside : test :=
 
 (** depth_buffer.ClipRange, orthographic: inside *)
 Definition clip_parallel_inside : test :=
-  And (Less (Neg (Var "end")) (Var "least")) (Less (Var "most") (Where (Finite (Var "end")) (Neg
+  And (Less (Neg (Var "end")) (Var "least")) (Less (Var "most") (Where (Finite (Var "start")) (Neg
     (Var "start")) Inf)).
 
 (** depth_buffer.ClipRange, orthographic: outside *)
 Definition clip_parallel_outside : test :=
-  Or (Less (Var "most") (Neg (Var "end"))) (Less (Where (Finite (Var "end")) (Neg (Var "start"))
+  Or (Less (Var "most") (Neg (Var "end"))) (Less (Where (Finite (Var "start")) (Neg (Var "start"))
     Inf) (Var "least")).
 
 (** sweep.Sweep.enter_planes, perspective: least *)

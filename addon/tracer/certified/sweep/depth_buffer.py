@@ -38,8 +38,11 @@ class ClipRange:
     """The camera's clip range as nearness, with room for its own rounding."""
 
     def __init__(self, camera: Camera) -> None:
-        ends, nearness = (camera.clip_start, camera.clip_end), camera.projection.nearness
-        self._outer, self._inner = nearness(*ends, ROUNDING), nearness(*ends, -ROUNDING)
+        start, end, nearness = camera.clip_start, camera.clip_end, camera.projection.nearness
+        self._outer, self._inner = (
+            (nearness(end, end, room)[0], nearness(start, start, room)[1])
+            for room in (ROUNDING, -ROUNDING)
+        )
 
     def inside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
         """Return which surely are in the range, of nearnesses between these."""

@@ -48,6 +48,18 @@ def assert_same(found: Hits, expected: Hits, what) -> None:
     assert found.ties == expected.ties, what
 
 
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("end", [np.inf, 1e300, 1000.0])
+def test_the_clip_range_begins_where_it_does_not_end(make, orthographic, end):
+    ramp = Mesh([(-8, -8, -1), (8, -8, -1), (8, 8, -9), (-8, 8, -9)], [[0, 1, 2], [0, 2, 3]])
+    half = 8 if orthographic else 1.5
+    options = dict(orthographic=orthographic, half=half, clip_start=5.0, clip_end=end)
+    found = swept(make.scene(make.camera(**options), ramp))
+    seen = found.t[np.isfinite(found.t)]
+    assert len(seen) and seen.min() >= 5
+    assert_same(found, swept(make.scene(make.camera(**(options | dict(clip_end=500))), ramp)), end)
+
+
 @pytest.mark.parametrize("part", PARTS)
 def test_as_a_contest_of_every_ray_with_every_triangle(make, part):
     """Ids, t and ties; and it is never more in doubt."""
