@@ -1,7 +1,7 @@
 (** The theorems of the claim, in the words of docs/proof.md: tools/prove.py asks what they assume. *)
 From Reftrace Require Import Rounding Signs Forms Pairs Nearer Hits Fans Closed Integers Clip.
 From Reftrace Require Import Whole Nearby Batches Sweep CertifiedDepth CameraRays QuotientBinary.
-From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells.
+From Reftrace Require Import Perspective Orthographic Fit FitParallel Cells SweepProven.
 
 (** Rounding: an expression of +, - and * of floats is off by at most (1 + u)^k room - P, gradual
     underflow included; k counts the roundings along its longest path. *)
@@ -106,6 +106,20 @@ Check FitParallel.dropped'.
 Check FitParallel.dropped_by_both'.
 (** The film: axes that has_sound_axes lets pass are far enough from a plane. *)
 Check FitParallel.well_apart_holds.
+(** The sweep, as recorded: the nearness encloses the exact 1 / t; perspective. *)
+Check SweepProven.recorded_perspective_nearness.
+(** The sweep, as recorded: likewise -t; orthographic. *)
+Check SweepProven.recorded_parallel_nearness.
+(** The sweep, as recorded: of small triangles, what is called sure is inside. *)
+Check SweepProven.recorded_small_inside.
+(** The sweep, as recorded: of small triangles, what is dropped is outside. *)
+Check SweepProven.recorded_small_outside.
+(** The sweep, as recorded: of small triangles, the nearness encloses the exact one. *)
+Check SweepProven.recorded_small_nearness.
+(** The sweep, as recorded: the clip range, perspective. *)
+Check SweepProven.recorded_clip_perspective.
+(** The sweep, as recorded: the clip range, orthographic. *)
+Check SweepProven.recorded_clip_parallel.
 (** Cells: no pixel of a cell that an edge rules out would have been covered. *)
 Check Cells.ruled_out.
 (** Cells: no pixel of a cell that is hidden would have been seen. *)

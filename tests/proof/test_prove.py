@@ -44,7 +44,9 @@ def test_every_claim_is_a_theorem_in_words():
         assert words.endswith("."), name
         file, theorem = name.split(".")
         text = (prove.PROOFS / f"{file}.v").read_text()
-        assert re.search(rf"^(Theorem|Corollary|Lemma) {re.escape(theorem)}(?![\w'])", text, re.MULTILINE), name
+        assert re.search(
+            rf"^(Theorem|Corollary|Lemma) {re.escape(theorem)}(?![\w'])", text, re.MULTILINE
+        ), name
 
 
 def test_the_document_names_every_file():

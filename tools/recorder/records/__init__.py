@@ -1,6 +1,6 @@
 """What is recorded: a record for each function, with the theorem that is about it."""
 
-from .record import Inputs, Output, Record, computed, outputs, recorded
+from .record import BY_HAND, Inputs, Output, Record, computed, outputs, recorded
 from .table import RECORDS
 
-__all__ = ["RECORDS", "Inputs", "Output", "Record", "computed", "outputs", "recorded"]
+__all__ = ["BY_HAND", "RECORDS", "Inputs", "Output", "Record", "computed", "outputs", "recorded"]

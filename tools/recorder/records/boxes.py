@@ -16,7 +16,7 @@ from . import film
 from .bounds import FIRST
 from .camera import MATRIX, PIXELS, REGION
 from .film import BOUNDS, DOMAIN, PLACE
-from .record import Inputs, Kept, Record, numpy_with
+from .record import BY_HAND, Inputs, Kept, Record, numpy_with
 
 _ENDS = ("low_x", "low_y", "minus_high_x", "minus_high_y")
 _FIELDS = dict(p=320.0, q=240.0, w=2.0, depth=2.0) | dict.fromkeys(_ENDS, -100.0)
@@ -101,7 +101,7 @@ RECORDS = (
                     *(f"instance_{name}_{k}" for k in ("in_view", "nearest")),
                     *(f"instance_{name}_{k}_{a}" for k in ("low", "high") for a in "xy"),
                 ),
-                f"instance_{name}_right",
+                BY_HAND,
             ),
             of.name,
             DOMAIN
@@ -115,8 +115,7 @@ RECORDS = (
         "boxes._corners",
         MATRIX | _MESH,
         _corners,
-        {f"box_corner_{n}_{k}": "box_right" for n in range(8) for k in "xyz"}
-        | {"box_size": "box_right"},
+        {f"box_corner_{n}_{k}": BY_HAND for n in range(8) for k in "xyz"} | {"box_size": BY_HAND},
         "the box of a mesh",
     ),
     *(
@@ -125,7 +124,7 @@ RECORDS = (
             "small_boxes.are_small",
             _SMALL | dict(certain_a=True, certain_b=True, certain_c=last),
             lambda v, name=name: _are_small(v, name),
-            {name: "small_right"},
+            {name: BY_HAND},
             note,
             _SMALL_DOMAIN,
         )

@@ -12,7 +12,7 @@ from reference_tracer.tracer import camera, candidates, vector
 from .bounds import CORNERS
 from .film import AXES, DOMAIN, DUAL, PLACE, WINDOW
 from .film import camera as camera_of
-from .record import Inputs, Kept, Record
+from .record import BY_HAND, Inputs, Kept, Record
 
 _XYZ = "xyz"
 PIXELS = tuple(map(float, range(-64, 65)))
@@ -97,7 +97,7 @@ RECORDS = (
             "camera.camera_rays",
             WINDOW | AXES | PLACE | dict(px=100.5, py=99.5),
             lambda v, name=name, of=of: _rays(v, f"ray_{name}", of),
-            _named(f"ray_{name}", _VECTORS, f"film_ray_error_{name}_right"),
+            _named(f"ray_{name}", _VECTORS, f"FilmCode.{name}_ray"),
             of.name,
             DOMAIN,
         )
@@ -108,7 +108,7 @@ RECORDS = (
         "camera.film_positions",
         dict(region_x=3.0, region_y=4.0, dx=0.125, dy=-0.25),
         _positions,
-        _named("film_position", "x y", "film_position_right"),
+        _named("film_position", "x y", "FilmCode.position_x"),
         domain=dict(region_x=PIXELS, region_y=PIXELS),
     ),
     Record(
@@ -116,15 +116,15 @@ RECORDS = (
         "camera.dual_axes",
         AXES,
         _dual,
-        _named("dual", " ".join(DUAL), "dual_axes_right"),
+        _named("dual", " ".join(DUAL), "FilmCode.dual_rows"),
     ),
     Record(
         "project",
         "camera.project",
         PLACE | DUAL | dict(vx=0.75, vy=0.5, vz=-2.0),
         _project,
-        _named("project", "right up depth", "project_right")
-        | _named("project_magnitude", "right up depth", "project_right"),
+        _named("project", "right up depth", BY_HAND)
+        | _named("project_magnitude", "right up depth", BY_HAND),
     ),
     *(
         Record(
@@ -132,7 +132,7 @@ RECORDS = (
             "candidates.pixel_bounds",
             _BOX,
             lambda v, name=name, of=of: _pixel_bounds(v, f"pixel_bounds_{name}", of),
-            _named(f"pixel_bounds_{name}", "x0 x1 y0 y1", f"pixel_bounds_{name}_right"),
+            _named(f"pixel_bounds_{name}", "x0 x1 y0 y1", BY_HAND),
             of.name,
             DOMAIN | dict.fromkeys(REGION, PIXELS),
         )
@@ -143,6 +143,6 @@ RECORDS = (
         "vector.transform_points",
         MATRIX | dict(vx=0.75, vy=0.5, vz=-2.0),
         _transform,
-        _named("transform", "x y z", "box_right"),
+        _named("transform", "x y z", BY_HAND),
     ),
 )

@@ -93,9 +93,11 @@ def _theorems(prefix: str) -> dict[str, str]:
         "nearness": [*(f"nearness_{of}" for of in _OF), "nearness_error"],
         "sign": ["sure", "T", "T_error"],
     }
+    file = "SweepDoubt" if "_edge_on" in prefix or "_lost" in prefix else "SweepCode"
     copies = f"{prefix}_", f"{prefix}_other_"  # the other is of the other sign of T
+    same = "SweepDoubt.edge_on_is_perspective" if prefix == "set_up_edge_on_parallel" else ""
     return {
-        f"{copy}{name}": f"{prefix}_{theorem}"
+        f"{copy}{name}": same or f"{file}.{prefix}_{theorem}"
         for copy in copies
         for theorem, names in of.items()
         for name in names

@@ -14,7 +14,7 @@ from reference_tracer.tracer.certified.sweep import film
 from reference_tracer.tracer.certified.sweep.film import Film, Vertices
 
 from ..arrays import holds, most
-from .record import Inputs, Kept, Record, locals_of
+from .record import BY_HAND, Inputs, Kept, Record, locals_of
 
 WINDOW = dict(left=-0.5, right=0.5, bottom=-0.4, top=0.4, width=640.0, height=480.0)
 PLACE = dict(ox=0.5, oy=-0.25, oz=1.5)
@@ -33,6 +33,15 @@ _SIZES = tuple(map(float, range(1, 4096)))
 # A scene has no camera without a picture or a window (`scene.Camera`): Python's `max` meets no NaN.
 _LOW, _HIGH = (-0.5, -1.5, -3e10, 0.1), (0.5, 1.25, 2e12, 0.2)
 DOMAIN = dict(width=_SIZES, height=_SIZES, left=_LOW, right=_HIGH, bottom=_LOW, top=_HIGH)
+# The theorem of a perspective and of an orthographic camera.
+_PROVEN = {
+    "place": ("Perspective.vertex_near", "Orthographic.vertex_near'"),
+    "certain": ("FilmCode.certain_code", "FilmCode.certain_code'"),
+    "nearest": ("Perspective.nearest_seen", "Orthographic.nearest_seen'"),
+    "ahead": ("FilmCode.ahead_code", "FilmCode.ahead_code'"),
+    "box": ("Perspective.box_holds", "Orthographic.box_holds'"),
+    "ray_error": ("FilmCode.ray_error_code", "FilmCode.ray_error_code'"),
+}
 _THEOREMS = (
     ("place", "p q w depth size finite"),
     ("ahead", "ahead"),
@@ -124,7 +133,7 @@ def _pairs() -> Iterator[Record]:
             {k: v for k, v in _ENTER.items() if not (of.is_parallel and k == "weight")},
             lambda v, prefix=prefix, of=of: _enter(v, prefix, of),
             {
-                f"{prefix}_{k}": f"{prefix}_{what}_right"
+                f"{prefix}_{k}": _PROVEN[what][of.is_parallel]
                 for what, names in _THEOREMS
                 for k in names.split()
             },
@@ -137,7 +146,7 @@ def _pairs() -> Iterator[Record]:
             "film.Film.ray_error",
             reach | AXES | (PLACE if of.is_parallel else {}),
             _of_film(lambda f, _, name=name: {f"film_ray_error_{name}": f.ray_error}, of),
-            {f"film_ray_error_{name}": f"film_ray_error_{name}_right"},
+            {f"film_ray_error_{name}": _PROVEN["ray_error"][of.is_parallel]},
             of.name,
             DOMAIN,
         )
@@ -148,7 +157,7 @@ def _pairs() -> Iterator[Record]:
             _of_film(_place(f"film_place_{name}"), of, "ray_error"),
             dict.fromkeys(
                 (f"film_place_{name}_constant", f"film_place_{name}_slope"),
-                f"film_{name}_place_right",
+                _PROVEN["place"][of.is_parallel],
             ),
             of.name,
             DOMAIN,
@@ -164,7 +173,7 @@ def _pairs() -> Iterator[Record]:
                 of,
                 *("place", "ray_error", "depth_error"),
             ),
-            {f"film_certain_error_{name}": f"film_certain_{name}"},
+            {f"film_certain_error_{name}": BY_HAND},
             of.name,
             DOMAIN,
         )
@@ -178,7 +187,7 @@ def _pairs() -> Iterator[Record]:
                 },
                 of,
             ),
-            {f"film_certain_nearness_{name}": f"film_certain_{name}"},
+            {f"film_certain_nearness_{name}": BY_HAND},
             of.name,
         )
 
@@ -190,14 +199,14 @@ RECORDS = (
         "film.Film._spread",
         DUAL,
         _of_film(lambda f, _: {"film_spread": f._spread}, PERSPECTIVE, "dual"),
-        {"film_spread": "film_spread_right"},
+        {"film_spread": "FilmCode.spread_near"},
     ),
     Record(
         "film_weight",
         "film.Film.weight",
         dict(spread=4.5),
         _of_film(lambda f, _: {"film_weight": f.weight}, PERSPECTIVE),
-        {"film_weight": "film_perspective_place_right"},
+        {"film_weight": "Bounds.weight_holds"},
     ),
     Record(
         "film_depth_error",
@@ -212,7 +221,7 @@ RECORDS = (
             "ray_error",
         ),
         dict.fromkeys(
-            ("film_depth_error_constant", "film_depth_error_slope"), "film_parallel_place_right"
+            ("film_depth_error_constant", "film_depth_error_slope"), "FilmCode.depth_error_code"
         ),
     ),
 )

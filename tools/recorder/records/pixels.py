@@ -126,7 +126,7 @@ def _enter(v: Inputs) -> Kept:
 
 
 def _theorems(prefix: str, names: str) -> dict[str, str]:
-    return {f"{prefix}_{name}": f"{prefix}_right" for name in names.split()}
+    return {f"{prefix}_{name}": f"SweepPixels.{prefix}_right" for name in names.split()}
 
 
 _PAIRS = "edge inside least most sure"
@@ -147,7 +147,7 @@ RECORDS = (
         edges.VALUES
         | dict(x=5.0, y=6.0, x_end=9.0, y_end=9.0, region_x=7.0, region_y=8.0, farthest=-1.0),
         _may_be_seen,
-        {"may_be_seen": "may_be_seen_right"},
+        {"may_be_seen": "SweepPixels.may_be_seen_right"},
     ),
     Record(
         "small",

@@ -62,14 +62,17 @@ class Inputs:
         return name in self.values
 
 
+BY_HAND = "none, it is argued by hand: see docs/proof.md"
+
+
 @dataclass(frozen=True, eq=False)
 class Record:
     """A call of one function.
 
     `values` are those of its variables that it is recorded with: they decide which way it goes.
-    `theorems` has the Coq name of each result, and of the theorem about it: with its file, as in
-    Forms.plane_T, where it is proven, without one where that is still to be done. Of a variable
-    that is no number of any size, `domain` has some values.
+    `theorems` has the Coq name of each result, and of the theorem about it with its file, as in
+    Forms.plane_T; or `BY_HAND`. Of a variable that is no number of any size, `domain` has some
+    values.
     """
 
     name: str
