@@ -27,7 +27,8 @@ Record given (i : inputs) (scene : list surface) (batches : list (list surface))
   (** *** What rays share: this one is among those that bounds were computed for. Of the rays of a
       camera that is proven: CameraRays.v. *)
   among_the_rays : one_of_the_rays i;
-  (** *** What is proposed: all surfaces that are met, none twice (candidates.py, Boxes.v). *)
+  (** *** What is proposed: all surfaces that are met, none twice. That candidates.py does so is argued
+      by hand. *)
   all_proposed : forall s, met (stored_ray i) (start i) (end_ i) scene s -> In s (concat batches);
   none_twice : NoDup (concat batches);
   none_else : incl (concat batches) scene;

@@ -45,7 +45,8 @@ Check Hits.met_rule_all.
 Check Hits.order_rule.
 (** Ties: where that order is open, the two surfaces lie in one plane. *)
 Check Hits.order_0.
-(** Ties: where two triangles share an edge, and lie on different sides of it, exactly one is met. *)
+(** Ties: of two triangles that share an edge and lie on different sides of it, exactly one is met by
+    a ray that is inside the other edges of both; if they lie on one side, both or none. *)
 Check Fans.shared_edge.
 (** Ties: of a fan that goes once round a corner, a ray through the corner meets exactly one. *)
 Check Fans.fan_rule.
@@ -64,10 +65,10 @@ Check QuotientBinary.binary_from_point.
 Check QuotientBinary.binary_parallel.
 (** t: likewise of rays that share nothing. *)
 Check QuotientBinary.binary_alone.
-(** The whole: the owner is the nearest of the moved ray; if certain by a bound or by integers, it is
+(** The whole, of plain: the owner is the nearest of the moved ray, by name in one plane; if certain by a bound or by integers, it is
     the one nearest of the stored ray, and else there is none; t is its exact T / D, rounded once. *)
 Check CertifiedDepth.certified_with_depth.
-(** The whole: its premises can be met. *)
+(** The whole, of plain: its premises can be met. *)
 Check CertifiedDepth.given_but_depth_is_possible.
 (** Rays of a perspective camera are among those that its bounds are computed for. *)
 Check CameraRays.perspective_reach.
@@ -81,7 +82,8 @@ Check Batches.order_does_not_matter.
 (** The film: of a stored perspective ray and the stored vertices, p, q and w are off by no more than
     film.py says, rays' errors included. *)
 Check Perspective.vertex_near.
-(** The film: a triangle's box holds every pixel whose stored ray meets it, perspective. *)
+(** The film: of a triangle that is surely before the eye, the box holds every pixel whose stored ray
+    meets it, perspective. *)
 Check Perspective.box_holds.
 (** The film: nothing that is seen is nearer than the nearest of the corners, perspective. *)
 Check Perspective.nearest_seen.
@@ -104,7 +106,8 @@ Check FitParallel.surely_inside'.
 Check FitParallel.dropped'.
 (** The sweep: likewise where the sign of T is not known; orthographic. *)
 Check FitParallel.dropped_by_both'.
-(** The film: axes that has_sound_axes lets pass are far enough from a plane. *)
+(** The film: axes whose determinant is no less than an eighth of the product of their lengths are far
+    enough from a plane for the dual axes' bound. *)
 Check FitParallel.well_apart_holds.
 (** The sweep, as recorded: the nearness encloses the exact 1 / t; perspective. *)
 Check SweepProven.recorded_perspective_nearness.
@@ -128,5 +131,6 @@ Check Cells.hidden.
 Check Cells.all_kept.
 (** Nearness from t encloses what is exact. *)
 Check Cells.nearness_encloses.
-(** The sweep sees what plain sees. *)
+(** The sweep, from facts about single events: it has the owner that plain has, and is ambiguous where
+    plain is. *)
 Check Sweep.sweep_sees_what_plain_does.

@@ -26,10 +26,10 @@ AXIOMS = {
 }
 # What would let a theorem stand without its proof.
 HOLES = re.compile(
-    r"\b(Admitted|admit|give_up|Axioms?|Parameters?|Conjecture|Abort All|Unset\s+Guard\s+Checking"
+    r"\b(Admitted|admit|give_up|Axioms?|Parameters?|Conjectures?|Abort All|Unset\s+Guard\s+Checking"
     r"|bypass_check|Unset\s+Universe\s+Checking|Unset\s+Positivity\s+Checking)\b"
 )
-_CLAIM = re.compile(r"\(\*\*\s*(.*?)\s*\*\)\s*Check (\S+)\.", re.DOTALL)
+_CLAIM = re.compile(r"\(\*\*\s*((?:(?!\*\)).)*?)\s*\*\)\s*Check (\S+)\.", re.DOTALL)
 
 
 def without_comments(text: str) -> str:
@@ -76,17 +76,21 @@ def assumptions(theorems: list[str]) -> set[str]:
     _, found, listed = said.partition("Axioms:")
     if not found:  # what is about real numbers rests on some
         sys.exit(f"Coq's answer is not understood:\n{said}")
-    return set(re.findall(r"^([A-Za-z_][\w.]*)\s*:", listed, flags=re.MULTILINE))
+    # A name begins its line, with its type after it; what is indented goes on with a type.
+    return {line.split()[0] for line in listed.splitlines() if line and not line[0].isspace()}
 
 
 def main() -> None:
     """Compare, compile, ask, and print."""
     check = [sys.executable, str(PROOFS.parent / "tools/record_trees.py"), "--check"]
-    if changed := subprocess.run(check, text=True, capture_output=True).stderr:
-        sys.exit(f"{changed}\nThe theorems speak of other code than this. See docs/proof.md.")
-    listed = set((PROOFS / "_CoqProject").read_text(encoding="utf-8").split())
-    if missing := {path.name for path in PROOFS.glob("*.v")} - listed:
-        sys.exit(f"not in proofs/_CoqProject: {', '.join(sorted(missing))}")
+    compared = subprocess.run(check, text=True, capture_output=True)
+    if compared.returncode:
+        sys.exit(
+            f"{compared.stderr}\nThe theorems speak of other code than this. See docs/proof.md."
+        )
+    flags, *listed = (PROOFS / "_CoqProject").read_text(encoding="utf-8").splitlines()
+    if flags != "-Q . Reftrace" or {path.name for path in PROOFS.glob("*.v")} != set(listed):
+        sys.exit("proofs/_CoqProject must be `-Q . Reftrace` and the name of each file of proofs/")
     if left_out := holes():
         sys.exit("\n".join(["The proofs have holes:", *left_out]))
     run("coq_makefile", "-f", "_CoqProject", "-o", "Makefile.coq")
