@@ -62,7 +62,7 @@ FOLDED = {
 # Of what is argued by hand, and not in Coq (docs/proof.md lists it): by module, and the expression.
 HAND = {
     "sweep.boxes": {
-        "4": "the boxes of instances: what lies between the corners was rounded like them, with room",
+        "4": "the boxes of instances: what lies between the corners is rounded like them",
         "0.25 * _MARGIN": "the boxes of instances: a corner is off by less than their margin",
     },
     "sweep.film": dict.fromkeys(("2.0 ** (-50)", "DELTA"), "certain_error: its docstring"),
