@@ -113,7 +113,7 @@ def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> np.nda
         size = math.prod(own) * dtype.itemsize
         if not size < info.file_size <= _DENSEST * (info.compress_size + 1):
             raise SceneError(f"{name} is not as long as it says: write the file again")
-        if size > (free_memory() or size):
+        if size > 1 << 20 and size > (free_memory() or size):
             raise SceneError(f"{name} takes {size / 2**30:.1f} GiB, more than is free")
         file.seek(0)
         return read.read_array(file, allow_pickle=False)
