@@ -10,7 +10,7 @@ WORKERS := 3
 PYTEST := $(PYTHON_IN_VENV) -m pytest
 SHARED = -n $(WORKERS) --no-loadscope-reorder
 
-.PHONY: help demo check test prove test-browser test-gui torture bench docs lint extension clean
+.PHONY: help demo check test prove test-browser test-gui torture bench docs lint extension release clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -72,9 +72,12 @@ lint: .venv/.stamp ## check the style of all code
 extension: .venv/.stamp ## build and validate dist/reference_tracer-<version>.zip
 	$(PYTHON_IN_VENV) tools/build_extension.py
 
+release: .venv/.stamp ## write what a user downloads, of the last commit: dist/release
+	$(PYTHON_IN_VENV) tools/release.py
+
 clean: ## remove what was built; keeps .venv and the whole Blender
 	rm -rf build dist out wheels *.egg-info .pytest_cache .ruff_cache
 	find addon tests tools sample_scenes -name __pycache__ -prune -exec rm -rf {} +
 
 .venv/.stamp: pyproject.toml setup.py constraints.txt
-	tools/venv.sh
+	bash tools/venv.sh

@@ -66,6 +66,10 @@ def blenders_scripts() -> Path:
     return scripts
 
 
+def blenders_tool() -> Path:
+    return blenders_scripts() / "addons_core/bl_pkg/cli/blender_ext.py"
+
+
 def run(*arguments: object) -> None:
     subprocess.run([sys.executable, *map(str, arguments)], check=True)
 
@@ -75,10 +79,9 @@ def build(out: Path) -> Path:
     manifest = tomllib.loads(text_of("blender_manifest.toml"))
     fetch(checked_wheel(manifest, text_of("addon/__init__.py"), text_of("constraints.txt")))
 
-    scripts = blenders_scripts()
-    tool = scripts / "addons_core/bl_pkg/cli/blender_ext.py"
+    tool = blenders_tool()
     # Blender itself passes its list of tags, too; without it any tag would do.
-    tags = f"--valid-tags={scripts / 'modules/_bpy_internal/extensions/tags.py'}"
+    tags = f"--valid-tags={blenders_scripts() / 'modules/_bpy_internal/extensions/tags.py'}"
     out.mkdir(parents=True, exist_ok=True)
     package = out / f"{manifest['id']}-{manifest['version']}.zip"
     run(tool, "validate", tags, PROJECT)

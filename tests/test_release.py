@@ -1,0 +1,192 @@
+"""What `make release` writes: the same bytes in two clones, whole, and of use as it is."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import runpy
+import shutil
+import subprocess
+import sys
+import tarfile
+import threading
+import zipfile
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pytest
+
+pytestmark = [pytest.mark.blender, pytest.mark.slow]
+
+PROJECT = Path(__file__).parent.parent
+# By the folder that each stands in.
+PACKAGES = dict(re.findall(r'"(\w+)": "(reference_tracer\w*)"', (PROJECT / "setup.py").read_text()))
+# Runs in a Blender of its own what `blender --online-mode --command extension` does (README.md).
+INSTALL = """
+import sys
+import bpy
+
+bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+from bl_pkg.bl_extension_cli import cli_extension_handler
+
+bpy.context.preferences.system.use_online_access = True
+name = "reference_tracer"
+assert cli_extension_handler(["repo-remove", "blender_org"]) == 0
+assert cli_extension_handler(["repo-add", "--url", sys.argv[1], name]) == 0
+assert cli_extension_handler(["install", "--sync", "--enable", name]) == 0
+bpy.context.scene.render.engine = "REFERENCE_TRACER"
+print("installed by address", flush=True)
+"""
+
+
+def run(*command: object, **options) -> subprocess.CompletedProcess[str]:
+    options = {"capture_output": True, "text": True} | options
+    return subprocess.run([str(word) for word in command], check=False, **options)
+
+
+def git(folder: Path, *arguments: object) -> str:
+    done = run("git", "-C", folder, "-c", "user.name=n", "-c", "user.email=e", *arguments)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def released(clone: Path, umask: int, **environment: str) -> Path:
+    """Make the release in a clone; returns its folder."""
+    if (PROJECT / "wheels").exists():  # else it is fetched
+        shutil.copytree(PROJECT / "wheels", clone / "wheels")
+    done = run(
+        sys.executable, clone / "tools/release.py", env=os.environ | environment, umask=umask
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return clone / "dist/release"
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A clone that has committed what this folder holds now."""
+    clone = tmp_path_factory.mktemp("clone")
+    for name in git(PROJECT, "ls-files", "-z", "-co", "--exclude-standard").split("\0"):
+        if (PROJECT / name).is_file():
+            (clone / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(PROJECT / name, clone / name)
+    git(clone, "init", "--quiet")
+    git(clone, "add", "--all")
+    git(clone, "commit", "--quiet", "--message", "all")
+    return clone
+
+
+@pytest.fixture(scope="module")
+def release(clone: Path) -> Path:
+    return released(clone, 0o022, TZ="UTC")
+
+
+def test_two_clones_release_the_same_bytes(clone: Path, release: Path, tmp_path: Path):
+    git(tmp_path, "clone", "--quiet", clone, "another place")
+    again = released(tmp_path / "another place", 0o077, TZ="Asia/Tokyo", PYTHONHASHSEED="1")
+    first, second = ({p.name: p.read_bytes() for p in f.iterdir()} for f in (release, again))
+    assert len(first) == 7
+    assert [name for name in first | second if first.get(name) != second.get(name)] == []
+
+    sums = dict(reversed(line.split()) for line in first.pop("SHA256SUMS").decode().splitlines())
+    assert sums == {name: hashlib.sha256(data).hexdigest() for name, data in first.items()}
+
+    (clone / "changed").touch()
+    refused = run(sys.executable, clone / "tools/release.py")
+    assert refused.returncode == 1 and "not committed" in refused.stderr
+    assert "?? changed" in refused.stderr
+
+
+def test_documents_name_its_files(release: Path):
+    texts = [
+        (PROJECT / name).read_text(encoding="utf-8") for name in ("README.md", "CONTRIBUTING.md")
+    ]
+    named = set(re.findall(r"reference_tracer-\d[\w.-]+\.\w+", "".join(texts)))
+    assert named and named <= {path.name for path in release.iterdir()}
+
+
+def test_package_is_all_of_the_code_and_nothing_else(clone: Path, release: Path):
+    code = git(clone, "ls-files", *PACKAGES).split()
+    [wheel], [sdist] = release.glob("*.whl"), release.glob("*.tar.gz")
+    names = {n for n in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in n}
+    assert names == {
+        name.replace(top, PACKAGES[top], 1) for name in code for top in [name.split("/")[0]]
+    }
+
+    with tarfile.open(sdist) as file:
+        names = {m.name.partition("/")[2] for m in file if m.isfile()}
+    made = {name for name in names if name.startswith("reference_tracer.egg-info/")}
+    top = {"CHANGELOG.md", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml", "setup.py"}
+    assert names - made == {*code, *top, "PKG-INFO", "setup.cfg"}
+
+
+def test_wheel_traces_in_an_environment_of_its_own(release: Path, tmp_path: Path):
+    """It has numpy and trimesh of this one, and nothing of this project but the wheel."""
+    assert run(sys.executable, "-m", "venv", "--without-pip", tmp_path / "venv").returncode == 0
+    [wheel] = release.glob("*.whl")
+    [python] = (tmp_path / "venv").glob("*/python")
+    pip = run(sys.executable, "-m", "pip", "--python", python, "install", "--no-deps", wheel)
+    assert pip.returncode == 0, pip.stderr
+    [site] = (tmp_path / "venv").glob("lib/*/site-packages")
+    (site / "numpy.pth").write_text("\n".join(p for p in sys.path if p.endswith("site-packages")))
+
+    scene = site / "reference_tracer_grading/scenes/exercise_triangle.npz"
+    options = {"cwd": tmp_path, "env": {"PATH": os.environ["PATH"]}}
+    reftrace = python.with_name("reftrace")
+    assert run(reftrace, "--version", **options).stdout.split()[-1] in wheel.name
+    done = run(reftrace, "trace", scene, "--out", "picture.png", **options)
+    assert done.returncode == 0 and (tmp_path / "picture.png").exists(), done.stderr
+
+
+def test_blender_installs_it_by_address(release: Path, tmp_path: Path):
+    class Handler(SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=release)) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        done = run(
+            sys.executable,
+            "-c",
+            INSTALL,
+            f"http://127.0.0.1:{server.server_port}/index.json",
+            env=os.environ | {"BLENDER_USER_RESOURCES": str(tmp_path)},
+            cwd=tmp_path,
+        )
+        server.shutdown()
+    assert "installed by address" in done.stdout, done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+MANIFEST = 'version = "1.2.3"'
+CHANGELOG = "# Changelog\n\n## 1.2.3 (2026-12-01)\n\nNew.\n\n## 1.2.2 (2026-11-01)\n\nOld.\n"
+
+
+@pytest.fixture
+def script(monkeypatch: pytest.MonkeyPatch) -> dict:
+    monkeypatch.syspath_prepend(PROJECT / "tools")
+    return runpy.run_path(str(PROJECT / "tools/release.py"))
+
+
+def test_notes_are_the_newest_section(script):
+    assert script["newest"](CHANGELOG) == ("1.2.3", "2026-12-01", "New.\n")
+
+
+@pytest.mark.parametrize(
+    ("status", "tags", "changelog", "complaint"),
+    [
+        ("", ["v1.2.3"], CHANGELOG, None),
+        ("", [], CHANGELOG.replace("2026-12-01", "unreleased"), None),
+        (" M addon/scene.py", [], CHANGELOG, "addon/scene.py"),
+        ("", [], CHANGELOG.replace("1.2.3", "1.3.0"), "1.3.0 is the newest"),
+        ("", ["v1.2.2"], CHANGELOG, "tag is v1.2.2"),
+        ("", ["v1.2.3"], CHANGELOG.replace("2026-12-01", "unreleased"), "is unreleased"),
+    ],
+)
+def test_what_is_refused(script, status, tags, changelog, complaint):
+    if complaint is None:
+        script["check"](status, tags, MANIFEST, changelog)
+    else:
+        with pytest.raises(script["BuildError"], match=complaint):
+            script["check"](status, tags, MANIFEST, changelog)
