@@ -59,6 +59,9 @@ if ! is_python .venv/bin/python 3.13 && ! is_python .venv/bin/python 3.11; then
     python="$(find_python)"
     say "making .venv with $("$python" --version)"
     "$python" -m venv --clear .venv
+    if [ -d .venv/Scripts ]; then # Windows: let it have the name that it has elsewhere
+        cmd //c mklink //J '.venv\bin' '.venv\Scripts' >&2
+    fi
 fi
 
 # setuptools comes first and pinned, so that nothing unpinned is fetched to build the project.

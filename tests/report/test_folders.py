@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import resource
 
 import pytest
 from reference_tracer import cli
@@ -133,6 +132,7 @@ def test_a_folder_that_does_not_take_files(tmp_path, monkeypatch):
 @pytest.fixture
 def full():
     """No file may have more than 300 bytes: as on a full disk, writing ends with an error."""
+    resource = pytest.importorskip("resource")  # Windows has no such limits
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (300, before[1]))
     yield
