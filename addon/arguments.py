@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import traceback
 from collections.abc import Callable, Iterable
-from pathlib import Path
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from .camera_options import CAMERA_OPTIONS, refuse, refuse_camera, typed
 from .compare.picture import SizeError
 from .images import MissingLibraryError
 from .methods import PLAIN, Method
+from .parser import add_options
 from .scene import SceneError
 from .tracer.certified.certainty import AssumptionError
 from .tracer.memory import PictureTooLargeError
@@ -36,46 +36,14 @@ _RANGES = {
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
     """Add what the user can trade; without an option, what the scene stores holds."""
-    group = parser.add_argument_group("how to trace (by default what the scene says)")
-    method = "how a ray meets a triangle; auto is certified wherever this machine allows"
-    precision = "floating-point type of rays and vertices; what is certified needs float64"
-    samples = "colour is the mean of N x N rays a pixel"
-    group.add_argument("--method", choices=[m.value for m in Method], help=method)
-    group.add_argument("--precision", choices=[p.value for p in Precision], help=precision)
-    group.add_argument("--samples", type=int, metavar="N", help=samples)
+    methods, precisions = ({"choices": [m.value for m in kind]} for kind in (Method, Precision))
+    add_options(parser, "settings", method=methods, precision=precisions)
 
 
 def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
     """Add which of Blender's pictures, by the names of its judges, to compare with, and how."""
-    group = parser.add_argument_group("Blender's picture (by default as the scene says)")
-    judge = (
-        "which of Blender's pictures to compare with; all: a table of every one (and the "
-        "viewport's, in a window)"
-    )
-    as_is = "leave Blender's shading as the scene has it, not like for like"
-    identity = "draw once more, a colour an object, to know whose surface each pixel shows"
-    self_check = (
-        "then make known faults (a pixel off, mirrored, an object left out...) and see that each "
-        "is found"
-    )
-    group.add_argument("--judge", choices=["auto", *judges, "all"], help=judge)
-    group.add_argument("--as-is", action="store_true", help=as_is)
-    group.add_argument("--identity", action=argparse.BooleanOptionalAction, help=identity)
-    group.add_argument("--self-check", action="store_true", default=None, help=self_check)
-
-
-def add_page(parser: argparse.ArgumentParser) -> None:
-    """Add what the page shows beside the comparison, and of which frames there is one."""
-    frames = (
-        "compare an animation: 1-250, 1-250:5 for every fifth, 7, or all; frames that are whole in "
-        "DIR, and made by the same file and options, are not done again"
-    )
-    parser.add_argument("--frames", metavar="FRAMES", help=frames)
-    group = parser.add_argument_group("the page (page.html in DIR)")
-    trade = "measure the trade on this scene, too: half a minute"
-    extremes = "find where every method breaks: two minutes"
-    group.add_argument("--trade", action="store_true", help=trade)
-    group.add_argument("--extremes", action="store_true", help=extremes)
+    add_options(parser, "judge", judge={"choices": ["auto", *judges, "all"]})
+    parser.set_defaults(self_check=None)
 
 
 def add_pixel(parser: argparse.ArgumentParser) -> None:
@@ -83,17 +51,7 @@ def add_pixel(parser: argparse.ArgumentParser) -> None:
     from .explain.candidates import LIMIT
     from .explain.writers import WRITERS
 
-    pixel = "0 0 is the picture's lower left"
-    out = f"{', '.join(WRITERS)}; without it, Markdown is printed"
-    reproducer = (
-        "write the pixel's ray and all that it may meet: `reftrace explain FILE.json` derives it "
-        "again, without the scene"
-    )
-    limit = f"show so many triangles at most (default {LIMIT})"
-    parser.add_argument("--pixel", type=int, nargs=2, metavar=("X", "Y"), help=pixel)
-    parser.add_argument("--out", type=Path, metavar="FILE", help=out)
-    parser.add_argument("--reproducer", type=Path, metavar="FILE.json", help=reproducer)
-    parser.add_argument("--limit", type=int, metavar="N", help=limit)
+    add_options(parser, "pixel", words={"writers": ", ".join(WRITERS), "limit": LIMIT})
     parser.set_defaults(endings={"out": tuple(WRITERS), "reproducer": (".json",)})
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from .framing import ANGLE, Choice
+from .parser import add_options
 from .scene import SceneError
 from .scene_files import MESH_SUFFIXES
 
@@ -22,36 +23,10 @@ def add_camera(
 
     With `of_scenes`, the width is that of the largest picture, and no scene's own.
     """
-    title = "the camera and its picture (by default a scene's own, or one that frames the mesh)"
-    group = parser.add_argument_group(title)
-    wide = f"default {width} of a mesh; of a scene its own, or what follows from the height"
-    high = f"default {height} of a mesh{'' if of_scenes else '; of a scene alike'}"
-    if of_scenes:
-        wide = (
-            "width of the largest picture, of a scene or a mesh; a scene's height follows "
-            f"(default {width}, or the scene's own width where that is less)"
-        )
-    pixels: dict = {"type": int, "metavar": "PIXELS"}
-    place: dict = {"type": float, "nargs": 3, "metavar": ("X", "Y", "Z")}
-    tall = "with --eye: height of the picture of an orthographic camera, in place of --angle"
-    look = "with --eye: where it looks (default the origin); Z is up"
-    angle = f"of a new camera: vertical angle of view (default {ANGLE:g})"
-    whole = "a new one from the front, the right and above, which all that is shown nearly fills"
-    (parser if of_scenes else group).add_argument("--width", **pixels, help=wide)
-    group.add_argument("--height", **pixels, help=high)
-    up = "which axis of a mesh is up (default y of a .glb, z of others); it is turned to be Z"
-    group.add_argument("--up", choices=("y", "z"), help=up)
-    group.add_argument("--frame-all", action="store_true", help=whole)
-    group.add_argument("--eye", **place, help="a new one at this position")
-    group.add_argument("--target", **place, help=look)
-    group.add_argument("--angle", type=float, metavar="DEGREES", help=angle)
-    group.add_argument("--ortho-scale", type=float, metavar="METRES", help=tall)
-    group = parser.add_argument_group("what of a .blend (by default as it was saved)")
-    group.add_argument("--camera", metavar="NAME")
-    group.add_argument("--scene", metavar="NAME", dest="scene_name")  # `scene` is the file
-    group.add_argument("--view-layer", metavar="NAME")
-    stepped = "what is simulated is stepped from the first frame on"
-    group.add_argument("--frame", type=int, metavar="N", help=stepped)
+    size = "size_of_mesh" if of_scenes else "size"
+    words = {"width": width, "height": height, "angle": ANGLE}
+    add_options(parser, size, "camera", words=words)
+    add_options(parser, "blend")
     parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import images
-from ..arguments import add_judge, add_page, add_settings, settings_from
+from ..arguments import add_judge, add_settings, settings_from
 from ..camera_options import add_camera, choice_from
 from ..compare import engines
 from ..compare.case import Case
@@ -19,7 +19,7 @@ from ..compare.picture import Picture, Source
 from ..diagnosis import diagnosed
 from ..manifest import Manifest, ObjectEntry
 from ..opening import import_trimesh, load, open_blend
-from ..parser import EXIT_CODES_HELP, Parser
+from ..parser import EXIT_CODES_HELP, Parser, add_options
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
 from ..report import folders, page
@@ -39,20 +39,11 @@ def add_compare(parser: Parser) -> None:
     )
     sources = "scene.blend; with --against also scene.npz or a mesh"
     command(parser, run, examples, sources, EXIT_CODES_HELP)
-    parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
+    add_options(parser, "compare")
     add_settings(parser)
     add_judge(parser, choices())
-    add_page(parser)
-    group = parser.add_argument_group("another picture, in place of Blender's")
-    against = (
-        "a .png (sRGB) or .exr (linear) of the same camera and size; a background of its own, of "
-        "one colour or transparent, is named and not held against it"
-    )
-    reach = "how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)"
-    noise = "noise in a .png, in levels of 255 (default what the .blend says, else 0)"
-    group.add_argument("--against", type=Path, metavar="PICTURE", help=against)
-    group.add_argument("--filter", type=float, metavar="PIXELS", help=reach)
-    group.add_argument("--dither", type=float, metavar="LEVELS", help=noise)
+    for names in ("animation", "page", "against"):
+        add_options(parser, names)
     add_camera(parser)
 
 

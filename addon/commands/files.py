@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 import sys
 from contextlib import redirect_stdout
-from pathlib import Path
 
 from .. import images
 from ..arguments import add_pixel, add_settings, printable, settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import Parser
+from ..parser import Parser, add_options
 from ..report import folders
 from ..running import progress_bar
 from ..scene import SceneError
@@ -22,19 +21,14 @@ from ..tracer.render import render
 from ..tracer.rounding import check_rounding
 from .parts import command
 
-_PICTURES = "picture.png (what a screen shows) or picture.exr (every output)"
-
 
 def add_trace(parser: Parser) -> None:
     """Add the command's options."""
     command(parser, trace, "reftrace trace mesh.ply --out mesh.png --width 800", SOURCES)
-    parser.add_argument("--out", required=True, type=Path, metavar="PICTURE", help=_PICTURES)
+    add_options(parser, "trace")
     parser.set_defaults(endings={"out": (".png", ".exr")})
     add_settings(parser)
-    color = "what a surface shows (default what a .blend stores, else object: its own colour)"
-    parser.add_argument("--color", choices=[c.value for c in Color], help=color)
-    check = "count the pixels of which rounding rays and corners before the proof changes the owner"
-    parser.add_argument("--check-rounding", action="store_true", help=check)
+    add_options(parser, "look", color={"choices": [c.value for c in Color]})
     add_camera(parser)
 
 
@@ -70,7 +64,7 @@ def trace(options: argparse.Namespace) -> None:
 def add_export(parser: Parser) -> None:
     """Add the command's options."""
     command(parser, export, "reftrace export scene.blend --out scene.npz", "scene.blend")
-    parser.add_argument("--out", required=True, type=Path, metavar="SCENE.npz", help="the file")
+    add_options(parser, "export")
     parser.set_defaults(endings={"out": (".npz",)})
     add_camera(parser)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..arguments import settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
-from ..parser import Parser
+from ..parser import Parser, add_options
 from ..report import folders
 from ..running import progress_bar
 from ..tracer.progress import result_of
@@ -20,9 +20,7 @@ from .parts import command, write_study
 def add_trade(parser: Parser) -> None:
     """Add the command's options."""
     command(parser, trade, "reftrace trade sample_scenes/suzanne.blend --out out/", SOURCES)
-    parser.add_argument("--out", metavar="DIR", help="folder for the table, JSON and plot")
-    samples = "measure up to N x N rays a pixel (default 4)"
-    parser.add_argument("--samples", type=int, metavar="N", help=samples)
+    add_options(parser, "trade")
     add_camera(parser, width=160, height=90, of_scenes=True)
 
 
@@ -44,8 +42,7 @@ def trade(options: argparse.Namespace) -> None:
 def add_extremes(parser: Parser) -> None:
     """Add the command's options."""
     command(parser, extremes, "reftrace extremes --out out/")
-    parser.add_argument("--out", required=True, metavar="DIR", help="folder for what is found")
-    parser.add_argument("--rays", type=int, metavar="N", help="about so many through each scene")
+    add_options(parser, "extremes")
 
 
 def extremes(options: argparse.Namespace) -> None:
