@@ -13,7 +13,7 @@ from ..opening import SOURCES, load
 from ..parser import Parser, add_options
 from ..report import folders
 from ..running import progress_bar
-from ..scene import SceneError
+from ..scene import Scene, SceneError
 from ..scene_files import MESH_SUFFIXES, save_scene
 from ..tracer.coloring import Color
 from ..tracer.progress import result_of
@@ -39,6 +39,8 @@ def trace(options: argparse.Namespace) -> None:
         settings, checked = settings_from(options, stored), []
         if options.check_rounding and settings.method.is_plain:
             raise SceneError("--check-rounding is about proven pixels: --method certified has them")
+        if options.rows:
+            scene = _rows_alone(scene, settings.color, *options.rows)
         with progress_bar() as progress:
             frame = render(scene, settings, progress)
             if options.check_rounding:
@@ -59,6 +61,17 @@ def trace(options: argparse.Namespace) -> None:
     drawn = options.out.suffix.lower() == ".png" and not options.color
     if drawn and options.scene.suffix.lower() in MESH_SUFFIXES:
         print("each mesh has one flat colour: --color facing shows its shape")
+
+
+def _rows_alone(scene: Scene, color: Color, first: int, last: int) -> Scene:
+    """Return a scene of which only some rows of the picture are traced."""
+    r = scene.camera.region
+    if color == Color.DEPTH:
+        raise SceneError("--rows: the greys of --color depth are those of a whole picture")
+    if not 0 <= first <= last < r.height:
+        raise SceneError(f"--rows {first} {last}: the picture's rows are 0 to {r.height - 1}")
+    region = replace(r, y0=r.y0 + first, y1=r.y0 + last + 1)
+    return replace(scene, camera=replace(scene.camera, region=region))
 
 
 def add_export(parser: Parser) -> None:

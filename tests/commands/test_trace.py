@@ -8,6 +8,7 @@ import trimesh
 from PIL import Image
 from reference_tracer.cli import main
 from reference_tracer.parser import AGREE, INPUT_ERROR
+from reference_tracer.scene import Region
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.certified import certainty
 
@@ -171,3 +172,25 @@ def test_a_comparison_has_no_color_and_agrees_with_what_trace_gives(ball, tmp_pa
     with pytest.raises(SystemExit) as stopped:
         main(["compare", str(ball), *options, "--color", "facing"])
     assert stopped.value.code == INPUT_ERROR and "--color" in capsys.readouterr().err
+
+
+def test_rows_are_those_of_the_whole_picture(make, tmp_path, capsys):
+    """Every output of every pixel, to the bit, also where the camera has a border."""
+    camera = make.camera(10, 9, region=Region(2, 1, 9, 8))
+    save_scene(tmp_path / "s.npz", make.scene(camera, make.quad(-9, 0.1, -9, 0.2, -2)))
+
+    def traced(name, *options):
+        out = ["--out", str(tmp_path / name)]
+        return main(["trace", str(tmp_path / "s.npz"), *out, *options])
+
+    parts = ["0", "2"], ["3", "3"], ["4", "6"]
+    assert traced("whole.exr") == AGREE
+    assert [traced(f"{p[0]}.exr", "--rows", *p) for p in parts] == [AGREE] * 3
+    whole = channels(tmp_path / "whole.exr")
+    found = [channels(tmp_path / f"{p[0]}.exr") for p in parts]
+    assert len(whole) > 10 and whole["depth.V"].shape == (7, 7)
+    for name, values in whole.items():
+        np.testing.assert_array_equal(np.concatenate([f[name] for f in found]), values)
+    for wrong in (["3", "7"], ["-1", "2"], ["3", "2"], ["0", "2", "--color", "depth"]):
+        assert traced("wrong.exr", "--rows", *wrong) == INPUT_ERROR
+        assert "--rows" in capsys.readouterr().err and not (tmp_path / "wrong.exr").exists()
