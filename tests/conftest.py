@@ -38,6 +38,7 @@ def pytest_xdist_make_scheduler(config, log):
 # The files whose tests take longest are begun with: a worker that comes to one last is waited for.
 LONGEST = (
     "tests/gui/",
+    "tests/farms/",
     "tests/blender/test_attacks.py",
     "tests/blender/test_hard_cases.py",
     "tests/blender/test_digests.py",

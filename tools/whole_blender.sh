@@ -22,6 +22,7 @@ packages=(
     blender python3-numpy python3-requests               # Blender and what its own add-ons import
     xvfb xauth libgl1-mesa-dri libegl1 libgl1            # a screen and OpenGL in software
     xdotool imagemagick                                  # press keys, take screenshots
+    slurm-wlm iproute2                                   # a render farm on one machine
 )
 
 say() { echo "whole_blender: $*" >&2; }

@@ -1,0 +1,29 @@
+#!/bin/bash
+# A Slurm array: each task does a chunk of the frames FIRST to LAST, or of the rows of a picture.
+#
+#   sbatch --array=1-250:10 slurm.sh render  FILE.blend FOLDER 250
+#   sbatch --array=1-250:10 slurm.sh compare FILE.blend FOLDER 250
+#   sbatch --array=0-2159:270 slurm.sh trace FILE.npz   FOLDER 2159
+#
+# Submit it from the folder in which it lies beside frames.py; the names FILE and FOLDER are whole.
+#SBATCH --job-name=reference-tracer --output=%x-%A-%a.log
+set -euo pipefail
+
+work=$1 file=$2 folder=$3 end=$4
+first=$SLURM_ARRAY_TASK_ID
+last=$((first + SLURM_ARRAY_TASK_STEP - 1))
+last=$((last < end ? last : end))
+case $work in
+    render)
+        blender -b "$file" -E REFERENCE_TRACER -F PNG -o "$folder/####" \
+            --python-exit-code 1 -P "$SLURM_SUBMIT_DIR/frames.py" -- "$first-$last"
+        ;;
+    compare)
+        blender "$file" --command reference_tracer compare \
+            --frames "$first-$last" --out "$folder/compared"
+        ;;
+    trace)
+        reftrace trace "$file" --rows "$first" "$last" \
+            --out "$folder/rows_$(printf %05d "$first").png"
+        ;;
+esac
