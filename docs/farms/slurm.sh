@@ -5,7 +5,7 @@
 #   sbatch --array=1-250:10 slurm.sh compare FILE.blend FOLDER 250
 #   sbatch --array=0-2159:270 slurm.sh trace FILE.npz   FOLDER 2159
 #
-# Submit it from the folder in which it lies beside frames.py; the names FILE and FOLDER are whole.
+# Submit it from its own folder, in which frames.py lies, too. FILE and FOLDER are absolute paths.
 #SBATCH --job-name=reference-tracer --output=%x-%A-%a.log
 set -euo pipefail
 

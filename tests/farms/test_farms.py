@@ -149,7 +149,7 @@ def test_slurm(farm):
     )
     script = "/project/tests/farms/slurm.sh"
     whole = PROJECT / "tools" / "whole_blender.sh"
-    said = run(whole, "run", "bash", script, input="\n".join(arrays) + "\n", timeout=120)
+    said = run(whole, "run", "bash", script, input="\n".join(arrays) + "\n", timeout=300)
     ended = re.findall(r"ArrayJobId=(\d) ArrayTaskId=(\d+).* ExitCode=(\d+):0", said)
     assert sorted(ended) == [
         *(("1", "1", "1"), ("1", "3", "0")),
