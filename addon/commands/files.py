@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from contextlib import redirect_stdout
+from dataclasses import replace
 
 from .. import images
 from ..arguments import add_pixel, add_settings, printable, settings_from
