@@ -115,7 +115,7 @@ def _open(bpy: Any, path: Path) -> None:
         except RuntimeError as error:
             reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
             raise SceneError(f"'{path}' cannot be opened: {reason}") from error
-    saved, own = (".".join(map(str, v.version[:2])) for v in (bpy.data, bpy.app))
-    if bpy.data.version[:2] > bpy.app.version[:2]:
+    saved, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version_file))
+    if bpy.data.version[:2] > bpy.app.version_file[:2]:
         do = f"this is {own}: open it with {saved} or newer"
         raise SceneError(f"'{path}' was saved by Blender {saved}; {do}")

@@ -237,6 +237,21 @@ def test_what_is_forbidden_is_found(source: str):
     assert forbidden(source)
 
 
+def asks_for_the_version(source: str) -> bool:
+    """Whether a module reads Blender's version, other than as text or as that of its files."""
+    return any(
+        isinstance(node, ast.Attribute) and ast.unparse(node).endswith("app.version")
+        for node in ast.walk(ast.parse(source))
+    )
+
+
+def test_one_module_knows_how_blenders_differ():
+    asking = [n for n, file in FILES.items() if asks_for_the_version(file.read_text("utf-8"))]
+    assert asking == ["blender.versions"]
+    assert asks_for_the_version("from bpy import app\nif app.version < (5, 0, 0):\n    pass")
+    assert not asks_for_the_version("print(bpy.app.version_string)")
+
+
 def test_imports_keep_to_the_structure():
     assert FILES
     found = [

@@ -31,7 +31,8 @@ from .engine import export_for_render
 from .export import export
 from .judges import JUDGES
 from .temporary import go_to, temporary_scene, values_kept
-from .viewport import read, set_format
+from .versions import set_format
+from .viewport import read
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
 MOST = 16  # alternatives: each is traced where pixels are left open

@@ -7,19 +7,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import GREY
-
-# What 'VERTEX' shows of a mesh without a colour attribute: checked in 4.2, 4.3, 4.5, 5.0 and 5.2.
-WITHOUT_ATTRIBUTE = "MATERIAL" if bpy.app.version >= (5, 0, 0) else "OBJECT"
+from .versions import OWN_BACKGROUND, WITHOUT_ATTRIBUTE
 
 _SATURATION, _VALUE = 0.5, 0.8  # of Blender's random colours
-
-# Whether the shading's own background colour is drawn where it is set: not in 4.2, 4.3, 4.5, 5.0.
-OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
 
 
 def instance_colors(

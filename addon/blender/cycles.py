@@ -15,8 +15,9 @@ import bpy
 import numpy as np
 
 from ..scene import GREY, SceneError
-from .colors import WITHOUT_ATTRIBUTE, random_color
+from .colors import random_color
 from .temporary import drawn, in_colors
+from .versions import WITHOUT_ATTRIBUTE
 
 SLOTS = 32  # material slots that are told apart: each is some nodes
 

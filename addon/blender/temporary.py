@@ -19,6 +19,8 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from .versions import curves
+
 # Custom properties: of what the add-on itself draws in a scene; of the stand-in of an infinite
 # plane, with the name of the object that is the plane.
 DRAWN, STANDS_FOR = "reference_tracer_drawn", "reference_tracer_stands_for"
@@ -204,33 +206,20 @@ def _animated() -> Iterator[tuple[Any, str]]:
         if prop.type == "COLLECTION":
             for block in getattr(bpy.data, prop.identifier):
                 for owner in (block, getattr(block, "node_tree", None)):
-                    data = getattr(owner, "animation_data", None)
-                    for action in _actions(data) if data else ():
-                        yield from ((owner, curve.data_path) for curve in _curves(action))
+                    yield from ((owner, curve.data_path) for curve in _curves(owner))
 
 
 def is_animated(obj: Any, *paths: str) -> bool:
     """Return whether an animation or a driver sets one of an object's properties."""
-    data = obj.animation_data
-    curves = [c for action in _actions(data) for c in _curves(action)] if data else []
-    return any(c.data_path in paths for c in (*curves, *(data.drivers if data else ())))
+    drivers = obj.animation_data.drivers if obj.animation_data else ()
+    return any(curve.data_path in paths for curve in (*_curves(obj), *drivers))
 
 
-def _actions(data: Any) -> Iterator[Any]:
-    if data.action:
-        yield data.action
-    for track in data.nla_tracks:
-        yield from (strip.action for strip in track.strips if strip.action)
-
-
-def _curves(action: Any) -> Iterator[Any]:
-    if not hasattr(action, "layers"):  # before 4.4
-        yield from action.fcurves
-        return
-    for layer in action.layers:
-        for strip in layer.strips:
-            for bag in strip.channelbags:
-                yield from bag.fcurves
+def _curves(owner: Any) -> Iterator[Any]:
+    if data := getattr(owner, "animation_data", None):
+        strips = (strip for track in data.nla_tracks for strip in track.strips)
+        for action in filter(None, (data.action, *(strip.action for strip in strips))):
+            yield from curves(action)
 
 
 def _value(block: Any, path: str) -> Any:

@@ -16,6 +16,7 @@ from ..manifest import Effect, Unmodelled
 from .colors import slot_materials
 from .judges import Judge
 from .temporary import is_temporary, judge_of
+from .versions import COMPOSITOR, STRIPS, radii
 
 _UNFILLED = ("WIRE", "BOUNDS")
 
@@ -49,12 +50,8 @@ def _reaches(obj: Any) -> Iterator[float]:
         if system.settings.type == "HAIR":
             yield system.settings.hair_length
     if obj.type in ("GREASEPENCIL", "GPENCIL"):
-        for layer in obj.data.layers:
-            for frame in layer.frames:
-                if obj.type == "GPENCIL":  # up to 4.2: a width in thousandths
-                    yield from (s.line_width * obj.data.pixel_factor / 1000 for s in frame.strokes)
-                elif "radius" in frame.drawing.attributes:
-                    yield from (v.value for v in frame.drawing.attributes["radius"].data)
+        for frame in (frame for layer in obj.data.layers for frame in layer.frames):
+            yield from radii(obj, frame)
 
 
 def unfilled(obj: Any, holder: Any) -> bool:
@@ -132,10 +129,7 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
     """
     effect = Effect.NONE if judge_of(drawn) else Effect.UNPLACED
     camera, render, shading = drawn.camera, scene.render, scene.display.shading
-    sequence = scene.sequence_editor
-    strips = sequence and getattr(sequence, "strips_all", getattr(sequence, "sequences_all", ()))
-    new = hasattr(scene, "compositing_node_group")  # from 5.0 on
-    composited = scene.compositing_node_group if new else scene.use_nodes
+    strips = scene.sequence_editor and getattr(scene.sequence_editor, STRIPS)
     aside = "not part of what is traced"
     colors = "surfaces show their material's viewport colour"
     sides = "both sides of a surface are traced"
@@ -145,7 +139,7 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
         (name, "motion blur", "", render.use_motion_blur),
         (name, "multiview", aside, render.use_multiview),
         (name, "sequencer", aside, render.use_sequencer and strips),
-        (name, "compositor", aside, render.use_compositing and composited),
+        (name, "compositor", aside, render.use_compositing and getattr(scene, COMPOSITOR)),
         (name, "freestyle lines", "", render.use_freestyle),
         (name, "texture colours", colors, shading.color_type == "TEXTURE"),
         (name, "x-ray shading", "", shading.show_xray),

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,7 @@ from ..compare.picture import SizeError
 from ..scene import Camera, SceneError
 from .judges import Judge
 from .temporary import values_kept
+from .versions import set_format
 
 # What a picture that can be compared needs: property of the scene, and value.
 _ALWAYS = {
@@ -94,10 +95,8 @@ def use_view_shading(scene: Any, shading: Any) -> None:
     own = scene.display.shading
     for prop in own.bl_rna.properties:
         if not prop.is_readonly and prop.identifier not in ("type", "rna_type"):
-            try:
+            with suppress(TypeError):  # an enum whose items depend on the others: theirs come first
                 setattr(own, prop.identifier, getattr(shading, prop.identifier))
-            except TypeError:  # an enum whose items depend on the others: theirs come first
-                continue
 
 
 def picture(
@@ -174,12 +173,3 @@ def read(path: Path, colorspace: str = "") -> NDArray[np.float32]:
         return pixels.reshape(height, width, 4)
     finally:
         bpy.data.images.remove(image)
-
-
-def set_format(render: Any, file_format: str, color_mode: str, color_depth: str) -> None:
-    """Set what files a `bpy.types.RenderSettings` writes."""
-    settings = render.image_settings
-    if hasattr(settings, "media_type"):  # from 5.0 on
-        settings.media_type = "IMAGE"
-    settings.file_format, settings.color_mode = file_format, color_mode
-    settings.color_depth = color_depth

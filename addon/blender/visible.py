@@ -26,6 +26,7 @@ from ..scene import Mesh, drop_non_finite
 from .colors import instance_colors, slot_materials
 from .temporary import judge_of
 from .unmodelled import HAIR, of_object, unfilled
+from .versions import FILTERS
 
 
 @dataclass
@@ -137,8 +138,8 @@ def visible(
 def types_left_out(space: Any) -> set[str]:
     """Return the types of objects that a 3D view does not show, as `Object.type` has them."""
     types = bpy.types.Object.bl_rna.properties["type"].enum_items.keys()
-    names = {t: t.lower().replace("surface", "surf") for t in types}
-    return {t for t, name in names.items() if not getattr(space, f"show_object_viewport_{name}", 1)}
+    names = {t: "show_object_viewport_" + FILTERS.get(t, t.lower()) for t in types}
+    return {t for t, name in names.items() if not getattr(space, name, True)}
 
 
 def in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender.visible import types_left_out
 
 from .live import assert_as_a_whole_export, of_view, space
 
@@ -142,6 +143,15 @@ def test_types_that_a_view_leaves_out(build, kept):
     view.show_object_viewport_empty = False
     bpy.context.view_layer.update()
     assert set(of_view(kept).objects) == {"Cube", "Text"}
+
+
+def test_every_type_can_be_left_out(monkeypatch):
+    """Also by a filter that does not bear the type's own name, as of a grease pencil."""
+    view, types = space(), bpy.types.Object.bl_rna.properties["type"].enum_items.keys()
+    assert not types_left_out(view)
+    for name in (n for n in dir(view) if n.startswith("show_object_viewport_")):
+        monkeypatch.setattr(view, name, False)
+    assert types_left_out(view) == set(types)
 
 
 def instancers(build):
