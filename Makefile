@@ -10,7 +10,8 @@ WORKERS := 3
 PYTEST := $(PYTHON_IN_VENV) -m pytest
 SHARED = -n $(WORKERS) --no-loadscope-reorder
 
-.PHONY: help demo check test prove test-browser test-gui torture bench docs lint extension release clean
+.PHONY: help demo check test test-matrix prove test-browser test-gui torture bench docs lint extension \
+	release clean
 
 help: ## list the commands
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 20
@@ -42,6 +43,10 @@ test-browser: .venv/.stamp ## run the tests of the page in a headless Chromium; 
 test-gui: extension ## run the tests in a whole Blender 4.3 with a window; needs root
 	tools/whole_blender.sh setup
 	$(PYTEST) -m gui
+
+# ONLY="4.2 5.0-2": the cells whose names begin so.
+test-matrix: extension ## run what needs Blender in 4.2, 4.3, 4.5, 5.0, 5.2, numpy 1 and 2: one table
+	$(PYTHON_IN_VENV) tools/matrix.py $(ONLY)
 
 # What `make test` samples, at its full length.
 torture: extension ## run the long tests, too long for every day: the suites at their full size

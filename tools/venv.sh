@@ -3,6 +3,7 @@
 #
 #   tools/venv.sh            picks a Python: 3.13 (bpy 5.2.3), else 3.11 (bpy 5.0.1)
 #   PYTHON=... tools/venv.sh takes that one
+#   tools/venv.sh libraries PYTHON  only installs what that Python's bpy needs
 #
 # Safe to run again: an environment that works is kept and brought up to date.
 set -euo pipefail
@@ -39,21 +40,26 @@ find_python() {
 }
 
 # bpy needs some of the system's libraries, and without them dies with a bare linker error.
-check_libraries() {
+check_libraries() { # PYTHON
     local packages
-    if .venv/bin/python tools/check_libraries.py; then return; fi
-    packages="$(.venv/bin/python tools/check_libraries.py --packages || true)"
+    if "$1" tools/check_libraries.py; then return; fi
+    packages="$("$1" tools/check_libraries.py --packages || true)"
     if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
         say "installing: $packages"
         apt-get update -qq
         # shellcheck disable=SC2086  # a list of names
         DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $packages
-        .venv/bin/python tools/check_libraries.py
+        "$1" tools/check_libraries.py
     else
         say "on Debian and Ubuntu, install them with: sudo apt-get install $packages"
         return 1
     fi
 }
+
+if [ "${1:-}" = libraries ]; then
+    check_libraries "$2"
+    exit
+fi
 
 if ! is_python .venv/bin/python 3.13 && ! is_python .venv/bin/python 3.11; then
     python="$(find_python)"
@@ -68,6 +74,6 @@ fi
 .venv/bin/python -m pip install --quiet --constraint constraints.txt setuptools
 .venv/bin/python -m pip install --quiet --constraint constraints.txt --no-build-isolation \
     --editable '.[blender,images,progress,test]'
-check_libraries
+check_libraries .venv/bin/python
 touch .venv/.stamp
 say "ready: $(.venv/bin/python --version), $(.venv/bin/python -m pip list 2>/dev/null | awk '$1 == "bpy" { print $1, $2 }')"
