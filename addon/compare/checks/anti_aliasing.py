@@ -4,7 +4,8 @@ A filter with weights that are not negative gives a point of the convex hull of 
 mixes. Its weights are nearly the same on opposite sides of the centre: no neighbour's colour has
 all of it. One colour alone is no mix; and whose surface a pixel shows must be one that is seen.
 
-Workbench mixes log2(1 + colour) in place of RGB: the hull of those is tried, too.
+Workbench mixes log2(1 + colour) in place of RGB, up to Blender 4.2 log2(1/2 + colour) of alpha,
+too: the hulls of those are tried, too.
 The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
 (Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
 2015): weight goes from the colour that is farthest behind to the one that is farthest ahead.
@@ -146,7 +147,7 @@ def is_mix(
     together = max(1, STEP * count // max(mixed.size, 1))
     for first in range(0, count, together):
         some = first + np.flatnonzero(bright[first : first + together])
-        for of, slack in ((lambda v: v, 1), (_logarithm, 2)):
+        for of, slack in ((lambda v: v, 1), (_logarithm, 2), (_logarithm_before_4_3, 4)):
             rest = some[~found[some]]
             points = of(mixed[:, rest].astype(np.float64))
             if opposite is not None:
@@ -154,6 +155,11 @@ def is_mix(
             found[rest] = yield from in_hull(of(color[rest]), points, slack * allowed[rest])
         yield 0.0
     return found
+
+
+def _logarithm_before_4_3(color: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what Workbench mixed up to Blender 4.2, where an error is up to 2.89 times as large."""
+    return np.log2(0.5 + np.maximum(color, 0))
 
 
 def _logarithm(color: NDArray[np.float64]) -> NDArray[np.float64]:
