@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -119,11 +120,9 @@ def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[
     yield f"'{own}'" + ("" if plain else more), _saved(tmp, table)
     view.look, view.exposure, view.gamma = "None", 0.0, 1.0
     for name in COMMON:
-        try:
+        with suppress(TypeError):  # this Blender does not have it
             view.view_transform = name
-        except TypeError:  # this Blender does not have it
-            continue
-        if not (plain and name == own):
+        if view.view_transform == name and not (plain and name == own):
             yield f"'{name}'", _saved(tmp, table)
 
 

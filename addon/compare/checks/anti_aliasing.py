@@ -147,7 +147,8 @@ def is_mix(
     together = max(1, STEP * count // max(mixed.size, 1))
     for first in range(0, count, together):
         some = first + np.flatnonzero(bright[first : first + together])
-        for of, slack in ((lambda v: v, 1), (_logarithm, 2), (_logarithm_before_4_3, 4)):
+        older = partial(_logarithm, offset=0.5, channels=4)
+        for of, slack in ((lambda v: v, 1), (_logarithm, 2), (older, 4)):
             rest = some[~found[some]]
             points = of(mixed[:, rest].astype(np.float64))
             if opposite is not None:
@@ -157,18 +158,13 @@ def is_mix(
     return found
 
 
-def _logarithm_before_4_3(color: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return what Workbench mixed up to Blender 4.2, where an error is up to 2.89 times as large."""
-    return np.log2(0.5 + np.maximum(color, 0))
-
-
-def _logarithm(color: NDArray[np.float64]) -> NDArray[np.float64]:
+def _logarithm(color: NDArray, offset: float = 1.0, channels: int = 3) -> NDArray[np.float64]:
     """Return what Workbench mixes: of RGB the logarithm, and alpha as it is.
 
-    A colour's own error is up to 1.44 times as large in it, and it is a half float itself.
+    A colour's own error is up to 1.44 / offset as large in it, and it is a half float itself.
     """
-    rgb = np.log2(1 + np.maximum(color[..., :3], 0))
-    return np.concatenate((rgb, color[..., 3:]), axis=-1)
+    logarithms = np.log2(offset + np.maximum(color[..., :channels], 0))
+    return np.concatenate((logarithms, color[..., channels:]), axis=-1)
 
 
 def in_hull(

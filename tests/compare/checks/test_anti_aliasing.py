@@ -22,6 +22,8 @@ def test_every_mix_is_found(count, rng):
     logs = 2 ** (weights * np.log2(1 + points)).sum(axis=0) - 1
     logs[:, 3] = (weights * points).sum(axis=0)[:, 3]  # of Workbench, alpha is mixed as it is
     assert result_of(is_mix(logs, points)).all()
+    older = 2 ** (weights * np.log2(0.5 + points)).sum(axis=0) - 0.5  # up to 4.2, alpha, too
+    assert result_of(is_mix(older, points)).all()
 
 
 def test_colours_almost_on_a_line(rng):
