@@ -256,6 +256,8 @@ def test_slots_are_those_of_the_loop_triangles(kind, build, export):
     mesh = build.cube().data
     domain, data_type = kind.split()
     attribute = mesh.attributes.new("material_index", data_type, domain)
+    if attribute is None:
+        pytest.skip("before 5.0 it is of no other kind")
     attribute.data.foreach_set("value", np.arange(len(attribute.data)))
     (exported,) = export.viewport()[0].meshes
     assert exported.slots.tolist() == [t.material_index for t in mesh.loop_triangles]

@@ -198,6 +198,7 @@ for frame in (*range(1, 9), 1, 2, 1):
     scene.frame_set(frame)
     gather_case(bpy.context, judge="WORKBENCH")
     print("PLACES", [list(o.matrix_world.translation) for o in scene.objects])
+reference_tracer.unregister()
 """
 
 

@@ -51,6 +51,7 @@ def grease_pencil(build):
     else:
         bpy.ops.object.gpencil_add(type="MONKEY")
     bpy.context.object.name = "Thing"
+    bpy.context.object.rotation_euler.x = 1.0  # edge-on, 4.5 draws nothing
 
 
 def hair_curves(build):

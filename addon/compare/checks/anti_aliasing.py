@@ -4,8 +4,8 @@ A filter with weights that are not negative gives a point of the convex hull of 
 mixes. Its weights are nearly the same on opposite sides of the centre: no neighbour's colour has
 all of it. One colour alone is no mix; and whose surface a pixel shows must be one that is seen.
 
-Workbench mixes log2(1 + colour) in place of RGB, up to Blender 4.2 log2(1/2 + colour) of alpha,
-too: the hulls of those are tried, too.
+Workbench mixes log2(1 + colour) in place of RGB, before Blender 5.0 log2(1/2 + colour) and
+alpha's, too: the hulls of those are tried, too.
 The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
 (Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
 2015): weight goes from the colour that is farthest behind to the one that is farthest ahead.

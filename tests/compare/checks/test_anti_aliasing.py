@@ -22,7 +22,7 @@ def test_every_mix_is_found(count, rng):
     logs = 2 ** (weights * np.log2(1 + points)).sum(axis=0) - 1
     logs[:, 3] = (weights * points).sum(axis=0)[:, 3]  # of Workbench, alpha is mixed as it is
     assert result_of(is_mix(logs, points)).all()
-    older = 2 ** (weights * np.log2(0.5 + points)).sum(axis=0) - 0.5  # up to 4.2, alpha, too
+    older = 2 ** (weights * np.log2(0.5 + points)).sum(axis=0) - 0.5  # before 5.0, alpha, too
     assert result_of(is_mix(older, points)).all()
 
 
