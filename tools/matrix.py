@@ -26,11 +26,17 @@ OUT = PROJECT / "out" / "matrix"
 WINDOW = PROJECT / "tools" / "whole_blender.sh"
 
 # What is to be found by comparisons is the same in each Blender, and takes a third of the time.
-LEFT_OUT = ("attacks", "digests", "mutations", "self_check")
-WHEEL_TESTS = (
-    *("tests/blender", "tests/test_extension.py", "-m", "not gui and not torture"),
-    *(f"--ignore=tests/blender/test_{name}.py" for name in LEFT_OUT),
+LEFT_OUT = ("attacks.py", "digests.py", "mutations.py", "self_check.py")
+# 4.2's wheel, any, crashes at the end of a process that has registered a property group with a
+# function: so does all that runs in a process of its own, and the command `reftrace`.
+CRASHES = (
+    "cli_blend.py",
+    "engine_faults.py::test_a_script_ends_with_an_exit_code[none]",
+    "frames.py::test_reftrace_goes_on_where_it_ended",
+    "handlers.py::test_data_may_come_and_go",
+    "hard_cases.py::test_rigid_bodies_fall_on_after_a_comparison",
 )
+WHEEL_TESTS = ("tests/blender", "tests/test_extension.py", "-m", "not gui and not torture")
 WINDOW_TESTS = ("tests/gui", "-m", "gui and not torture")
 
 
@@ -42,6 +48,7 @@ class Cell:
     bpy: str = ""
     python: str = ""
     numpy: str = ""
+    left_out: tuple[str, ...] = LEFT_OUT
 
     @property
     def name(self) -> str:
@@ -49,8 +56,8 @@ class Cell:
 
 
 CELLS = (
-    Cell("4.2", "4.2.23", "3.11", "1.26.4"),
-    Cell("4.2", "4.2.23", "3.11", "2.4.6"),
+    Cell("4.2", "4.2.23", "3.11", "1.26.4", LEFT_OUT + CRASHES),
+    Cell("4.2", "4.2.23", "3.11", "2.4.6", LEFT_OUT + CRASHES),
     Cell("4.3"),
     Cell("4.5", "4.5.15", "3.11", "1.26.4"),
     Cell("4.5", "4.5.15", "3.11", "2.4.6"),
@@ -119,7 +126,8 @@ def prepared(cell: Cell) -> tuple[list[str], list[str | Path], tuple[str, ...]]:
     """Return what a cell's Blender says of its versions, the Python for its tests, and these."""
     if cell.bpy:
         python = environment(cell)
-        said, tests = run(python, "-c", VERSIONS), ("-n", "2", *WHEEL_TESTS)
+        left_out = (f"--deselect=tests/blender/test_{name}" for name in cell.left_out)
+        said, tests = run(python, "-c", VERSIONS), ("-n", "2", *WHEEL_TESTS, *left_out)
     else:
         run(WINDOW, "check")
         python, tests = Path(sys.executable), WINDOW_TESTS

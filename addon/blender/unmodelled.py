@@ -129,7 +129,7 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
     """
     effect = Effect.NONE if judge_of(drawn) else Effect.UNPLACED
     camera, render, shading = drawn.camera, scene.render, scene.display.shading
-    strips = scene.sequence_editor and getattr(scene.sequence_editor, STRIPS)
+    strips = getattr(scene.sequence_editor, STRIPS, ())
     aside = "not part of what is traced"
     colors = "surfaces show their material's viewport colour"
     sides = "both sides of a surface are traced"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import bpy
@@ -13,27 +12,27 @@ _FROM_5 = bpy.app.version >= (5, 0, 0)
 WITHOUT_ATTRIBUTE = "MATERIAL" if _FROM_5 else "OBJECT"
 # Whether the shading's own background colour is drawn where it is set: not in 4.2, 4.3, 4.5, 5.0.
 OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
-# Names of what says that a scene has a compositor, and of what its sequencer holds.
-COMPOSITOR = "compositing_node_group" if _FROM_5 else "use_nodes"
-STRIPS = "strips_all" if _FROM_5 else "sequences_all"
+DITHER = 1.0 if bpy.app.version >= (4, 5, 0) else 1.275  # levels of 255 at most: 0.005 in 4.2
+COMPOSITOR = "compositing_node_group" if _FROM_5 else "use_nodes"  # whether a scene has one
+STRIPS = "strips_all" if _FROM_5 else "sequences_all"  # of a sequencer
 # Names in a 3D view's filters of types; the old grease pencil is there up to 4.2.
 FILTERS = {"SURFACE": "surf", "GREASEPENCIL": "grease_pencil", "GPENCIL": "grease_pencil"}
 
 
-def curves(action: Any) -> Iterable[Any]:
+def curves(action: Any) -> list[Any]:
     """Return an action's F-curves: in layers from 4.4 on."""
     if not hasattr(action, "layers"):
-        return action.fcurves
+        return list(action.fcurves)
     strips = (strip for layer in action.layers for strip in layer.strips)
     return [curve for strip in strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
-def radii(obj: Any, frame: Any) -> Iterable[float]:
+def radii(obj: Any, frame: Any) -> list[float]:
     """Return those of what a grease pencil's frame draws, metres: thousandths up to 4.2."""
     if obj.type == "GPENCIL":
-        return (s.line_width * obj.data.pixel_factor / 1000 for s in frame.strokes)
+        return [s.line_width * obj.data.pixel_factor / 1000 for s in frame.strokes]
     radius = frame.drawing.attributes.get("radius")
-    return (point.value for point in radius.data) if radius else ()
+    return [point.value for point in radius.data] if radius else []
 
 
 def set_format(render: Any, kind: str, mode: str, depth: str) -> None:

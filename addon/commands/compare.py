@@ -120,9 +120,10 @@ def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[C
         from ..blender.against import gather_against
         from ..blender.camera import export_camera
         from ..blender.compare import compared
+        from ..blender.versions import DITHER
 
         context = blender.context
-        dither = context.scene.render.dither_intensity
+        dither = DITHER * context.scene.render.dither_intensity
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = settings_from(options, context.scene.reference_tracer.settings())
         case = gather_against(context, shown, settings, bool(options.self_check))
