@@ -84,6 +84,7 @@ def _grease_pencil(build: Any, kind: str) -> None:
         bpy.ops.object.gpencil_add(type=kind, radius=0.8)
     obj = bpy.context.object
     obj.location, obj.rotation_euler = (0.6, -1.3, 0.2), (0, 0, 0.6)
+    bpy.context.view_layer.update()  # 4.2's stays where it was made
 
 
 def grease_pencil(build: Any) -> None:
