@@ -106,6 +106,14 @@ def test_documents_name_its_files(release: Path):
     assert named and named <= {path.name for path in release.iterdir()}
 
 
+def test_workflow_runs_what_the_makefile_has():
+    workflow = (PROJECT / ".github/workflows/release.yml").read_text(encoding="utf-8")
+    makefile = (PROJECT / "Makefile").read_text(encoding="utf-8")
+    run = " ".join(re.findall(r"\bmake (?:\w+=\w+ )?([a-z -]+)$", workflow, re.M)).split()
+    assert {"test", "check", "release"} <= set(run)
+    assert set(run) <= set(re.findall(r"^([a-z-]+):", makefile, re.M))
+
+
 def test_package_is_all_of_the_code_and_nothing_else(clone: Path, release: Path):
     code = git(clone, "ls-files", *PACKAGES).split()
     [wheel], [sdist] = release.glob("*.whl"), release.glob("*.tar.gz")
