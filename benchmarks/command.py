@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from reference_tracer.commands.parts import command, write_study
+from reference_tracer.commands.parts import command
 from reference_tracer.parser import Parser
 from reference_tracer.report import folders
 from reference_tracer.running import progress_bar
@@ -38,5 +38,6 @@ def run(options: argparse.Namespace) -> int:
         with progress_bar() as progress:
             bench, baseline = measured(options, progress)
         print(report.table(bench, baseline))
-        write_study(options.out, lambda: report.write(options.out, bench, baseline))
+        report.write(options.out, bench, baseline)
+        print(f"written to {options.out}")
     return bench.interrupted

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-import numpy as np
-from numpy.typing import NDArray
 from reference_tracer.methods import Method
 from reference_tracer.report import plots
 
 from .rows import Bench, Row
 from .scenes import SCALED
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 # What a row has, what it is called, its colour and its mark.
 _LINES = (
@@ -31,11 +24,17 @@ _STAGES = (
     *("#4d4d4d", "#b8a9d9", "#8fd3bd"),
 )
 _OTHER = "#d9d9d9"
-_NAMES_TAKE = 0.72  # of the width that the lines have: room for the longest name
+_SHAPES = {  # of marks that are not round, of radius 1
+    "s": [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+    "^": [(0, -1.1), (1, 0.8), (-1, 0.8)],
+    "v": [(0, 1.1), (1, -0.8), (-1, -0.8)],
+    "D": [(0, -1.2), (1.2, 0), (0, 1.2), (-1.2, 0)],
+}
+_TOP, _HIGH = 160, 725  # of both axes, in pixels
 
 
-def picture(bench: Bench) -> NDArray[np.uint8]:
-    """Return the plot, (h, w, 4) sRGB, row 0 at the bottom.
+def picture(bench: Bench) -> str:
+    """Return the plot, an SVG.
 
     Left, of the icospheres where there are two or more, else of all scenes: time against the number
     of triangles. Right, of every scene, what each stage of a certified frame takes. Both through
@@ -43,24 +42,21 @@ def picture(bench: Bench) -> NDArray[np.uint8]:
 
     Raises
     ------
-    MissingLibraryError
-        If Matplotlib is not installed.
     ValueError
         If nothing was measured.
     """
     rows = largest(bench)
-    figure = plots.new_figure()
-    left, right = figure.subplots(1, 2, width_ratios=(1.15, 1))
     spheres = [r for r in rows if r.scene in SCALED]
-    _growth(left, spheres if len(spheres) > 1 else rows, _plain(bench), len(spheres) > 1)
-    _stages(right, rows)
     cores = "one core" if bench.machine.get("one_core") else "not kept on one core"
-    plots.headline(
-        figure,
+    head = (
         f"{rows[0].width} × {rows[0].height} pixels, {rows[0].camera}, "
-        f"{bench.machine.get('processor') or 'unknown processor'}, {cores}",
+        f"{bench.machine.get('processor') or 'unknown processor'}, {cores}"
     )
-    return plots.pixels(figure)
+    inside = plots.text((20, 38), head, min(28.0, 28 * 1880 / plots.width_of(head, 28)))
+    joined = len(spheres) > 1
+    inside += _growth(spheres if joined else rows, _plain(bench), joined) + _stages(rows)
+    title = "Time against triangles, and where the time of a certified frame goes"
+    return plots.picture(plots.WIDTH, plots.HEIGHT, title, head, inside)
 
 
 def largest(bench: Bench) -> list[Row]:
@@ -89,92 +85,70 @@ def _seconds(row: Row, name: str, plain: dict[tuple, float]) -> float | None:
     return getattr(row, name)
 
 
-def _growth(axes: Axes, rows: list[Row], plain: dict[tuple, float], joined: bool) -> None:
-    plots.plain_axes(
-        axes,
-        "Time against triangles" + (", of one sphere" if joined else ""),
-        "triangles",
-        "seconds",
-    )
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.xaxis.set_major_formatter(lambda value, _: _number(value))
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
-    ends = []
-    for name, label, color, mark in _LINES:
-        found = sorted((r.triangles, s) for r in rows if (s := _seconds(r, name, plain)))
-        if found:
-            ours = name in ("trace_s", "plain_s")
-            axes.plot(
-                *zip(*found, strict=True),
-                mark,
-                ls="-" if joined else "",
-                color=color,
-                lw=4 if ours else 2.5,
-                ms=12 if ours else 9,
-                zorder=4 if ours else 3,
-                label=label,
-            )
-            ends.append((*found[-1], label, color))
-    if joined:
-        _name(axes, ends)
-    else:
-        axes.legend(fontsize=14, frameon=False, ncols=2)
+def _growth(rows: list[Row], plain: dict[tuple, float], joined: bool) -> str:
+    """Draw each method and peer, joined by a line if all are of one scene; name them."""
+    lines = {
+        name: sorted((r.triangles, s) for r in rows if (s := _seconds(r, name, plain)))
+        for name, *_ in _LINES
+    }
+    seconds = [s for line in lines.values() for _, s in line]
+    low, far = 0.7 * min(r.triangles for r in rows), 1.3 * max(r.triangles for r in rows)
+    x = plots.logarithmic(low, far * (far / low) ** (0.72 * joined))  # room for the names
+    x = x._replace(ticks={v: _number(v) for v in x.ticks if v < 3 * far})
+    y = plots.logarithmic(0.7 * min(seconds), 1.4 * max(seconds))
+    axes = plots.Axes(150, _TOP, 890, _HIGH, x, y)
+    title = "Time against triangles" + (", of one sphere" if joined else "")
+    out, named, names = axes.drawn(title, "triangles", "seconds"), [], {}
+    for name, label, color, shape in _LINES:
+        places = [axes.at(*point) for point in lines[name]]
+        size = 10.0 if name in ("trace_s", "plain_s") else 7.5
+        out += plots.line(places, color, size / 2) if joined else ""
+        out += "".join(_mark(place, size, color, shape) for place in places)
+        if places:
+            named.append((*places[-1], label, color))
+            names[label] = _mark((0, 0), 9, color, shape)
+    if not joined:
+        return out + plots.legend(names, plots.HEIGHT - 30)
+    column, above = axes.at(1.3 * far, y.low)[0] + 20, float("inf")
+    for at, height, label, color in sorted(named, key=lambda end: -end[1]):
+        above = min(height, above - 34)  # no two over one another
+        out += plots.line([(at, height), (column - 6, above)], color, 1.5, opacity=0.4)
+        out += plots.text((column, above), label, 25, color)
+    return out
 
 
-def _name(axes: Axes, ends: list[tuple[float, float, str, str]]) -> None:
-    """Write each line's name in a column at the right, no two over one another."""
-    low, high = np.log(axes.get_ylim())
-    far = max(x for x, *_ in ends)
-    axes.set_xlim(right=far * (far / axes.get_xlim()[0]) ** _NAMES_TAKE)
-    axes.xaxis.set_major_formatter(lambda x, _: _number(x) if x < 3 * far else "")
-    step, below = 0.05 * (high - low), -np.inf
-    for x, y, label, color in sorted(ends, key=lambda end: end[1]):
-        at = below = max(np.log(y), below + step)
-        note = axes.annotate(
-            label,
-            (x, y),
-            (far * (far / axes.get_xlim()[0]) ** 0.035, np.exp(at)),
-            textcoords="data",
-            color=color,
-            fontsize=15,
-            fontweight="bold",
-            va="center",
-            arrowprops={"arrowstyle": "-", "color": color, "alpha": 0.4},
-        )
-        note.set_in_layout(False)
+def _mark(at: plots.Place, size: float, color: str, shape: str) -> str:
+    if shape not in _SHAPES:
+        return plots.mark(at, size, color)
+    points = " ".join(f"{at[0] + size * x:.1f},{at[1] + size * y:.1f}" for x, y in _SHAPES[shape])
+    return plots.element("polygon", points=points, fill=color)
 
 
-def _stages(axes: Axes, rows: list[Row]) -> None:
-    plots.plain_axes(axes, "Where the time of a certified frame goes", "seconds", "")
+def _stages(rows: list[Row]) -> str:
+    """Draw what each stage takes of every scene, as bars."""
     names = list(dict.fromkeys(name for r in rows for name in r.stages))
     colors = dict(zip(names, _STAGES * (1 + len(names) // len(_STAGES)), strict=False))
-    places = range(len(rows), 0, -1)
-    for place, r in zip(places, rows, strict=True):
-        whole, start = r.render_s or 0.0, 0.0
-        for name, seconds in r.stages.items():
-            axes.barh(place, seconds, left=start, color=colors[name], height=0.7)
+    colors["other"] = _OTHER
+    wholes = [max(r.render_s or 0.0, sum(r.stages.values())) for r in rows]
+    high = _HIGH / len(rows)
+    size = min(20.0, 0.8 * high)
+    scenes = {len(rows) - k - 0.5: f"{r.scene}, {_number(r.triangles)}" for k, r in enumerate(rows)}
+    left = 1090 + max(plots.width_of(name, size) for name in scenes.values())
+    x = plots.linear(0, 1.25 * max(wholes))
+    axes = plots.Axes(left, _TOP, 1890 - left, _HIGH, x, plots.Scale(0, len(rows), {0: ""}))
+    title = "Where the time of a certified frame goes"
+    out = axes.drawn("", "seconds") + plots.text((1890, _TOP - 34), title, 32, anchor="end")
+    for (middle, scene), r, whole in zip(scenes.items(), rows, wholes, strict=True):
+        out += plots.text((left - 12, axes.at(0, middle)[1]), scene, size, anchor="end")
+        start = 0.0
+        for name, seconds in (r.stages | {"other": whole - sum(r.stages.values())}).items():
+            (begin, y), (end, _) = axes.at(start, middle), axes.at(start + seconds, middle)
+            title = f"{r.scene}, {name}: {seconds:.3g} s"
+            out += plots.cell(begin, y - 0.35 * high, end - begin, 0.7 * high, colors[name], title)
             start += seconds
-        axes.barh(place, max(0.0, whole - start), left=start, color=_OTHER, height=0.7)
-        axes.annotate(
-            f" {whole:.3g} s", (max(whole, start), place), va="center", fontsize=14, color=plots.INK
-        )
-    axes.set_yticks(list(places), [f"{r.scene}\n{_number(r.triangles)}" for r in rows])
-    axes.margins(x=0.15)
-    axes.grid(False, axis="y")
-    handles = [
-        axes.barh([0], [0], color=color, label=name)
-        for name, color in (colors | {"other": _OTHER}).items()
-    ]
-    axes.set_ylim(0.4, len(rows) + 0.6)
-    axes.legend(
-        handles=handles,
-        fontsize=14,
-        frameon=False,
-        loc="upper center",
-        ncols=4,
-        bbox_to_anchor=(0.45, -0.09),
-    )
+        out += plots.text((end + 8, y), f"{whole:.3g} s", size)
+    entries = {name: plots.cell(-14, -14, 28, 28, color) for name, color in colors.items()}
+    return out + plots.legend(entries, plots.HEIGHT - 75)
 
 
 def _number(value: float) -> str:

@@ -1,4 +1,4 @@
-"""A `Bench` -> `bench.json`, `bench.txt` and `bench.png`; and a saved one, to compare with."""
+"""A `Bench` -> `bench.json`, `bench.txt` and `bench.svg`; and a saved one, to compare with."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from reference_tracer import images
 from reference_tracer.report import folders
 from reference_tracer.scene import SceneError
 
@@ -17,7 +16,7 @@ from .scaling import scalings
 from .tables import table
 
 SCHEMA = "reference_tracer.bench/1"
-TABLE, JSON, PLOT = "bench.txt", "bench.json", "bench.png"
+TABLE, JSON, PLOT = "bench.txt", "bench.json", "bench.svg"
 
 _UNITS = {
     "_s": "CPU seconds, the median of the rounds, for a whole picture",
@@ -53,7 +52,7 @@ def write_json(directory: str | Path, bench: Bench) -> None:
 
 
 def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) -> None:
-    """Write `bench.json`, `bench.txt` and `bench.png`, in this order.
+    """Write `bench.json`, `bench.txt` and `bench.svg`, in this order.
 
     Parameters
     ----------
@@ -65,8 +64,6 @@ def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) ->
 
     Raises
     ------
-    MissingLibraryError
-        If there can be no plot. The JSON and the table are there all the same.
     OSError
         If the folder cannot be written.
     """
@@ -76,7 +73,7 @@ def write(directory: str | Path, bench: Bench, baseline: Bench | None = None) ->
     write_json(directory, bench)
     (directory / TABLE).write_text(table(bench, baseline) + "\n", encoding="utf-8")
     if bench.rows:
-        images.save_png(directory / PLOT, picture(bench))
+        (directory / PLOT).write_text(picture(bench), encoding="utf-8")
 
 
 def load(path: str | Path) -> Bench:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from reference_tracer.arguments import printable
 from reference_tracer.camera_options import CAMERA_OPTIONS, add_camera, choice_from, typed
-from reference_tracer.commands.parts import command, write_study
+from reference_tracer.commands.parts import command
 from reference_tracer.opening import SOURCES, load
 from reference_tracer.parser import AGREE, DIFFERENCES, INPUT_ERROR, WARNINGS, Parser
 from reference_tracer.report import folders
@@ -102,7 +102,8 @@ def run(options: argparse.Namespace) -> int:
         if len(judgements) > 1:
             print("\n".join(judge_table.class_table(judgements)))
         if options.out:
-            write_study(options.out, lambda: report.write(options.out, judgements))
+            report.write(options.out, judgements)
+            print(f"written to {options.out}")
     return max(CODES[j.verdict] for j in judgements)
 
 

@@ -40,7 +40,7 @@ frame = render(scene, Settings("never", "float32"))
 assert (frame.instance_index == -1).all()
 assert (render(scene, Settings("textbook")).instance_index == 0).any()
 assert {c.settings.method for c in tradeoff.choose(scene, 8, 1)} == set(MEASURED)
-assert Method.NEVER in MEASURED and Method.NEVER in extreme_plots._nested()
+assert Method.NEVER in MEASURED and Method.NEVER in extreme_plots.SWEPT
 try:
     Settings("none")
 except ValueError as error:

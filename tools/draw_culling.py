@@ -2,9 +2,9 @@
 
     python tools/draw_culling.py [SCENE.npz ...] [--width 1920] [--detail 8] [--out docs/images]
 
-Writes culling.png and depth_bins.png: small scenes that the tracer's own sweep goes through; needs
-Matplotlib. Prints the table, as Markdown, of the scenes that are given (`reftrace export` makes
-them) and of two that are built here.
+Writes culling.svg and depth_bins.svg: small scenes that the tracer's own sweep goes through. Prints
+the table, as Markdown, of the scenes that are given (`reftrace export` makes them) and of two that
+are built here.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 from culling import cells, depth_bins, scenes
 from culling.watched import count
-from reference_tracer.images import save_png
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import load_scene
 from reference_tracer.study.tradeoff import at_width
@@ -63,8 +62,8 @@ def main() -> None:
     )
     parser.add_argument("--out", type=Path, default=PROJECT / "docs" / "images", metavar="DIR")
     options = parser.parse_args()
-    save_png(options.out / "culling.png", cells.picture())
-    save_png(options.out / "depth_bins.png", depth_bins.picture())
+    (options.out / "culling.svg").write_text(cells.picture(), encoding="utf-8")
+    (options.out / "depth_bins.svg").write_text(depth_bins.picture(), encoding="utf-8")
     print("|", " | ".join(COLUMNS), "|")
     print("|" + "---|" * len(COLUMNS))
     for name, scene in counted(options.scenes, options.width, options.detail):

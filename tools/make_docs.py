@@ -3,7 +3,7 @@
     python tools/make_docs.py [--no-browser] [--no-window] [FILE.md ...]
 
 Fills in what stands between the markers (`documents/markers.py` says which there are), draws
-docs/images/lessons and docs/images/extremes.png, takes the README's picture of out/demo/page.html
+docs/images/lessons and docs/images/extremes.svg, takes the README's picture of out/demo/page.html
 in Chromium, and the tutorial's in a real Blender window (which needs root, Chromium, and the
 extension in dist/).
 """
@@ -62,8 +62,8 @@ def main() -> None:
     pictures.write(DOCS / "images" / "lessons")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
-        plot = PROJECT / "out" / "docs" / "extremes" / "breaking_points.png"
-        shutil.copy(plot, DOCS / "images" / "extremes.png")
+        plot = PROJECT / "out" / "docs" / "extremes" / "breaking_points.svg"
+        shutil.copy(plot, DOCS / "images" / "extremes.svg")
     if not options.no_browser:
         from documents import browser
 

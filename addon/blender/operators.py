@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import replace
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -88,7 +85,7 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
     def begin(self, context: Any) -> Work[Any]:
         if context.screen and context.screen.is_animation_playing:
             raise SceneError("The animation is playing: stop it, then compare it.")
-        folder = self.folder() or Path(_session_folder()) / "animation"
+        folder = self.folder() or results.session_folder() / "animation"
         frames = animation.frames_of(context.scene)
 
         def told(rows: list[FrameRow]) -> None:
@@ -125,7 +122,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         return super().poll(context) and bool(found)
 
     def begin(self, context: Any) -> Work[page.Extras]:
-        self._folder = self.folder() or Path(_session_folder())
+        self._folder = self.folder() or results.session_folder()
         self._comparison = results.latest(Comparison, context.scene).content
         return page.extras(self._comparison)
 
@@ -139,12 +136,6 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
         return "INFO", f"The page is {path}"
-
-
-@cache
-def _session_folder() -> str:
-    """Return a folder that outlives this Blender, so that the browser can load the page again."""
-    return tempfile.mkdtemp(prefix="reference-tracer-")
 
 
 class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):

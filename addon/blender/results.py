@@ -5,10 +5,12 @@ What the panels show is not stored in the .blend: it speaks of one moment.
 
 from __future__ import annotations
 
-import sys
+import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -16,16 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..compare.comparison import Comparison
-from ..images import MissingLibraryError
 from ..methods import Method
 from ..report import extremes as extremes_report
+from ..report import folders, plots
 from ..report import trade as trade_report
 from ..report.comparison import difference_picture
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points
 from ..study.trade import Trade
 
 TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
-TRADE = "Reference Tracer Trade"
 MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
@@ -35,8 +36,9 @@ class Result:
 
     file: str
     content: Any  # of the kind that it is kept as
-    lines: tuple[str, ...]  # what to say, the first of them first; last why there is no picture
+    lines: tuple[str, ...]  # what to say, the first of them first
     scene: str | None = None  # None: of no scene
+    page: str = ""  # the address of its plots
 
 
 _latest: dict[type, Result] = {}
@@ -51,22 +53,29 @@ def keep_comparison(context: Any, comparison: Comparison) -> Result:
     return keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
 
 
-def keep_trade(context: Any, trade: Trade) -> Result:
-    """Remember a trade, and show its plot if there can be one."""
-    why = _show_plots(context, lambda: [(TRADE, trade_report.plot_picture(trade))], "trade")
-    return keep(Trade, trade, [trade.advice, *why], trade.scene)
+def keep_trade(trade: Trade) -> Result:
+    """Remember a trade, and write its plot for the browser."""
+    page = _page("trade", trade_report.pictures(trade))
+    return keep(Trade, trade, [trade.advice], trade.scene, page)
 
 
-def keep_extremes(context: Any, rows: Sequence[ExtremesRow]) -> Result:
-    """Remember where each method breaks, and show the pictures of it if there can be any."""
-
-    def plots() -> Iterable[tuple[str, NDArray[np.uint8]]]:
-        for name, picture in extremes_report.pictures(rows):
-            yield f"Reference Tracer {name.replace('_', ' ').title()}", picture
-
-    lines = [_extremes_sentence(rows), *_show_plots(context, plots, "extremes")]
+def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
+    """Remember where each method breaks, and write the plots of it for the browser."""
+    lines, page = [_extremes_sentence(rows)], _page("extremes", extremes_report.pictures(rows))
     keep(ExtremesRow, tuple(rows), lines)
-    return keep(BreakingPoint, tuple(breaking_points(rows)), lines)
+    return keep(BreakingPoint, tuple(breaking_points(rows)), lines, page=page)
+
+
+def _page(name: str, pictures: dict[str, str]) -> str:
+    path = session_folder() / f"{name}.html"
+    folders.write_text(path, plots.page(f"Reference Tracer {name}", pictures.values()))
+    return path.as_uri()
+
+
+@cache
+def session_folder() -> Path:
+    """Return a folder that outlives this Blender, so that the browser can load a page again."""
+    return Path(tempfile.mkdtemp(prefix="reference-tracer-"))
 
 
 def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
@@ -88,28 +97,11 @@ def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
     return sentence + "."
 
 
-def _show_plots(
-    context: Any, plots: Callable[[], Iterable[tuple[str, NDArray[np.uint8]]]], command: str
-) -> list[str]:
-    """Show pictures, the last one in an image editor; return why not, if there can be none."""
-    try:
-        shown = None
-        for name, picture in plots():
-            shown = show(name, picture)
-        if shown:
-            show_in_editor(context, shown)
-        return []
-    except MissingLibraryError:
-        return [
-            "No picture: this Blender's Python has no Matplotlib. For one, run "
-            f'"{sys.executable}" -m pip install matplotlib, and start Blender again; or use '
-            f"reftrace {command} outside Blender"
-        ]
-
-
-def keep(kind: type, content: Any, lines: Iterable[str], scene: str | None = None) -> Result:
+def keep(
+    kind: type, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
+) -> Result:
     """Remember a result of a kind, for :func:`latest`."""
-    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene)
+    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, page)
     return _latest[kind]
 
 
@@ -130,24 +122,18 @@ def forget() -> None:
 
 
 def show(name: str, color: NDArray) -> Any:
-    """Put a picture into our image of this name, made where it is not there.
-
-    Linear RGBA (h, w, 4) floats are seen through the scene's view transform; uint8 are sRGB, and
-    seen as they are.
-    """
+    """Put linear RGBA (h, w, 4) into our image of this name, made where it is not there."""
     height, width = color.shape[:2]
-    plot = color.dtype == np.uint8
     image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
     if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
         del image[MARK]
         image = None
     if image is None:
-        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=not plot)
+        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
         image[MARK] = name
     elif tuple(image.size) != (width, height):
         image.scale(width, height)
-    values = np.ascontiguousarray(color, dtype=np.float32)
-    image.pixels.foreach_set((values / 255 if plot else values).ravel())
+    image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
     image.update()
     return image
 

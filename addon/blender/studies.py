@@ -7,7 +7,6 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
-from ..commands.parts import write_study
 from ..report import extremes as extremes_report
 from ..report import trade as trade_report
 from ..study import tradeoff
@@ -47,10 +46,11 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
         return tradeoff.measure(scene, self.width, self.samples, manifest.scene)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        write_study(self._folder, lambda: trade_report.write(self._folder, result))
-        lines = results.keep_trade(context, result).lines
-        print(trade_report.table(result), *lines[1:], sep="\n")
-        return _told(lines)
+        if self._folder:
+            trade_report.write(self._folder, result)
+        results.keep_trade(result)
+        print(trade_report.table(result))
+        return "INFO", result.advice
 
 
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
@@ -71,10 +71,11 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         return measure(scenarios, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        write_study(self._folder, lambda: extremes_report.write(self._folder, result))
-        lines = results.keep_extremes(context, result).lines
-        print(extremes_report.breaking_table(result), *lines, sep="\n")
-        return _told(lines)
+        if self._folder:
+            extremes_report.write(self._folder, result)
+        [said] = results.keep_extremes(result).lines
+        print(extremes_report.breaking_table(result), said, sep="\n")
+        return "INFO", said
 
 
 class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
@@ -99,13 +100,6 @@ class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
         say(f"{scene.name}:", *changed)
         self.report({"INFO"}, f"{scene.name}: {changed[0]}")
         return {"FINISHED"}
-
-
-def _told(lines: tuple[str, ...]) -> tuple[str, str]:
-    """Return what to report of a study: its sentence, and that its picture can't be had."""
-    if lines[1:]:
-        return "WARNING", f"{lines[0]} (No picture without Matplotlib: the panel says how.)"
-    return "INFO", lines[0]
 
 
 CLASSES = (

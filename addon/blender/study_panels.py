@@ -121,6 +121,7 @@ class _Trade:
             return
         trade = found.content
         wrapped(layout, context, found.lines[0], "INFO")
+        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
         box, rows = layout.box(), trade.whole
         box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
         draw_table(box, [("", "s", "Wrong", "MiB"), *(_method(r) for r in rows)], NARROW)
@@ -129,13 +130,6 @@ class _Trade:
         best = sorted((r for r in trade.rows if r.best_coverage), key=lambda r: r.seconds)
         draw_table(box, [("", "Size", "s", "RMS"), *(_coverage(r) for r in best)], NARROW)
         wrapped(layout, context, "* no other is faster with as few wrong pixels")
-        _say_why(layout, context, found)
-
-
-def _say_why(layout: Any, context: Any, found: results.Result) -> None:
-    """Say why there is no picture, and how it can be had."""
-    for line in found.lines[1:]:
-        wrapped(layout, context, line, "ERROR")
 
 
 def _method(row: TradeRow) -> tuple[str, ...]:
@@ -160,7 +154,7 @@ class _Extremes:
         found = results.latest(BreakingPoint, context.scene)
         if found:
             wrapped(layout, context, found.lines[0], "INFO")
-            _say_why(layout, context, found)
+            layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
         if found and found.content:
             wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
             layout.row().prop(shown, "precision", expand=True)

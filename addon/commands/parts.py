@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 from ..arguments import check_options
-from ..images import MissingLibraryError
 from ..parser import DONE_HELP, Parser
 
 
@@ -35,14 +33,3 @@ def command(
         parser.set_defaults(scene=parser.opened, opened=True)
     elif source:
         parser.add_argument("scene", type=Path, metavar="SCENE", help=source)
-
-
-def write_study(directory: str | Path | None, write: Callable[[], None]) -> None:
-    """Write a study, if to a folder; where pictures need a missing library, do without them."""
-    if not directory:
-        return
-    try:
-        write()
-    except MissingLibraryError as error:
-        print(f"Reference Tracer: {error}", file=sys.stderr)
-    print(f"written to {directory}")

@@ -14,7 +14,7 @@ from ..report import folders
 from ..running import progress_bar
 from ..tracer.progress import result_of
 from ..tracer.settings import Settings
-from .parts import command, write_study
+from .parts import command
 
 
 def add_trade(parser: Parser) -> None:
@@ -36,7 +36,9 @@ def trade(options: argparse.Namespace) -> None:
             work = tradeoff.measure(scene, options.width, samples, options.scene.name)
             found = result_of(work, progress)
         print(report.table(found))
-        write_study(options.out, lambda: report.write(options.out, found))
+        if options.out:
+            report.write(options.out, found)
+            print(f"written to {options.out}")
 
 
 def add_extremes(parser: Parser) -> None:
@@ -54,4 +56,5 @@ def extremes(options: argparse.Namespace) -> None:
         with progress_bar() as progress:
             rows = result_of(measure(rays=options.rays), progress)
         print(report.breaking_table(rows))
-        write_study(options.out, lambda: report.write(options.out, rows))
+        report.write(options.out, rows)
+        print(f"written to {options.out}")

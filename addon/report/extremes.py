@@ -1,20 +1,13 @@
-"""Rows of numerical stability -> tables, `extremes.json` and pictures.
-
-The pictures need Matplotlib; the rest does not.
-"""
+"""Rows of numerical stability -> tables, `extremes.json` and pictures."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from .. import images
 from ..methods import MEASURED
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
 from ..study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS, Map, Scenario
@@ -123,18 +116,16 @@ def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
 
     Raises
     ------
-    MissingLibraryError
-        If there can be no pictures. The tables and the JSON are there all the same.
     OSError
         If the folder cannot be written.
     """
-    names = TABLE, *(f"{name}.png" for name in picture_names()), JSON
+    names = TABLE, *(f"{name}.svg" for name in picture_names()), JSON
     with replacing(Path(directory), names) as new:
         text = f"{breaking_table(rows)}\n\n\n{table(rows)}\n"
         (new / TABLE).write_text(text, encoding="utf-8")
         write_json(new / JSON, to_dict(rows))
-        for name, picture in pictures(rows):
-            images.save_png(new / f"{name}.png", picture)
+        for name, picture in pictures(rows).items():
+            (new / f"{name}.svg").write_text(picture, encoding="utf-8")
 
 
 def picture_names() -> list[str]:
@@ -144,21 +135,17 @@ def picture_names() -> list[str]:
     return ["breaking_points", *sweeps, *(f"map_{m.name}" for m in MAPS)]
 
 
-def pictures(rows: Sequence[ExtremesRow]) -> Iterable[tuple[str, NDArray[np.uint8]]]:
-    """Yield the name and pixels, (h, w, 4) sRGB, row 0 at the bottom, of every picture.
-
-    Raises
-    ------
-    MissingLibraryError
-        If Matplotlib is not installed.
-    """
+def pictures(rows: Sequence[ExtremesRow]) -> dict[str, str]:
+    """Return the name and the SVG of every picture."""
+    found = {}
     if groups := list(by_scenario(rows).values()):
-        yield "breaking_points", extreme_plots.breaking_picture(rows)
+        found["breaking_points"] = extreme_plots.breaking_picture(rows)
         pages = math.ceil(len(groups) / PANELS)
         each = math.ceil(len(groups) / pages)
         for page in range(1, pages + 1):
             shown = groups[(page - 1) * each : page * each]
-            yield f"sweeps_{page}", extreme_plots.sweeps_picture(shown, f"{page} of {pages}")
+            found[f"sweeps_{page}"] = extreme_plots.sweeps_picture(shown, f"{page} of {pages}")
     for some in MAPS:
-        if found := [r for r in rows if r.across is not None and r.scenario == some.name]:
-            yield f"map_{some.name}", extreme_plots.map_picture(some, found)
+        if of := [r for r in rows if r.across is not None and r.scenario == some.name]:
+            found[f"map_{some.name}"] = extreme_plots.map_picture(some, of)
+    return found

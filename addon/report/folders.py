@@ -15,8 +15,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from ..images import MissingLibraryError
-
 _PREFIX = ".reftrace-"  # of the folder beside the results in which they are written
 
 
@@ -68,7 +66,7 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
     """Give a temporary folder for results of these names, which then replace those in `directory`.
 
     The file of the last name is removed first and moved last: if it exists, all others are from the
-    same run. Where a library for pictures is missing, what was written until then is the result.
+    same run.
 
     Raises
     ------
@@ -78,18 +76,12 @@ def replacing(directory: Path, names: Sequence[str]) -> Iterator[Path]:
     make(directory)
     folder = tempfile.TemporaryDirectory(dir=directory, prefix=_PREFIX)
     with _named(f"the folder '{directory}'"), folder as new:
-        missing = None
-        try:
-            yield Path(new)
-        except MissingLibraryError as error:
-            missing = error
+        yield Path(new)
         for name in reversed(names):
             (directory / name).unlink(missing_ok=True)
         for name in names:
             if Path(new, name).exists():
                 os.replace(Path(new, name), directory / name)
-        if missing:
-            raise missing
 
 
 @contextmanager

@@ -1,95 +1,204 @@
-"""What all plots share: figures without Matplotlib's global state, their style, and their pixels.
+"""What all plots share: elements of SVG, scales with round numbers, axes, marks and words.
 
-Matplotlib is the extra `plots`. Without it there are no plots, and all else works.
+A plot is text that every browser draws, without a library. What draws returns elements of it, in
+pixels, y down. No font is known here: the widths of words are estimated.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..images import MissingLibraryError
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
-    from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
-
-WIDTH, HEIGHT = 1920, 1080  # pixels: what a projector shows
-DPI = 120
-# Font sizes of a title, the labels and the numbers at the axes: legible from the back row, or as
-# large as small multiples have room for.
-LARGE, SMALL = (19.0, 16.0, 14.0), (14.0, 11.5, 10.5)
+WIDTH, HEIGHT = 1920, 1080  # what a projector shows
+# Sizes of a title, the labels and the numbers at the axes: legible from the back row, or as large
+# as small multiples have room for.
+LARGE, SMALL = (32.0, 27.0, 23.0), (22.0, 19.0, 17.0)
 INK, GREY, FAINT = "#222222", "#707070", "#c8c8c8"
 
-
-def new_figure(width: int = WIDTH, height: int = HEIGHT) -> Figure:
-    """Return an empty white figure of so many pixels.
-
-    Raises
-    ------
-    MissingLibraryError
-        If Matplotlib is not installed.
-    """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise MissingLibraryError(
-            "plots need the library Matplotlib: pip install 'reference_tracer[plots]'"
-        ) from None
-    return Figure((width / DPI, height / DPI), dpi=DPI, facecolor="white", layout="constrained")
+_LETTER, _WIDE = 0.64, 1.0  # widths in sizes of the font, with room: of a letter; of an ideograph
+_SHARP = {"shape_rendering": "crispEdges"}  # no seam between cells that touch
+_LINE = 1.25  # from one line of words to the next, in sizes of the font
+_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+Place = tuple[float, float]
 
 
-def headline(figure: Figure, text: str, size: float = 17) -> None:
-    """Write a figure's title, flush left."""
-    figure.suptitle(text, fontsize=size, x=0.01, ha="left", color=INK)
+def element(name: str, *inside: str, **attributes: str | float) -> str:
+    """Return an element that holds others; `stroke_width` is its attribute stroke-width."""
+    written = (
+        f' {key.replace("_", "-")}="{v if isinstance(v, str) else f"{v:.7g}"}"'
+        for key, v in attributes.items()
+    )
+    return f"<{name}{''.join(written)}>{''.join(inside)}</{name}>"
 
 
-def legend_below(figure: Figure, handles: Sequence[Line2D]) -> None:
-    """Explain lines and marks in one row below all axes."""
-    style = {"fontsize": 14, "frameon": False, "columnspacing": 1.4, "handletextpad": 0.4}
-    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), **style)
+def said(name: str, words: str, **attributes: str | float) -> str:
+    """Return an element that holds words, whatever they hold."""
+    return element(name, escape(_NO_XML.sub("\ufffd", words)), **attributes)
 
 
-def plain_axes(
-    axes: Axes, title: str, x: str, y: str, sizes: tuple[float, float, float] = LARGE
-) -> None:
-    """Give axes a title, labels, a faint grid and no frame; `sizes` are LARGE or SMALL."""
-    of_title, of_labels, of_ticks = sizes
-    axes.set_title(title, fontsize=of_title, color=INK, loc="left", pad=12)
-    axes.set_xlabel(x, fontsize=of_labels, color=INK)
-    axes.set_ylabel(y, fontsize=of_labels, color=INK)
-    axes.tick_params(labelsize=of_ticks, color=FAINT, labelcolor=INK, which="both")
-    axes.grid(True, color=FAINT, linewidth=0.6, alpha=0.6)
-    axes.set_axisbelow(True)
-    for side, spine in axes.spines.items():
-        spine.set_visible(side in ("left", "bottom"))
-        spine.set_color(FAINT)
+def picture(width: float, height: float, title: str, about: str, inside: str) -> str:
+    """Return a whole white picture; its title and what it is about are for those who hear it."""
+    head = said("title", title), said("desc", about)
+    paper = element("rect", width=width, height=height, fill="white")
+    style = {"viewBox": f"0 0 {width:g} {height:g}", "role": "img", "font_family": "sans-serif"}
+    return element("svg", *head, paper, inside, xmlns="http://www.w3.org/2000/svg", **style) + "\n"
 
 
-def log_ticks(axis: Axis, low: float, high: float) -> None:
-    """Make an axis logarithmic between two limits, with about five to ten numbers."""
-    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+def width_of(words: str, size: float) -> float:
+    """Return how wide the longest line of words is, at most."""
+    wide = (sum(_WIDE if c > "\u2e80" else _LETTER for c in line) for line in words.split("\n"))
+    return size * max(wide)
 
-    getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
-    getattr(axis.axes, f"set_{axis.axis_name}lim")(low, high)
-    ratio = high / low
-    if ratio < 5:  # there may be no 1, 2 or 5 in between
-        axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
+
+def text(
+    at: Place, words: str, size: float, color: str = INK, anchor: str = "start", **more: str
+) -> str:
+    """Return lines of words whose middle is where `at` says, and which start there (or end)."""
+    lines = words.split("\n")
+    style = {"font_size": size, "fill": color, "text_anchor": anchor, **more}
+    x, y = (
+        at[0],
+        at[1] + size * (0.35 - _LINE * (len(lines) - 1) / 2),
+    )  # 0.35: down to a letter's foot
+    return "".join(
+        said("text", words, x=x, y=y + _LINE * size * k, **style)
+        for k, words in enumerate(lines)
+        if words
+    )
+
+
+def turned(at: Place, words: str, size: float, degrees: float, anchor: str) -> str:
+    """Return a line of words that is turned about where it is."""
+    return text(
+        at, words, size, INK, anchor, transform="rotate({:g} {:.2f} {:.2f})".format(degrees, *at)
+    )
+
+
+def mark(
+    at: Place, radius: float, color: str, hollow: bool = False, title: str = "", **more: float
+) -> str:
+    """Return a round mark, which says its title where it is pointed at."""
+    place = {"cx": at[0], "cy": at[1], "r": radius}
+    style = {"fill": "white" if hollow else color, "stroke": color, "stroke_width": 0.3 * radius}
+    return element("circle", said("title", title) if title else "", **place, **style | more)
+
+
+def line(
+    places: Sequence[Place], color: str, width: float, dotted: bool = False, opacity: float = 1
+) -> str:
+    """Return a line through places."""
+    points = " ".join(f"{x:.2f},{y:.2f}" for x, y in places)
+    style = {"stroke": color, "stroke_width": width, "fill": "none", "opacity": opacity}
+    dashes = {"stroke_dasharray": f"{1.2 * width:g}"} if dotted else {}
+    return element("polyline", points=points, **style, **dashes)
+
+
+def cell(x: float, y: float, width: float, height: float, color: str, title: str = "") -> str:
+    """Return a coloured rectangle, which says its title where it is pointed at."""
+    place = {"x": x, "y": y, "width": width, "height": height}
+    return element("rect", said("title", title) if title else "", **place, fill=color, **_SHARP)
+
+
+class Scale(NamedTuple):
+    """What a side of a plot stands for: the numbers at its ends, and those that are written."""
+
+    low: float
+    high: float
+    ticks: Mapping[float, str]
+    log: bool = False
+
+    def share(self, value: float) -> float:
+        """Return where a number is: 0 at the low end, 1 at the high one."""
+        at = (value, self.low, self.high)
+        value, low, high = map(math.log, at) if self.log else at
+        return (value - low) / (high - low)
+
+
+def linear(low: float, high: float) -> Scale:
+    """Return a scale with about five to ten round numbers."""
+    return Scale(low, high, {v: f"{v:g}" for v in _round(low, high, 8)})
+
+
+def logarithmic(low: float, high: float) -> Scale:
+    """Return a logarithmic scale with about five to ten round numbers."""
+    if high < 5 * low:  # there may be no 1, 2 or 5 in between
+        ticks = _round(low, high, 6)
     else:
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if ratio < 500 else (1,), numticks=9))
-    axis.set_major_formatter(lambda value, _: f"{value:g}")
-    axis.set_minor_formatter(NullFormatter())
+        powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+        steps = (1, 2, 5) if high < 500 * low else (1,)
+        ticks = [s * 10.0**k for k in powers[:: math.ceil(len(powers) / 10)] for s in steps]
+    return Scale(low, high, {v: f"{v:g}" for v in ticks if low <= v <= high}, log=True)
 
 
-def pixels(figure: Figure) -> NDArray[np.uint8]:
-    """Return a figure as a picture, (h, w, 4) sRGB with alpha, row 0 at the bottom."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
+def _round(low: float, high: float, most: int) -> list[float]:
+    """Return the multiples between two numbers of 1, 2 or 5 times a power of ten."""
+    least = (high - low) / most
+    power = 10.0 ** math.floor(math.log10(least))
+    step = next(s * power for s in (1, 2, 5, 10) if s * power >= least)
+    return [k * step for k in range(math.ceil(low / step), math.floor(high / step) + 1)]
 
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    return np.asarray(canvas.buffer_rgba())[::-1].copy()
+
+class Axes(NamedTuple):
+    """A rectangle of a picture, and what its sides stand for."""
+
+    left: float
+    top: float
+    width: float
+    height: float
+    x: Scale
+    y: Scale
+
+    def at(self, x: float, y: float) -> Place:
+        """Return where a pair of numbers is in the picture."""
+        down = 1 - self.y.share(y)
+        return self.left + self.width * self.x.share(x), self.top + self.height * down
+
+    def drawn(self, title: str, x: str, y: str = "", small: bool = False) -> str:
+        """Return the sides, a faint grid and all that is written: slanted below small axes."""
+        of_title, of_labels, of_ticks = SMALL if small else LARGE
+        left, bottom, right = self.left, self.top + self.height, self.left + self.width
+        above = self.top - 14 - of_title * _LINE * (title.count("\n") + 1) / 2
+        wide = max(width_of(words, of_ticks) for words in self.y.ticks.values()) + 12
+        deep = max(width_of(words, of_ticks) for words in self.x.ticks.values()) / math.sqrt(2)
+        under = bottom + 0.7 * of_labels + (deep + 2 * of_ticks if small else 1.9 * of_ticks)
+        beside = left - wide - 10 - 0.7 * of_labels, (self.top + bottom) / 2
+        out = [
+            text((left - wide * small, above), title, of_title),
+            text((left + self.width / 2, under), x, of_labels, anchor="middle"),
+            turned(beside, y, of_labels, -90, "middle"),
+        ]
+        for value, words in self.x.ticks.items():
+            at = left + self.width * self.x.share(value)
+            slant = (-45, "end") if small else (0, "middle")
+            out.append(line([(at, self.top), (at, bottom)], FAINT, 1, opacity=0.6))
+            out.append(turned((at, bottom + 1.1 * of_ticks), words, of_ticks, *slant))
+        for value, words in self.y.ticks.items():
+            at = bottom - self.height * self.y.share(value)
+            out.append(line([(left, at), (right, at)], FAINT, 1, opacity=0.6))
+            out.append(text((left - 12, at), words, of_ticks, anchor="end"))
+        sides = [(left, self.top), (left, bottom), (right, bottom)]
+        return "".join(out) + line(sides, FAINT, 1.5)
+
+
+def legend(entries: Mapping[str, str], y: float, size: float = LARGE[2]) -> str:
+    """Explain marks, drawn about (0, 0), in one row in the middle of the picture's width."""
+    side = 1.4 * size  # from the middle of a mark to its words
+    widths = [side + width_of(words, size) + 2 * size for words in entries]
+    if sum(widths) > WIDTH:
+        return legend(entries, y, size * (WIDTH - 1) / sum(widths))
+    x, out = WIDTH / 2 - sum(widths) / 2 + size, []
+    for (words, drawn), width in zip(entries.items(), widths, strict=True):
+        out.append(element("g", drawn, transform=f"translate({x:.1f} {y:.1f})"))
+        out.append(text((x + side, y), words, size))
+        x += width
+    return "".join(out)
+
+
+def page(title: str, pictures: Iterable[str]) -> str:
+    """Return pictures as one page for a browser; an SVG by itself may be opened by an editor."""
+    style = "svg { display: block; width: 100%; max-height: 100vh; }"
+    head = '<meta charset="utf-8">' + said("title", title) + element("style", style)
+    return "<!doctype html>\n" + element("html", head, *pictures, lang="en")

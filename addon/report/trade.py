@@ -6,35 +6,30 @@ The plot shows time against wrong pixels, and time against coverage error.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .. import images
 from ..methods import MEASURED, Method
 from ..study.trade import Trade, TradeRow
+from ..tracer.settings import Precision
 from . import plots
 from .folders import finite, replacing, write_json
 from .tables import STUDIES, columns
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
 SCHEMA = "reference_tracer.tradeoff/1"
-TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.png"
+TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.svg"
 
 _SAID = STUDIES["tradeoff"]
 _HEAD = (
     *("method", "precision", "seconds", "(min - max)"),
     *("wrong pixels  ", "t error, m", "MiB", "coverage  "),
 )
-_BAND = (-0.9, 0.9)  # of the plot, where rows without a wrong pixel are, one below the other
-# Where a name may be, in points from what it names; the first that is free.
-_PLACES = [(x, y) for y in (0, 16, -16, 32, -32) for x in (16, -16)]
-_Name = tuple[float, float, str]  # of what is at (x, y)
+_NAME = 25.0  # size of a name's letters
+# Where a name may be, in pixels from what it names; the first that is free.
+_PLACES = [(x, y) for y in (0, 27, -27, 54, -54) for x in (27, -27)]
 
 
 def table(trade: Trade) -> str:
@@ -79,86 +74,71 @@ def _row(r: TradeRow) -> dict[str, Any]:
 
 
 def write(directory: str | Path, trade: Trade) -> None:
-    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.png`, all or none, in a folder.
+    """Write `tradeoff.txt`, `tradeoff.json` and `tradeoff.svg`, all or none, in a folder.
 
     Raises
     ------
-    MissingLibraryError
-        If there can be no plot. The table and the JSON are there all the same.
     OSError
         If the folder cannot be written.
     """
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(trade))
-        images.save_png(new / PLOT, plot_picture(trade))
+        (new / PLOT).write_text(pictures(trade)["tradeoff"], encoding="utf-8")
 
 
-def pictures(trade: Trade) -> Iterator[tuple[str, NDArray[np.uint8]]]:
-    """Yield the name and pixels of the one picture that there is, as :func:`plot_picture`."""
-    yield "tradeoff", plot_picture(trade)
-
-
-def plot_picture(trade: Trade) -> NDArray[np.uint8]:
-    """Return the plot, (h, w, 4) sRGB, row 0 at the bottom.
+def pictures(trade: Trade) -> dict[str, str]:
+    """Return the name and the SVG of the one picture that there is.
 
     Wrong pixels are those of the methods side by side, coverage errors those of all rows. A line
     joins what no other row beats.
-
-    Raises
-    ------
-    MissingLibraryError
-        If Matplotlib is not installed.
     """
-    figure = plots.new_figure()
-    both = left, right = figure.subplots(1, 2)
-    names = _wrong_pixels(left, trade), _coverage(right, trade)
-    labels = {m.words: {"color": m.color} for m in MEASURED}
-    labels |= {"float64": {"color": plots.GREY}, "float32": {"color": plots.GREY, "mfc": "white"}}
-    handles = [
-        left.plot([], [], "o", markersize=13, mew=2.5, label=label, **style)[0]
-        for label, style in labels.items()
-    ]
-    handles += left.plot([], [], color=plots.INK, lw=2.5, label="no other beats these")
-    plots.legend_below(figure, handles)
-    title = f"{trade.scene or 'Trade'}: {trade.advice}"
-    plots.headline(figure, textwrap.fill(title, 132))  # in lines as long as the picture is wide
-    figure.draw_without_rendering()  # puts all in its place
-    figure.set_layout_engine("none")
-    for axes, some in zip(both, names, strict=True):
-        _label(axes, some)
-    return plots.pixels(figure)
+    said, room = f"{trade.scene or 'Trade'}: {trade.advice}", plots.WIDTH - 40
+    headlines = ("\n".join(textwrap.wrap(said, letters)) for letters in range(104, 0, -1))
+    headline = next(lines for lines in headlines if plots.width_of(lines, 28) <= room)
+    height = 35 * (1 + headline.count("\n"))
+    top = 130 + height
+    entries = {m.words: plots.mark((0, 0), 13, m.color) for m in MEASURED}
+    entries |= {p: plots.mark((0, 0), 13, plots.GREY, p == "float32") for p in Precision}
+    entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
+    inside = plots.text((20, 15 + height / 2), headline, 28)
+    inside += _wrong_pixels(trade, (155, top, 790, plots.HEIGHT - 155 - top))
+    inside += _coverage(trade, (1105, top, 770, plots.HEIGHT - 155 - top))
+    inside += plots.legend(entries, plots.HEIGHT - 30)
+    title = "Time against wrong pixels, and time against coverage error, of every method"
+    return {"tradeoff": plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, inside)}
 
 
-def _wrong_pixels(axes: Axes, trade: Trade) -> list[_Name]:
-    """Draw the methods side by side; return the names to be written, and where."""
-    rows = trade.whole
-    plots.plain_axes(
-        axes,
-        f"Time against wrong pixels\n{rows[0].width} × {rows[0].height} pixels, one ray each",
-        "seconds; the bar is from the fastest round to the slowest",
-        "wrong pixels",
-    )
-    most = max(r.wrong_pixels for r in rows)
-    axes.set_yscale("symlog", linthresh=1, linscale=1.5)  # linear below 1: 0 has its place
-    axes.set_ylim(_BAND[0] - 0.1, max(10.0, 4.0 * most))
-    axes.set_yticks([0, *(10**k for k in range(int(np.log10(max(10, most))) + 1))])
-    axes.yaxis.set_major_formatter(lambda value, _: f"{value:,.0f}" if value else "none")
-    axes.axhspan(_BAND[0] - 0.1, _BAND[1], color="#e6f2e6", zorder=0)
-    fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
-    if slowest > 10 * fastest:
-        plots.log_ticks(axes.xaxis, 0.8 * fastest, 4 * slowest)  # room for the names
-    else:
-        named = max((r.slowest for r in rows if _is_named(r)), default=0.0)
-        axes.set_xlim(0, max(1.1 * slowest, 1.8 * named))  # room for the names
+def _wrong_pixels(trade: Trade, box: tuple[float, ...]) -> str:
+    """Draw the methods side by side; those without a wrong pixel in a band, one below the other."""
+    rows, (_, _, width, height) = trade.whole, box
     right = sorted((r for r in rows if not r.wrong_pixels), key=lambda r: r.seconds)
-    places = np.linspace(_BAND[1], _BAND[0], len(right) + 2)[1:-1].tolist()
-    place = dict(zip(map(id, right), places, strict=True))
-    heights = [place.get(id(r), r.wrong_pixels) for r in rows]
-    for r, y in zip(rows, heights, strict=True):
-        axes.plot([r.fastest, r.slowest], [y, y], color=Method(r.method).color, lw=2, alpha=0.4)
-    _points(axes, rows, heights, "best_pixels")
-    return [(r.slowest, y, _name(r)) for r, y in zip(rows, heights, strict=True) if _is_named(r)]
+    top = max(10.0, 4.0 * max(r.wrong_pixels for r in rows))
+    share = 34 * (len(right) + 1) / height  # of the height that the band has
+    low = top ** (share / (share - 1))
+    ticks = {low**0.55: "none", **{10**k: f"{10**k:,}" for k in range(int(np.log10(top)) + 1)}}
+    places = (low ** np.linspace(0.1, 1, len(right) + 2))[1:-1].tolist()
+    points = list(zip(right, places, strict=True))
+    points += [(r, r.wrong_pixels) for r in rows if r.wrong_pixels]
+    fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
+    log = slowest > 10 * fastest
+    start, end = 0.8 * fastest if log else 0.0, 1.1 * slowest
+    named = [(r, y) for r, y in points if r.best_pixels or not r.wrong_pixels]
+    for r, _ in named:  # room for its name
+        part = 1 - min(0.8, (plots.width_of(_name(r), _NAME) + 40) / width)
+        end = max(end, start * (r.slowest / start) ** (1 / part) if log else r.slowest / part)
+    x = plots.logarithmic(start, end) if log else plots.linear(start, end)
+    axes = plots.Axes(*box, x, plots.Scale(low, top, ticks, log=True))
+    title = f"Time against wrong pixels\n{rows[0].width} × {rows[0].height} pixels, one ray each"
+    (left, edge), (_, bottom) = axes.at(start, low**0.1), axes.at(start, low)
+    out = plots.cell(left, edge, width, bottom - edge, "#e6f2e6")
+    x_label = "seconds; the bar is from the fastest round to the slowest"
+    out += axes.drawn(title, x_label, "wrong pixels")
+    for r, y in points:
+        bar = axes.at(r.fastest, y), axes.at(r.slowest, y)
+        out += plots.line(bar, Method(r.method).color, 4, opacity=0.4)
+    names = {_name(r): axes.at(r.slowest, y) for r, y in named}
+    return out + _points(axes, points, "best_pixels", names)
 
 
 def _name(r: TradeRow) -> str:
@@ -166,63 +146,66 @@ def _name(r: TradeRow) -> str:
     return f"{Method(r.method).words}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
 
 
-def _is_named(row: TradeRow) -> bool:
-    return row.best_pixels or not row.wrong_pixels
-
-
-def _coverage(axes: Axes, trade: Trade) -> list[_Name]:
-    """Draw all rows; return the names to be written, and where."""
-    k = trade.converged
+def _coverage(trade: Trade, box: tuple[float, ...]) -> str:
+    """Draw all rows."""
+    points = [(r, r.coverage_error) for r in trade.rows if np.isfinite(r.coverage_error)]
+    points.sort(key=lambda p: (p[0].seconds, p[1]))
+    least, most = min(y for _, y in points), max(y for _, y in points)
+    y = (
+        plots.logarithmic(0.75 * least, 1.3 * most)
+        if least
+        else plots.linear(-0.1 * most, 1.1 * most or 1)
+    )
+    x = plots.logarithmic(0.85 * points[0][0].seconds, 1.25 * points[-1][0].seconds)
+    axes, k = plots.Axes(*box, x, y), trade.converged
     title = f"Time against coverage error\nheld against {k} × {k} rays a pixel"
-    plots.plain_axes(axes, title, "seconds", "root mean square of RGBA")
-    seconds = [r.seconds for r in trade.rows]
-    plots.log_ticks(axes.xaxis, 0.85 * min(seconds), 1.25 * max(seconds))
-    errors = [r.coverage_error for r in trade.rows]
-    if min(errors) > 0:
-        plots.log_ticks(axes.yaxis, 0.75 * min(errors), 1.3 * max(errors))
-    elif max(errors) == 0:
-        axes.set_ylim(-0.05, 1)
-        axes.set_yticks([0], ["none"])
-    _points(axes, trade.rows, errors, "best_coverage")
-    names = {}
-    for r in sorted(trade.rows, key=lambda r: (r.seconds, r.coverage_error)):
-        rays = f", {r.samples} × {r.samples} rays each" if r.samples > 1 else ""
-        name = f"{r.width} × {r.height}{rays}"
-        if r.best_coverage:
-            names.setdefault(name, (r.seconds, r.coverage_error, name))
-    return list(names.values())
+    best = [(r, y) for r, y in reversed(points) if r.best_coverage]
+    names = {_size(r): axes.at(r.seconds, y) for r, y in best}  # each beside its fastest row
+    drawn = axes.drawn(title, "seconds", "root mean square of RGBA")
+    return drawn + _points(axes, points, "best_coverage", names)
 
 
-def _points(axes: Axes, rows: list[TradeRow], errors: Sequence[float], best: str) -> None:
-    """Draw the rows, and the line of those that no other beats; `best` says by a row's field."""
-    ordered = sorted(zip((r.seconds for r in rows), errors, rows, strict=True), key=lambda p: p[:2])
-    front = [(x, y) for x, y, r in ordered if getattr(r, best)]
-    axes.plot([x for x, _ in front], [y for _, y in front], color=plots.INK, lw=2.5, zorder=2)
-    for r, y in zip(rows, errors, strict=True):
-        color = Method(r.method).color
-        style = {"color": color, "mfc": color if r.precision == "float64" else "white", "mew": 2.5}
-        size, z, alpha = (16, 4, 1.0) if getattr(r, best) else (10, 3, 0.7)
-        axes.plot(r.seconds, y, "o", ms=size, zorder=z, alpha=alpha, **style)
+def _size(r: TradeRow) -> str:
+    rays = f", {r.samples} × {r.samples} rays" if r.samples > 1 else ""
+    return f"{r.width} × {r.height}{rays}"
 
 
-def _label(axes: Axes, names: list[_Name]) -> None:
+def _points(
+    axes: plots.Axes, points: list[tuple[TradeRow, float]], best: str, names: dict[str, plots.Place]
+) -> str:
+    """Draw rows, names, and the line of the rows that no other beats; `best` is their field."""
+    places = [(getattr(r, best), axes.at(r.seconds, y), r) for r, y in points]
+    front = sorted(at for is_best, at, _ in places if is_best)
+    out = plots.line(front, plots.INK, 4)
+    for is_best, at, r in sorted(places, key=lambda p: p[0]):
+        wrong = f"{r.wrong_pixels:,} wrong pixels, coverage error {r.coverage_error:.4g}"
+        title = f"{Method(r.method).words}, {r.precision}, {_size(r)}: {r.seconds:.4g} s, {wrong}"
+        size, alpha = (14, 1.0) if is_best else (9, 0.7)
+        color, hollow = Method(r.method).color, r.precision == "float32"
+        out += plots.mark(at, size, color, hollow, title, opacity=alpha)
+    on_line = np.linspace(front[:-1], front[1:], 9).reshape(-1, 2).tolist()
+    return out + _named(axes, names, [*(at for _, at, _ in places), *on_line])
+
+
+def _named(axes: plots.Axes, names: dict[str, plots.Place], points: list[plots.Place]) -> str:
     """Write names beside their points; leave out a name that would cover another."""
-    points = [p for line in axes.lines for p in axes.transData.transform(line.get_xydata())]
-    taken, inside = [], axes.get_window_extent().padded(4)
-    for x, y, text in names:
-        found = []
-        for dx, dy in _PLACES:
-            style = {"ha": "left" if dx > 0 else "right", "va": "center", "color": plots.INK}
-            style |= {"textcoords": "offset points", "fontsize": 15, "zorder": 5}
-            note = axes.annotate(text, (x, y), (dx, dy), **style)
-            note.set_in_layout(False)
-            box = note.get_window_extent()
-            free = box.x1 < inside.x1 and box.x0 > inside.x0
-            free = free and not any(box.overlaps(other) for other in taken)
-            found.append((not free, sum(box.contains(*p) for p in points), len(found), note, box))
-        blocked, _, _, best, box = min(found, key=lambda f: f[:3])
-        for *_, note, _ in found:
-            if blocked or note is not best:
-                note.remove()
-        if not blocked:
+    right, bottom = axes.left + axes.width, axes.top + axes.height
+    out, taken, half = "", [], 0.6 * _NAME
+    for words, (x, y) in names.items():
+        wide = plots.width_of(words, _NAME)
+        starts = [(x + dx - wide * (dx < 0), y + dy) for dx, dy in _PLACES]
+        boxes = [(left, y - half, left + wide, y + half) for left, y in starts]
+        boxes = [b for b in boxes if axes.left < b[0] and b[2] < right and b[3] < bottom]
+        free = [b for b in boxes if not _over(b, taken)]
+        if free:
+            box = min(free, key=lambda box: _over(box, [(*p, *p) for p in points]))
             taken.append(box)
+            at, anchor = (box[0], "start") if box[0] > x else (box[2], "end")
+            out += plots.text((at, box[1] + half), words, _NAME, anchor=anchor)
+    return out
+
+
+def _over(box: Sequence[float], others: list[tuple[float, ...]]) -> int:
+    """Return how many others a box covers."""
+    left, top, right, bottom = box
+    return sum(left < o[2] and o[0] < right and top < o[3] and o[1] < bottom for o in others)

@@ -56,8 +56,8 @@ def test_the_page_has_what_was_measured_besides(solids, compare, tmp_path):
     results.keep_comparison(bpy.context, comparison)
     name = bpy.context.scene.name
     trade = result_of(tradeoff.measure(comparison.scene, 24, 2, name))
-    results.keep_trade(bpy.context, trade)
-    results.keep_extremes(bpy.context, result_of(extremes.measure(SCENARIOS[:1], 40)))
+    results.keep_trade(trade)
+    results.keep_extremes(result_of(extremes.measure(SCENARIOS[:1], 40)))
     assert open_page(tmp_path) == {"FINISHED"}
     found = held(tmp_path)
     assert found["trade"]["advice"] == trade.advice and len(found["trade"]["plots"]) == 1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 
 import pytest
 from reference_tracer.cli import main
@@ -25,18 +24,9 @@ def test_extremes(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "certified" in said and "First scale" in said
     written = {p.name for p in (tmp_path / "out").iterdir()}
-    assert {"extremes.json", "extremes.txt", "breaking_points.png"} <= written
+    assert {"extremes.json", "extremes.txt", "breaking_points.svg"} <= written
     held = json.loads((tmp_path / "out" / "extremes.json").read_text(encoding="utf-8"))
     assert {r["method"] for r in held["rows"]} >= {"certified", "watertight", "textbook"}
-
-
-@pytest.mark.usefixtures("one_scenario")
-def test_extremes_without_matplotlib(tmp_path, capsys, monkeypatch):
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    assert main(["extremes", "--out", str(tmp_path / "out"), "--rays", "40"]) == AGREE
-    assert "reference_tracer[plots]" in capsys.readouterr().err
-    written = sorted(p.name for p in (tmp_path / "out").iterdir())
-    assert written == ["extremes.json", "extremes.txt"]
 
 
 def test_extremes_needs_rays(tmp_path, capsys):

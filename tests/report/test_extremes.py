@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.images import MissingLibraryError
-from reference_tracer.report import extreme_plots, plots
+from reference_tracer.methods import Method
+from reference_tracer.report import extreme_plots
 from reference_tracer.report.extremes import (
     breaking_table,
     picture_names,
@@ -18,9 +17,10 @@ from reference_tracer.report.extremes import (
     to_dict,
     write,
 )
-from reference_tracer.study.extremes import ExtremesRow
-from reference_tracer.study.scenarios.sweeps import MAPS, SCENARIOS
+from reference_tracer.study.extremes import ExtremesRow, breaking_points, written
+from reference_tracer.study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS
 
+from ..drawn import Plot, scale
 from ..scenarios import quick
 
 pytestmark = pytest.mark.slow
@@ -62,7 +62,7 @@ def strict(text):
 def test_the_folder(rows, tmp_path):
     write(tmp_path / "new", rows)
     names = {path.name for path in (tmp_path / "new").iterdir()}
-    assert names == {"extremes.txt", "extremes.json", *(f"{n}.png" for n in picture_names())}
+    assert names == {"extremes.txt", "extremes.json", *(f"{n}.svg" for n in picture_names())}
     text = (tmp_path / "new" / "extremes.txt").read_text(encoding="utf-8")
     assert "far_from_origin" in text and SCENARIOS[-1].explanation in text
     held = strict((tmp_path / "new" / "extremes.json").read_text(encoding="utf-8"))
@@ -83,35 +83,103 @@ def test_the_folder(rows, tmp_path):
 SCENARIOS_BY_NAME = {s.name: s for s in quick(SCENARIOS)}
 
 
-def test_pictures_are_as_wide_as_a_projector_and_show_something(rows):
-    for name, picture in pictures(rows):
-        assert name in picture_names()
-        assert picture.dtype == np.uint8 and picture.shape[1:] == (1920, 4)
-        assert (picture[..., 3] == 255).all()
-        colors = np.unique(picture[::3, ::3, :3].reshape(-1, 3), axis=0)
-        assert len(colors) > 50
+@pytest.fixture(scope="module")
+def drawn(rows):
+    found = {name: Plot(svg) for name, svg in pictures(rows).items()}
+    assert sorted(found) == sorted(picture_names())
+    return found
+
+
+def test_pictures_are_legible(rows, drawn):
+    """Those with all scales, too, whose numbers stand closest."""
+    full = [
+        replace(r, scale=x)
+        for s in SCENARIOS
+        for r in rows
+        if r.scenario == s.name
+        for x in s.scales
+    ]
+    full += [
+        replace(r, scale=x, across=row.across)
+        for some in MAPS
+        for r in rows
+        if r.scenario == some.name
+        for row in some.rows
+        for x in row.scales
+    ]
+    for plot in (*drawn.values(), *map(Plot, pictures(full).values())):
+        plot.assert_legible()
+        assert plot.width == 1920 and plot.height >= 1000
+
+
+def test_the_table_has_every_breaking_point_in_its_row_and_column(rows, drawn):
+    plot = drawn["breaking_points"]
+    cells = [e for e in plot.elements if e.tag == "rect" and e.x > 600]
+    points = breaking_points(rows)
+    assert len(cells) == len(points)
+    for p in points:
+        row = plot.text(BY_NAME[p.scenario].title).y
+        over = [t.x for t in plot.texts if t.words == Method(p.method).words]
+        [column] = [t.x for t in plot.texts if t.words == p.precision and t.x in over]
+        [cell] = [t for t in plot.texts if abs(t.x - column) < 1 and abs(t.y - row) < 1]
+        said = "never" if p.lost is None else written(p.lost)
+        assert cell.words == said + " +" * (p.doubled is not None)
+
+
+def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
+    swept = [r for r in rows if r.across is None]
+    marks = 0
+    for plot in (drawn["sweeps_1"], drawn["sweeps_2"]):
+        shown = [s for s in SCENARIOS if s.title in plot.said()]
+        for s in shown:
+            title = plot.text(s.title)
+            near = [
+                e
+                for e in plot.elements
+                if -5 < e.x - title.x < 440 and 0 < e.y - title.y < 300 and "g" != e.tag
+            ]
+            up = [t for t in near if t.tag == "text" and t.words.endswith(" %")]
+            y = scale([(t.y - 0.35 * 17, float(t.words[:-2])) for t in up], log=False)
+            along = {
+                t.words: float(t.attributes["transform"].split()[1])
+                for t in near
+                if "transform" in t.attributes
+            }
+            found = [e for e in near if e.tag == "circle" and e.words]
+            marks += len(found)
+            for r in (r for r in swept if r.scenario == s.name):
+                name = f"{Method(r.method).words}, {r.precision}, {written(r.scale)}: "
+                [m] = [m for m in found if m.words.startswith(name)]
+                assert m.x == pytest.approx(along[written(r.scale)], abs=0.1)
+                assert y(m.y) == pytest.approx(100 * r.share, abs=0.1)
+                assert (m.attributes["fill"] == "white") == (r.precision == "float32")
+    assert marks == len(swept)
+
+
+def test_every_row_of_a_map_is_a_cell(rows, drawn):
+    for some in MAPS:
+        of_map = [r for r in rows if r.scenario == some.name]
+        cells = drawn[f"map_{some.name}"].titled("rect")
+        assert len(cells) == len(of_map)
+        names = [f"{written(r.scale)}, {written(r.across)}: {100 * r.share:.0f}" for r in of_map]
+        assert all(any(c.words.startswith(name) for c in cells) for name in names)
+        colors = {c.attributes["fill"] for c in cells}
+        assert {extreme_plots.NEVER, extreme_plots.UNSEEN} < colors
 
 
 def test_pictures_of_some_scenarios_only(rows):
     sweep = [r for r in rows if r.scenario == "needles"]
-    assert [name for name, _ in pictures(sweep)] == ["breaking_points", "sweeps_1"]
+    assert list(pictures(sweep)) == ["breaking_points", "sweeps_1"]
     of_map = [r for r in rows if r.scenario == MAPS[0].name]
-    assert [name for name, _ in pictures(of_map)] == [f"map_{MAPS[0].name}"]
+    assert list(pictures(of_map)) == [f"map_{MAPS[0].name}"]
 
 
 def test_a_scenario_of_ones_own(rows):
     """What is not among the scenarios has no title, and is shown by its name."""
-    own = [replace(r, scenario="own") for r in rows if r.scenario == "needles"]
-    assert [name for name, _ in pictures(own)] == ["breaking_points", "sweeps_1"]
-    assert to_dict(own)["rows"][0]["scenario"] == "own"
-
-
-def test_without_matplotlib_all_else_is_written(rows, tmp_path, monkeypatch):
-    (tmp_path / "breaking_points.png").write_text("of an earlier run")
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(MissingLibraryError, match="Matplotlib"):
-        write(tmp_path, rows)
-    assert {path.name for path in tmp_path.iterdir()} == {"extremes.txt", "extremes.json"}
+    own = [replace(r, scenario="my <own>") for r in rows if r.scenario == "needles"]
+    assert list(pictures(own)) == ["breaking_points", "sweeps_1"]
+    assert to_dict(own)["rows"][0]["scenario"] == "my <own>"
+    assert Plot(pictures(own)["sweeps_1"]).text("my <own>")
 
 
 def test_what_crosses_too_many_triangles_is_not_shown_as_what_holds(rows):
@@ -120,20 +188,18 @@ def test_what_crosses_too_many_triangles_is_not_shown_as_what_holds(rows):
     holds = [replace(r, doubled=0) for r in some]
 
     def shown(rows, color):
-        rgb = [int(color[k : k + 2], 16) for k in (1, 3, 5)]
-        return (extreme_plots.breaking_picture(rows)[..., :3] == rgb).all(axis=-1).sum()
+        found = Plot(pictures(rows)["breaking_points"]).elements
+        return sum(e.attributes.get("fill") == color for e in found) - 1  # in the key
 
-    assert shown(some, extreme_plots.DOUBLED) > 2 * shown(holds, extreme_plots.DOUBLED)
-    assert shown(holds, extreme_plots.NEVER) > 2 * shown(some, extreme_plots.NEVER)
+    assert shown(some, extreme_plots.DOUBLED) == 3 == shown(holds, extreme_plots.NEVER)
+    assert shown(holds, extreme_plots.DOUBLED) == 0 == shown(some, extreme_plots.NEVER)
 
 
 @pytest.mark.parametrize("seen", [0, 100])
-def test_grey_is_explained_only_where_there_is_grey(seen, rows, monkeypatch):
-    said = []
-    monkeypatch.setattr(plots, "headline", lambda figure, text: said.append(text))
+def test_grey_is_explained_only_where_there_is_grey(seen, rows):
     some = [replace(r, seen=seen, missed=0, doubled=0) for r in rows if r.scenario == MAPS[0].name]
-    extreme_plots.map_picture(MAPS[0], [*some[:-1], replace(some[-1], seen=100)])
-    assert ("Grey" in said[0]) == (seen == 0)
+    held = extreme_plots.map_picture(MAPS[0], [*some[:-1], replace(some[-1], seen=100)])
+    assert ("nothing to see" in Plot(held).said()) == (seen == 0)
 
 
 def row(scale, missed=0, wrong=0, doubled=0, method="watertight"):

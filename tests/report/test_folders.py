@@ -6,7 +6,6 @@ import os
 
 import pytest
 from reference_tracer import cli
-from reference_tracer.images import MissingLibraryError
 from reference_tracer.report import folders
 
 NAMES = "a.txt", "b.png", "c.json"
@@ -73,13 +72,6 @@ def test_the_last_name_goes_first(folder, monkeypatch):
     with folders.replacing(folder, NAMES):
         pass
     assert gone == ["c.json", "b.png", "a.txt"]
-
-
-def test_without_a_library_what_is_written_counts(folder):
-    with pytest.raises(MissingLibraryError), folders.replacing(folder, NAMES) as new:
-        fill(new, "new", ("a.txt", "c.json"))
-        raise MissingLibraryError
-    assert held(folder) == {"a.txt": "new", "c.json": "new", "mine": "old"}
 
 
 def test_a_file_is_whole_or_as_it_was(tmp_path):

@@ -1,22 +1,20 @@
-"""What a trade leaves in a folder: a table, strict JSON, and a plot if there is Matplotlib."""
+"""What a trade leaves in a folder: a table, strict JSON, and a plot."""
 
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from dataclasses import replace
+from itertools import pairwise
 
-import numpy as np
 import pytest
-from PIL import Image
-from reference_tracer import images
-from reference_tracer.methods import Method
+from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import plots
 from reference_tracer.report import trade as trade_report
-from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, plot_picture, table, write
+from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, pictures, table, write
 from reference_tracer.study.trade import Trade, TradeRow, mark
 from reference_tracer.tracer.settings import Precision
+
+from ..drawn import Plot, scale
 
 pytestmark = pytest.mark.slow
 
@@ -52,9 +50,8 @@ def trade():
     return made()
 
 
-@pytest.fixture(scope="module")
-def plot(trade):
-    return plot_picture(trade)
+def drawn(trade):
+    return Plot(pictures(trade)["tradeoff"])
 
 
 def test_table(trade):
@@ -129,85 +126,99 @@ def test_json_is_strict_whatever_was_measured(tmp_path, trade):
     assert held["largest_t_error"] is None and held["coverage_error"] is None
 
 
-def test_plot_is_a_picture_with_its_letters_upright(folder, plot):
-    assert plot.shape == (plots.HEIGHT, plots.WIDTH, 4) and plot.dtype == np.uint8
-    assert (plot[..., 3] == 255).all()
-    assert np.array_equal(np.asarray(Image.open(folder / PLOT))[::-1], plot)
-    # The band of rows without a wrong pixel, pale green, lies at the lower left.
-    y, x = np.nonzero((plot[..., :3] == (0xE6, 0xF2, 0xE6)).all(axis=-1))
-    assert y.mean() < plots.HEIGHT / 2 and x.max() < 0.55 * plots.WIDTH
+def sides(plot):
+    """Of the left and of the right axes: what is in them, and the two scales by their numbers.
+
+    Numbers along x are logarithmic in both, or in neither; along y they are.
+    """
+    for low, high in ((0, plot.width / 2), (plot.width / 2, plot.width)):
+        inside = [e for e in plot.elements if low <= e.x < high]
+        numbers = [e for e in inside if e.tag == "text" and e.words.replace(",", "")[0].isdigit()]
+        numbers = [e for e in numbers if "×" not in e.words and float(e.words.replace(",", "")) > 0]
+        up = [t for t in numbers if t.attributes["text-anchor"] == "end"]
+        along = [t for t in numbers if t.attributes["text-anchor"] == "middle"]
+        values = [(t.x, float(t.words)) for t in along]
+        middle = 0.35 * float(up[0].attributes["font-size"])
+        heights = [(t.y - middle, float(t.words.replace(",", ""))) for t in up]
+        steps = {round(b / a, 6) for (_, a), (_, b) in pairwise(values)}
+        x = scale(values, log=max(steps) >= 2 and steps <= {2, 2.5, 5, 10})
+        yield inside, x, scale(heights, log=True)
 
 
-def shows(plot, color):
-    """How many pixels have about this colour."""
-    rgb = np.array([int(color[k : k + 2], 16) for k in (1, 3, 5)])
-    return np.count_nonzero((np.abs(plot[..., :3].astype(int) - rgb) <= 2).all(axis=-1))
+def test_every_row_is_a_mark_where_the_axes_say(trade):
+    """And none else; hollow is float32, large is what no other beats."""
+    plot = drawn(trade)
+    (left, *of_left), (right, *of_right) = sides(plot)
+    [band] = [e for e in plot.elements if e.attributes.get("fill") == "#e6f2e6"]
+    for inside, (x, y), rows, error, best in (
+        (left, of_left, trade.whole, "wrong_pixels", "best_pixels"),
+        (right, of_right, trade.rows, "coverage_error", "best_coverage"),
+    ):
+        marks = [e for e in inside if e.tag == "circle" and e.words]
+        assert len(marks) == len(rows)
+        for r in rows:
+            rays = f", {r.samples} × {r.samples} rays" if r.samples > 1 else ""
+            name = f"{Method(r.method).words}, {r.precision}, {r.width} × {r.height}{rays}: "
+            [m] = [m for m in marks if m.words.startswith(name)]
+            assert x(m.x) == pytest.approx(r.seconds, rel=1e-3)
+            if getattr(r, error):
+                assert y(m.y) == pytest.approx(getattr(r, error), rel=1e-3)
+            else:
+                assert band.y < m.y < band.y + float(band.attributes["height"])
+            color = Method(r.method).color
+            assert m.attributes["stroke"] == color
+            assert m.attributes["fill"] == ("white" if r.precision == "float32" else color)
+            assert (float(m.attributes["r"]) > 10) == getattr(r, best)
 
 
-def test_plot_shows_the_line_of_the_best(plot, trade):
-    none = [replace(r, best_pixels=False, best_coverage=False) for r in trade.rows]
-    assert shows(plot, plots.INK) > shows(plot_picture(replace(trade, rows=none)), plots.INK) + 2000
+def test_the_plot_says_what_it_shows(trade):
+    plot = drawn(trade)
+    said = plot.said()
+    for words in (trade.advice, "a scene.blend: ", "16 × 16 rays", "160 × 90 pixels, one ray each"):
+        assert words in said
+    assert all(m.words in said for m in MEASURED) and "certified, float64, proven" in said
+    sizes = {(r.width, r.height, r.samples) for r in trade.rows if r.best_coverage}
+    assert len(sizes) > 2  # and no name is left out
+    for width, height, k in sizes:
+        plot.text(f"{width} × {height}{f', {k} × {k} rays' * (k > 1)}")
+    lines = [
+        e for e in plot.elements if e.tag == "polyline" and e.attributes["stroke"] == plots.INK
+    ]
+    best = [
+        sum(getattr(r, b) for r in rows)
+        for rows, b in ((trade.whole, "best_pixels"), (trade.rows, "best_coverage"))
+    ]
+    assert [len(e.attributes["points"].split()) for e in lines[:2]] == best
 
 
 @pytest.mark.parametrize(
     "case",
     [
+        {},
         {"wrong": (0,) * 9},
         {"wrong": (14400,) * 8 + (0,)},
         {"coverage": 0.0},
         {"samples": (1,)},
     ],
 )
-def test_plot_of_odd_trades(case):
-    """Nothing wrong, all wrong, a coverage without error, one sample."""
-    assert len(np.unique(plot_picture(made(**case)).view(np.uint32))) > 50
-
-
-def test_plots_keep_off_matplotlibs_global_state():
-    """Which a host may use for plots of its own."""
-    code = (
-        "import sys\n"
-        "from reference_tracer.report import plots\n"
-        "plots.pixels(plots.new_figure(64, 64))\n"
-        "assert 'matplotlib' in sys.modules\n"
-        "assert 'matplotlib.pyplot' not in sys.modules\n"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
-
-
-def test_figure_has_the_size_that_was_asked_for():
-    assert plots.pixels(plots.new_figure(320, 240)).shape == (240, 320, 4)
-
-
-def test_without_matplotlib_all_else_is_written(trade, tmp_path, monkeypatch):
-    """And a plot that an earlier run left is gone."""
-    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    (tmp_path / PLOT).touch()
-    with pytest.raises(images.MissingLibraryError, match=r"pip install 'reference_tracer\[plots\]"):
-        write(tmp_path, trade)
-    assert sorted(p.name for p in tmp_path.iterdir()) == sorted([TABLE, JSON])
+@pytest.mark.parametrize("slow", [1, 1000])
+def test_plots_are_legible(case, slow):
+    """Nothing wrong, all wrong, a coverage without error, one sample; times that are far apart."""
+    trade = made(**case)
+    rows = [
+        replace(r, seconds=(s := r.seconds * slow ** (k % 2)), rounds=(s, 1.1 * s))
+        for k, r in enumerate(trade.rows)
+    ]
+    for scene in ("a", "<b>&\x00\ud800 " * 6, "long_" * 12, "シーン" * 7):
+        plot = drawn(replace(trade, rows=mark(rows), scene=scene, advice="word " * 60))
+        plot.assert_legible()
+        assert len(plot.titled("circle")) == len(trade.rows) + len(trade.whole)
 
 
 def test_names_in_a_plot_are_apart_or_left_out():
     """Also where all that is named is at one point."""
-    axes = plots.new_figure().subplots()
-    axes.plot([0.0, 1.0], [0.0, 1.0])
-    trade_report._label(axes, [(0.5, 0.5, f"a name, number {k}") for k in range(20)])
-    boxes = [t.get_window_extent() for t in axes.texts]
-    assert 5 <= len(boxes) < 20
-    assert not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k])
-
-
-def test_the_headline_has_the_scenes_name(trade, monkeypatch):
-    said = []
-    monkeypatch.setattr(plots, "headline", lambda figure, text: said.append(text))
-    plot_picture(replace(trade, advice="word " * 60))
-    lines = said[0].splitlines()
-    assert lines[0].startswith("a scene.blend: word") and max(map(len, lines)) <= 132
-
-
-@pytest.mark.parametrize("low, high", [(1.0, 1.01), (0.03, 0.1), (1e-3, 1.0), (1e-6, 1e4)])
-def test_ticks_are_few_but_some(low, high):
-    axes = plots.new_figure().subplots()
-    plots.log_ticks(axes.xaxis, low, high)
-    assert 2 <= sum(low <= t <= high for t in axes.get_xticks()) <= 11
+    axes = plots.Axes(100, 100, 1000, 800, plots.linear(0, 1), plots.linear(0, 1))
+    names = {f"a name, number {k}": axes.at(0.5, 0.5) for k in range(20)}
+    plot = Plot(plots.picture(1200, 1000, "t", "a", trade_report._named(axes, names, [])))
+    plot.assert_legible()
+    assert 5 <= len(plot.texts) < 20

@@ -14,7 +14,7 @@ import numpy as np
 from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
-from ...images import MissingLibraryError, data_uri, to_display
+from ...images import data_uri, to_display
 from ...tracer.certified.certainty import Certainty
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
@@ -37,7 +37,6 @@ def content(
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
     pixels, missing = _pixels(comparison, limit)
-    missing = [*extras.left_out, *missing]
     return {
         "schema": SCHEMA,
         "comparison": comparison.to_dict(),
@@ -61,10 +60,10 @@ def content(
             {"pixel": list(pixel), "html": html.fragment(derivation)}
             for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(trade_report, extras.trade, missing),
+        "trade": _study(trade_report, extras.trade),
         # Without its thousands of rows, which the plots show.
-        "extremes": _study(extremes_report, extras.extremes, missing, without="rows"),
-        "left_out": missing,
+        "extremes": _study(extremes_report, extras.extremes, without="rows"),
+        "left_out": [*extras.left_out, *missing],
     }
 
 
@@ -148,14 +147,9 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     return found, missing
 
 
-def _study(report: Any, found: Any, missing: list[str], without: str = "") -> Any:
-    """Return a study as its module of `report` has it, with plots if Matplotlib is installed."""
+def _study(report: Any, found: Any, without: str = "") -> Any:
+    """Return a study as its module of `report` has it, with its plots."""
     if found is None:
         return None
-    held = {k: v for k, v in report.to_dict(found).items() if k != without} | {"plots": []}
-    try:
-        for name, picture in report.pictures(found):
-            held["plots"].append({"name": name, "png": data_uri(picture)})
-    except MissingLibraryError as error:
-        missing.append(f"Plots: {error}.")
-    return held
+    plots = [{"name": name, "svg": svg} for name, svg in report.pictures(found).items()]
+    return {k: v for k, v in report.to_dict(found).items() if k != without} | {"plots": plots}

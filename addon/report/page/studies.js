@@ -50,10 +50,11 @@ function diagnosed(diagnosis) {
   return said_;
 }
 
-function plots(study, describe) {
-  return study.plots.map(({ name, png }) =>
-    element("figure", { class: "plot" }, element("img", { src: png, alt: describe(name) })),
-  );
+function plots(study) {
+  return study.plots.map(({ svg }) => {
+    const { documentElement } = new DOMParser().parseFromString(svg, "image/svg+xml");
+    return element("figure", { class: "plot" }, documentElement);
+  });
 }
 
 function tradeCard() {
@@ -73,13 +74,7 @@ function tradeCard() {
   return wide(
     card(
       "The trade: speed against accuracy",
-      trade.plots.length ? null : element("p", { class: "advice" }, trade.advice), // plots have it
-      ...plots(
-        trade,
-        () =>
-          "Time against wrong pixels, and time against coverage error, of every method. " +
-          trade.advice,
-      ),
+      ...plots(trade),
       element(
         "details",
         {},
@@ -125,7 +120,7 @@ function extremesCard() {
   return wide(
     card(
       "The extremes: where methods break",
-      ...plots(extremes, (name) => words(name)),
+      ...plots(extremes),
       element(
         "details",
         {},
