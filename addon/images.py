@@ -217,8 +217,8 @@ def _library() -> Any:
         import OpenImageIO
     except ImportError:
         raise MissingLibraryError(
-            "to read PNG files, and to read or write EXR files, takes the library OpenImageIO: "
-            "pip install 'reference_tracer[images]'"
+            "to read PNG files, and to read or write EXR files, takes the library OpenImageIO, "
+            "the extra `images` of the Python package"
         ) from None
     OpenImageIO.attribute("try_all_readers", 0)  # a JPEG by the name of a PNG is none
     return OpenImageIO

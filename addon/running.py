@@ -168,7 +168,7 @@ def progress_bar() -> Iterator[Callable[[float], None]]:
         from tqdm import tqdm
     except ImportError:
         if sys.stderr.isatty():
-            why = "no progress bar without tqdm: pip install 'reference_tracer[progress]'"
+            why = "no progress bar without tqdm, the extra `progress` of the Python package"
             print(f"reftrace: {why}", file=sys.stderr)
         yield lambda share: check()
         return

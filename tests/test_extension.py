@@ -20,6 +20,7 @@ LEFT_OUT = MANIFEST["build"]["paths_exclude_pattern"]
 # Runs in a Blender of its own: installs the zip, uses it, and takes it out again.
 INSTALL = """
 import sys
+from pathlib import Path
 import bpy
 
 bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
@@ -30,6 +31,21 @@ module = "bl_ext.user_default.reference_tracer"
 assert module in bpy.context.preferences.addons.keys(), "not enabled"
 assert module + ".addon" in sys.modules, "the shim did not load the code"
 bpy.context.scene.render.engine = "REFERENCE_TRACER"
+
+def held():
+    folder = Path(sys.modules[module].__file__).parent
+    files = [p for p in folder.rglob("*") if "__pycache__" not in p.parts]
+    return {p: (p.stat().st_mtime_ns, p.stat().st_size) for p in files}
+
+before = held()
+assert len(before) > 100
+bpy.ops.mesh.primitive_cube_add()
+bpy.ops.reference_tracer.frame_all()
+bpy.context.scene.render.resolution_x = bpy.context.scene.render.resolution_y = 16
+bpy.ops.reference_tracer.trade(width=16, samples=1)
+bpy.ops.reference_tracer.compare()
+bpy.ops.reference_tracer.open_page(open_browser=False)
+assert held() == before, "it wrote into its own folder"
 
 bpy.ops.preferences.addon_disable(module=module)
 try:
@@ -71,7 +87,7 @@ def test_zip_holds_the_extension_and_nothing_else(package: Path):
     assert {"__init__.py", "blender_manifest.toml", "LICENSE"} <= names
 
 
-def test_installs_and_registers_in_blender(package: Path, tmp_path: Path):
+def test_installs_works_and_leaves_its_folder_as_it_is(package: Path, tmp_path: Path):
     installed = subprocess.run(
         [sys.executable, "-c", INSTALL, package],
         env=os.environ | {"BLENDER_USER_RESOURCES": str(tmp_path)},

@@ -252,6 +252,43 @@ def test_one_module_knows_how_blenders_differ():
     assert not asks_for_the_version("print(bpy.app.version_string)")
 
 
+def beside_the_code(source: str) -> list[str]:
+    """The statements that do with the add-on's own folder anything but read, or name it."""
+    if "__file__" not in source:
+        return []
+    tree, names, folder = ast.parse(source), {"__file__"}, "Path(__file__).parent"
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and ast.unparse(node.value) == folder:
+            names.add(node.targets[0].id)
+    statements = [n for n in ast.walk(tree) if isinstance(n, ast.stmt) and not hasattr(n, "body")]
+    uses = [n for n in statements if names & {x.id for x in ast.walk(n) if isinstance(x, ast.Name)}]
+    said = [ast.unparse(n) for n in uses]
+    return [s for s in said if not s.endswith(f"= {folder}") and ".read_text(" not in s]
+
+
+# Who advises to install packages, and why nobody reads that in Blender.
+NOT_IN_BLENDER = {"opening": "said where there is no Blender"}
+
+
+def test_what_is_shipped_writes_nothing_beside_itself_and_advises_no_packages():
+    sources = {n: file.read_text("utf-8") for n, file in shipped().items()}
+    assert not {n: said for n, text in sources.items() if (said := beside_the_code(text))}
+    assert {n for n, text in sources.items() if "pip install" in text} == NOT_IN_BLENDER.keys()
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "Path(__file__).with_name('x').write_text('')",
+        "def f():\n    return open(__file__, 'w')",
+        "_HERE = Path(__file__).parent\ndef f():\n    (_HERE / 'x').mkdir()",
+        "_AT = Path(__file__).parent\nuse(_AT)",
+    ],
+)
+def test_what_writes_beside_the_code_is_found(source: str):
+    assert beside_the_code(source)
+
+
 def test_imports_keep_to_the_structure():
     assert FILES
     found = [
