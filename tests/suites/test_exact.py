@@ -1,6 +1,6 @@
 """The certified decisions against integers: no pair, no order, no t may be wrong.
 
-Over a million pairs always (1,048,576), and a hundred times as many under `make torture`: at the 20
+Half a million pairs always (524,288), and two hundred times as many under `make torture`: at the 20
 microseconds a pair that this took when it was written, 35 minutes on one core.
 """
 
@@ -19,13 +19,13 @@ from .families import FAMILIES, at_any_size, generic, whole_numbers
 
 torture = pytest.mark.torture
 SIZES = (*("as it is", "all") * 5, "each", "each", "each", "mixed", "smallest", "largest")
-CHUNK = 1 << 13
-CHUNKS = len(SIZES)  # of each family; always 16 * 8 * 2^13 = 2^20 pairs
+CHUNK = 1 << 12
+CHUNKS = len(SIZES)  # of each family; always 16 * 8 * 2^12 = 2^19 pairs
 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda f: f.__name__)
-@pytest.mark.parametrize("chunks", [CHUNKS, pytest.param(100 * CHUNKS, marks=torture)])
-def test_a_million_pairs(family, chunks):
+@pytest.mark.parametrize("chunks", [CHUNKS, pytest.param(200 * CHUNKS, marks=torture)])
+def test_pairs_of_every_family_and_size(family, chunks):
     hits = edges = exact = 0
     for number in range(chunks):
         rng = np.random.default_rng([number, FAMILIES.index(family)])
@@ -109,8 +109,8 @@ def test_the_clip_range_is_exact_at_its_ends(rng):
     for family in (generic, whole_numbers):
         o, d, corners = family(rng, 3000)
         result = intersect_pairs(o, d, corners)
-        hit = np.flatnonzero(result.within() & result.hit)[:100]
-        assert len(hit) == 100
+        hit = np.flatnonzero(result.within() & result.hit)[:40]
+        assert len(hit) == 40
         for k in hit:
             exact = result.t(k)
             near = float(exact)
@@ -122,7 +122,7 @@ def test_the_clip_range_is_exact_at_its_ends(rng):
                 assert (nearest_hits(*pair, limit).triangle == 0).item() == (limit <= exact)
                 assert (nearest_hits(*pair, -1.0, limit).triangle == 0).item() == (exact <= limit)
             told += exact != near
-    assert 50 < told < 200
+    assert 20 < told < 80
 
 
 def test_the_least_and_the_most_that_there_can_be():

@@ -20,6 +20,8 @@ from ..rays import nearest_hits
 from .meshes import corners_of, stairs
 from .shooting import crossings
 
+torture = pytest.mark.torture
+
 
 def cosine_hemisphere(u, v):
     """Concentric discs, raised: Mitsuba's square_to_cosine_hemisphere."""
@@ -32,7 +34,7 @@ def cosine_hemisphere(u, v):
     return np.stack((p, q, np.sqrt(np.maximum(1 - p * p - q * q, 0))))
 
 
-@pytest.mark.parametrize("side", [32, 150])
+@pytest.mark.parametrize("side", [32, pytest.param(150, marks=torture)])
 @pytest.mark.parametrize("turned", [False, True], ids=["true ties", "rounded"])
 def test_robust_flag(side, turned):
     """Rays at a point of the diagonal of a square, turned by 90 degrees about (1, 1, 1): all hit.
@@ -64,14 +66,14 @@ def of_pixels(camera):
     return camera_rays(camera, x.ravel(), y.ravel())
 
 
-def test_stairs(make):
-    """20 stairs, 127 x 127 rays straight down: the depth in closed form; some meet a step's edge.
+@pytest.mark.parametrize("n", [41, pytest.param(127, marks=torture)])
+def test_stairs(make, n):
+    """20 stairs, n x n rays straight down: the depth in closed form; some meet a step's edge.
 
     The picture, its candidates culled, is that of all rays with all triangles, bit for bit.
     """
     vertices, triangles = stairs(20)
-    n = 127
-    # A picture of 127 rows; and one of 20 with a ray on each edge of a stair.
+    # A picture of n rows; and one of 20 with a ray on each edge of a stair.
     for rows, bottom in ((n, 0.0), (20, -0.5 / 20)):
         window = ViewWindow(0, 1, bottom, bottom + 1)
         camera = make.camera(
@@ -99,23 +101,24 @@ def test_stairs(make):
             assert (near[inside] < 1e-9).all()
 
 
-def test_a_mesh_in_any_pose(make, rng):
-    """100 x 100 rays through the mesh's box: the picture is that of a naive search, bit for bit."""
+@pytest.mark.parametrize("n", [50, pytest.param(100, marks=torture)])
+def test_a_mesh_in_any_pose(make, rng, n):
+    """n x n rays through the mesh's box: the picture is that of a naive search, bit for bit."""
     shape = trimesh.creation.torus(1.0, 0.45, major_sections=40, minor_sections=24)
     vertices = shape.vertices + 0.2 * np.sin(5 * shape.vertices[:, [1, 2, 0]])
     mesh = Mesh(vertices.astype(np.float32), shape.faces)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     window = ViewWindow(low[0], high[0], low[1], high[1])
     camera = make.camera(
-        100, 100, orthographic=True, eye=(0, 0, high[2] + 1), window=window, clip_end=100
+        n, n, orthographic=True, eye=(0, 0, high[2] + 1), window=window, clip_end=100
     )
     frame = render(make.scene(camera, mesh), Settings("certified"))
     rays = of_pixels(camera)
-    o, d = rays.origins, rays.directions.repeat(10_000, axis=1)
+    o, d = rays.origins, rays.directions.repeat(n * n, axis=1)
     corners = corners_of(mesh.vertices, mesh.triangles)
     found = crossings(o, d, corners)
     assert (found.counts % 2 == 0).all() and (found.counts > 0).mean() > 0.3
-    assert np.array_equal(found.nearest().reshape(100, 100), frame.triangle_index)
+    assert np.array_equal(found.nearest().reshape(n, n), frame.triangle_index)
     hit = np.flatnonzero(frame.triangle_index.ravel() >= 0)
     result = intersect_pairs(
         o[:, hit],
