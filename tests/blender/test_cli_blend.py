@@ -1,4 +1,4 @@
-"""`reftrace` with a .blend, as a user's shell runs it: one process each."""
+"""`reftrace` with a .blend: in a process of its own, or in this one where that will do."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import bpy
 import numpy as np
 import pytest
 from PIL import Image
+from reference_tracer import cli
+from reference_tracer.blender import registration
 from reference_tracer.images import to_display
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.render import render
@@ -19,7 +21,7 @@ from reference_tracer.tracer.settings import Settings
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
 
-def reftrace(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
+def shell(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
     return subprocess.run(
         [sys.executable, "-m", "reference_tracer.cli", *map(str, argv)],
         capture_output=True,
@@ -27,6 +29,22 @@ def reftrace(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProc
         timeout=300,
         cwd=cwd,
     )
+
+
+@pytest.fixture
+def reftrace(addon, capfd):
+    """A command in this process, which has Blender already; what Blender prints is heard, too."""
+
+    def run(*argv: object) -> subprocess.CompletedProcess:
+        registration.unregister()  # the command registers by itself, in a process of its own
+        capfd.readouterr()
+        try:
+            code = cli.main([*map(str, argv)])
+        finally:
+            registration.register()
+        return subprocess.CompletedProcess(argv, code, *capfd.readouterr())
+
+    return run
 
 
 @pytest.fixture
@@ -41,7 +59,7 @@ def small(build, tmp_path):
 
 
 def test_compare(small, tmp_path):
-    done = reftrace("compare", small, "--out", tmp_path / "out")
+    done = shell("compare", small, "--out", tmp_path / "out")
     assert done.returncode == 0, done.stderr
     assert "verdict: agree" in done.stdout
     found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
@@ -57,7 +75,7 @@ def test_compare(small, tmp_path):
     ]
 
 
-def test_a_file_without_a_camera(small, tmp_path):
+def test_a_file_without_a_camera(small, tmp_path, reftrace):
     """It is framed, or seen from where the options say."""
     bpy.context.scene.camera = None
     bpy.ops.wm.save_mainfile()
@@ -74,20 +92,20 @@ def test_a_file_without_a_camera(small, tmp_path):
 
 
 def test_compare_warns_by_its_exit_code(tmp_path):
-    done = reftrace("compare", SAMPLES / "far_away.blend", "--out", "out", cwd=tmp_path)
+    done = shell("compare", SAMPLES / "far_away.blend", "--out", "out", cwd=tmp_path)
     assert done.returncode == 1, done.stderr
     assert "not decidable" in done.stdout
     assert (tmp_path / "out" / "comparison.json").is_file()  # beside where the shell is
 
 
-def test_export_and_trace_give_the_same_picture(small, tmp_path):
+def test_export_and_trace_give_the_same_picture(small, tmp_path, reftrace):
     """From the .blend and from the .npz, bit for bit."""
     exported, first, second = (tmp_path / n for n in ("scene.npz", "blend.exr", "npz.exr"))
     done = reftrace("export", small, "--out", exported)
     assert done.returncode == 0, done.stderr
     assert "4 of 5 objects exported" in done.stdout
     assert reftrace("trace", small, "--out", first).returncode == 0
-    assert reftrace("trace", exported, "--out", second).returncode == 0
+    assert shell("trace", exported, "--out", second).returncode == 0
     assert first.read_bytes() == second.read_bytes()
     scene = load_scene(exported)
     assert (scene.camera.width, scene.camera.height) == (64, 36)
@@ -95,24 +113,24 @@ def test_export_and_trace_give_the_same_picture(small, tmp_path):
     assert render(scene).color.any()
 
 
-def test_trace_shows_the_colour_that_the_file_stores(small, tmp_path, export):
+def test_trace_shows_the_colour_that_the_file_stores(small, tmp_path, export, reftrace):
     bpy.context.scene.reference_tracer.color = "normal"
     bpy.ops.wm.save_as_mainfile(filepath=str(small))
+    frame = render(export.render()[0], Settings(color="normal"))
     assert reftrace("trace", small, "--out", tmp_path / "a.png").returncode == 0
     found = np.asarray(Image.open(tmp_path / "a.png"))[::-1]
-    frame = render(export.render()[0], Settings(color="normal"))
     np.testing.assert_array_equal(found, to_display(frame.color))
 
 
 def test_an_exported_scene_is_the_open_one(small, tmp_path, export):
-    assert reftrace("export", small, "--out", tmp_path / "scene.npz").returncode == 0
+    assert shell("export", small, "--out", tmp_path / "scene.npz").returncode == 0
     found, expected = load_scene(tmp_path / "scene.npz"), export.render()[0]
     first, second = render(found), render(expected)
     for name, values in first.passes().items():
         np.testing.assert_array_equal(values, getattr(second, name), err_msg=name)
 
 
-def test_trace_uses_what_the_scene_stores(small, tmp_path):
+def test_trace_uses_what_the_scene_stores(small, tmp_path, reftrace):
     bpy.context.scene.reference_tracer.method = "moller_trumbore"
     bpy.ops.wm.save_mainfile()
     done = reftrace("trace", small, "--out", tmp_path / "deeper" / "picture.png")
@@ -123,14 +141,14 @@ def test_trace_uses_what_the_scene_stores(small, tmp_path):
     assert "textbook" in done.stdout
 
 
-def test_trade(small):
+def test_trade(small, reftrace):
     done = reftrace("trade", small, "--width", "16", "--samples", "1")
     assert done.returncode == 0, done.stderr
     for word in ("textbook_literal", "textbook", "moller_trumbore", "float32", "float64"):
         assert word in done.stdout
 
 
-def test_exports_a_scene_with_a_compositor(build, tmp_path):
+def test_exports_a_scene_with_a_compositor(build, tmp_path, reftrace):
     build.scene(32, 18)
     build.cube()
     build.camera()
@@ -143,13 +161,13 @@ def test_exports_a_scene_with_a_compositor(build, tmp_path):
 
 
 @pytest.mark.parametrize("command", ["compare", "export", "trace"])
-def test_input_errors(command, build, tmp_path):
-    """Each in one line that names the file, without a traceback; one process for each."""
+def test_input_errors(command, tmp_path, reftrace):
+    """Each in one line that names the file, without a traceback."""
     out = tmp_path / {"compare": "out", "export": "scene.npz", "trace": "picture.png"}[command]
     broken = tmp_path / "broken.blend"
     broken.write_bytes(b"BLENDER-v402 and then nothing that belongs there")
-    for source in (tmp_path / "missing.blend", broken):
-        done = reftrace(command, source, "--out", out)
+    for run, source in ((reftrace, tmp_path / "missing.blend"), (shell, broken)):
+        done = run(command, source, "--out", out)
         assert done.returncode == 4
         said = [line for line in done.stderr.splitlines() if line.startswith("reftrace: ")]
         assert len(said) == 1 and said[0] == done.stderr.splitlines()[-1]
@@ -159,7 +177,7 @@ def test_input_errors(command, build, tmp_path):
 
 
 @pytest.mark.parametrize("command", ["compare", "export", "trace"])
-def test_a_scene_that_cannot_be_traced(command, build, tmp_path):
+def test_a_scene_that_cannot_be_traced(command, build, tmp_path, reftrace):
     build.scene(32, 18)
     build.camera(type="PANO").name = "All Around"
     path = tmp_path / "panorama.blend"
@@ -195,7 +213,7 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
     assert not (tmp_path / "new").exists()
 
 
-def test_too_large_a_picture(tmp_path):
+def test_too_large_a_picture(reftrace):
     done = reftrace("trade", SAMPLES / "suzanne.blend", "--width", "10000000", "--samples", "1")
     assert done.returncode == 4
     assert "choose a smaller size" in done.stderr and "Traceback" not in done.stderr
@@ -205,14 +223,14 @@ def test_explain_prints_markdown_and_nothing_else(tmp_path):
     """What is exported, and what Blender says, goes elsewhere: `> pixel.md` holds the page."""
     again = tmp_path / "pixel.json"
     scene = SAMPLES / "exercise_triangle.blend"
-    done = reftrace("explain", scene, "--pixel", "320", "180", "--reproducer", again)
+    done = shell("explain", scene, "--pixel", "320", "180", "--reproducer", again)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("# The ray through pixel (320, 180) of exercise_triangle.blend")
     assert "objects exported" in done.stderr
-    assert reftrace("explain", again).stdout == done.stdout
+    assert shell("explain", again).stdout == done.stdout
 
 
-def test_a_file_of_a_newer_blender(tmp_path, addon):
+def test_a_file_of_a_newer_blender(tmp_path, monkeypatch, reftrace):
     """What that knows and this doesn't would be lost without a word."""
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "own.blend"), compress=False)
     content = (tmp_path / "own.blend").read_bytes()
@@ -221,15 +239,17 @@ def test_a_file_of_a_newer_blender(tmp_path, addon):
     newer = content[:20].replace(ours, theirs, 1) + content[20:]
     assert newer != content
     (tmp_path / "newer.blend").write_bytes(newer)
-    done = reftrace("export", "newer.blend", "--out", "a.npz", cwd=tmp_path)
+    monkeypatch.chdir(tmp_path)
+    done = reftrace("export", "newer.blend", "--out", "a.npz")
     assert done.returncode == 4 and not (tmp_path / "a.npz").exists()
     said = f"'newer.blend' was saved by Blender {major + 1}.1; this is {major}.{minor}: open it"
     assert said in done.stderr.splitlines()[-1]
 
 
-def test_a_truncated_blend_is_named(tmp_path, addon):
+def test_a_truncated_blend_is_named(tmp_path, monkeypatch, reftrace):
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "own.blend"), compress=False)
     (tmp_path / "cut.blend").write_bytes((tmp_path / "own.blend").read_bytes()[:5000])
-    done = reftrace("export", "cut.blend", "--out", "a.npz", cwd=tmp_path)
+    monkeypatch.chdir(tmp_path)
+    done = reftrace("export", "cut.blend", "--out", "a.npz")
     assert done.returncode == 4
     assert "'cut.blend' cannot be opened" in done.stderr.splitlines()[-1]
