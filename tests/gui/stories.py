@@ -123,6 +123,7 @@ def compare():
 def engines():
     """The other button: the viewport, Workbench and Cycles in one table; nothing is changed."""
     window().scene.render.engine = "REFERENCE_TRACER"
+    window().scene.render.resolution_percentage = 25
     show_panel()
     yield 1
     before = settings(), data_blocks()
@@ -184,6 +185,7 @@ def compare_as_is():
     """The user's own shading: what smooths a window's edges is a preference, not the scene's."""
     window().scene.reference_tracer.shading = "AS_IS"
     window().scene.display.viewport_aa = "OFF"
+    window().scene.render.resolution_percentage = 50
     yield 1
     press_compare()
     yield from until(compared)
@@ -248,6 +250,7 @@ def no_camera():
     bpy.data.objects.remove(window().scene.camera)
     bpy.ops.ed.undo_push(message="Delete")
     window().scene.render.engine = "REFERENCE_TRACER"
+    window().scene.render.resolution_percentage = 50
     show_panel()
     yield from open_tab()
     buttons = [getattr(bpy.ops.reference_tracer, n) for n in ("compare", "inspect", "trade")]
@@ -277,8 +280,8 @@ def scenes():
             bpy.ops.wm.open_mainfile(filepath=str(path))
         else:
             bpy.ops.wm.read_homefile(use_factory_startup=True)
-        # A quarter of the pixels: the whole of suzanne is in the stories above.
-        window().scene.render.resolution_percentage = 50
+        # Few of the pixels: the whole of suzanne is in a story above.
+        window().scene.render.resolution_percentage = 25
         yield 0.5
         press_compare()
         yield from until(compared)

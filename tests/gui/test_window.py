@@ -28,7 +28,7 @@ def test_every_engine_in_one_table(noted):
     assert [row["engine"] for row in noted["rows"]] == ["viewport", "workbench", "cycles"]
     for row in noted["rows"]:
         assert row["verdict"] == "agree" and row["pixels"]["unexplained"] == 0
-        assert row["wrong_objects"] <= row["pixels"]["differ"] < 100
+        assert row["wrong_objects"] <= row["pixels"]["differ"] < 25
     assert noted["changed"] == noted["new"] == {}
 
 
