@@ -15,7 +15,7 @@ def quick(scenarios: Sequence[Scenario] = ALL) -> tuple[Scenario, ...]:
     """
     rows = {name: [s for s in scenarios if s.name == name] for name in {s.name for s in scenarios}}
     return tuple(
-        replace(s, scales=_ends_and_middle(s.scales), width=12, height=9)
+        replace(s, scales=_ends_and_middle(s.scales), width=8, height=6)
         for s in scenarios
         if s in _ends_and_middle(rows[s.name])
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+SMOOTH = "FXAA", "5", "8", "32"
+
 
 @pytest.mark.parametrize("judge", ["WORKBENCH", "CYCLES"])
 def test_light_and_anti_aliasing_are_named(build, compare, judge):
@@ -61,8 +63,14 @@ def test_examples_say_where(build, compare):
     assert f"({places[0][0]}, {places[0][1]})" in "\n".join(comparison.lines())
 
 
-@pytest.mark.parametrize("smooth", ["FXAA", "5", "8", "32"])
-@pytest.mark.parametrize("name", ["exercise_triangle", "suzanne", "shifted_room"])
+SMOOTHED = [(n, s) for n in ("exercise_triangle", "suzanne", "shifted_room") for s in SMOOTH]
+EVERY_DAY = SMOOTHED[0], SMOOTHED[3], SMOOTHED[5], SMOOTHED[10]  # each filter, and each scene
+
+
+@pytest.mark.parametrize(
+    ("name", "smooth"),
+    [pytest.param(*k, marks=() if k in EVERY_DAY else pytest.mark.torture) for k in SMOOTHED],
+)
 def test_anti_aliasing_alone_is_checked(name, smooth, opened, compare):
     """Every colour is a mix of what the tracer sees within the filter; nothing is excused."""
     scene = opened(name, 128)

@@ -6,6 +6,7 @@ whose surfaces it shows, and by its colours alone, as `compare --against` judges
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import bpy
@@ -39,7 +40,6 @@ MANY = 20_000  # triangles, of which each such sample takes long: one attack on 
 # a few pixels: what lies behind the edge between two triangles, depth ties, slivers.
 BAND = 1.5 / 256  # pixels: no surface of the scenes that can be decided may be off by more
 FEW, SHARE = 3, 0.02
-MODES = pytest.mark.parametrize("known", [True, False], ids=["identity", "colours alone"])
 
 
 @pytest.fixture(scope="module")
@@ -124,10 +124,10 @@ def of_identity(attack, name, turn):
 def of_every_day(attack, name):
     """Return whether an attack is made on a scene in every run, and not in the long ones alone.
 
-    Every third attack is; of each cause at least one on every scene.
+    Every fourth attack is; of each cause at least one on every scene.
     """
     alone = len(withstood()[attack.imitates]) == 1
-    return alone or (ATTACKS.index(attack) + SCENES.index(name)) % 3 == 0
+    return alone or (ATTACKS.index(attack) + SCENES.index(name)) % 4 == 0
 
 
 LONG = [pytest.param(turn, marks=pytest.mark.torture) for turn in (1, 2)]
@@ -164,11 +164,11 @@ def test_what_is_damaged_is_found_but_for_rounding(attack, turn, subjects, edges
     assert attacked >= 1
 
 
-@MODES
-def test_no_damage_makes_a_pixel_undecidable(known, subjects):
-    """That is said of where surfaces lie, whatever the picture shows."""
+@pytest.mark.parametrize("turn", [0, pytest.param(1, marks=pytest.mark.torture)])
+def test_no_damage_makes_a_pixel_undecidable(turn, subjects):
+    """That is said of where surfaces lie, whatever the picture shows, and is known of it."""
     mirrored = next(a for a in ATTACKS if a.name == "mirrored_x")
-    for name, subject in subjects(lambda _: known):
+    for name, subject in subjects(lambda name: (SCENES.index(name) + turn) % 2):
         cause = explained(mirrored.make(subject)).causes.cause
         assert ((cause == Cause.NOT_DECIDABLE) == ~subject.decidable).all(), name
 
@@ -195,7 +195,8 @@ def test_one_object_in_another_shade_is_named_and_is_no_transform(shade, every, 
 def test_a_person_is_told_which_object_is_in_another_shade(subjects):
     name, subject = next((n, s) for n, s in subjects(lambda _: False) if n == "suzanne")
     made = one_recoloured(SHADES["halved"])(subject)
-    found = result_of(compare_traced(made.case, made.frame))
+    case = replace(made.case, self_check=False)
+    found = result_of(compare_traced(case, made.frame))
     assert found.verdict == "differences", name
     told = [line for line in found.lines() if f"'{made.object}' is shown in another shade" in line]
     assert len(told) == 1

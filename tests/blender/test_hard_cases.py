@@ -336,11 +336,15 @@ def test_no_false_excuse(make, damage, build, sound_cases):
     "make",
     [
         hard.particle_hair,
-        hard.glass_pane,
-        hard.in_front,
         *(
             pytest.param(make, marks=pytest.mark.torture)
-            for make in (hard.instanced_hair, hard.grease_pencil, hard.hair_on_points)
+            for make in (
+                hard.glass_pane,
+                hard.in_front,
+                hard.instanced_hair,
+                hard.grease_pencil,
+                hard.hair_on_points,
+            )
         ),
     ],
     ids=name_of,

@@ -43,7 +43,6 @@ stored.judge = "DRAFT"
 item = stored.bl_rna.properties["judge"].enum_items["DRAFT"]
 assert (item.name, item.description, item.value) == ("Draft", "A quick picture", 7)
 assert "Draft" in operators.REFERENCE_TRACER_OT_compare_all.bl_description
-bpy.context.scene.render.resolution_percentage = 10
 assert bpy.ops.reference_tracer.compare(directory=str(out / "stored")) == {"FINISHED"}
 stored.judge = "AUTO"
 commands.run(["compare", "--judge", "draft", "--out", str(out / "named")])
@@ -54,7 +53,9 @@ cli.main(["compare", "--help"])
 
 
 def test_what_is_added_is_seen_everywhere(tmp_path, opened):
-    path = opened("suzanne") and bpy.data.filepath
+    opened("suzanne", 96)
+    path = str(tmp_path / "small.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
     done = subprocess.run(
         [sys.executable, "-c", ADDED, tmp_path, path], capture_output=True, text=True
     )

@@ -8,10 +8,10 @@ import bpy
 import pytest
 from reference_tracer.blender import commands
 
-LONG = pytest.param("shifted_room", marks=pytest.mark.torture)
+LONG = (pytest.param(n, marks=pytest.mark.torture) for n in ("geometry_nodes", "shifted_room"))
 
 
-@pytest.mark.parametrize("name", ["exercise_perspective", "geometry_nodes", LONG])
+@pytest.mark.parametrize("name", ["exercise_perspective", *LONG])
 def test_sample_scenes_miss_no_fault(name, opened, compare):
     opened(name, 64)
     found = compare(self_check=True)

@@ -18,12 +18,14 @@ from reference_tracer.tracer.settings import PLAIN_SETTINGS, Precision, Settings
 
 from ..tracer.hostile_scenes import hostile_scene
 
-SCENES = 20
+SCENES = 12
 PROVEN = Certainty.BOUND, Certainty.EXACT
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [0, *(pytest.param(n, marks=pytest.mark.torture) for n in (1, 2))])
+@pytest.mark.parametrize(
+    "seed", [0, *(pytest.param(n, marks=pytest.mark.torture) for n in range(1, 8))]
+)
 def test_hostile_scenes(make, tmp_path: Path, seed):
     rng = np.random.default_rng(seed)
     kinds, disagreed, kept = set(), 0, 0

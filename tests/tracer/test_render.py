@@ -39,15 +39,15 @@ SHAPES = {
 def rtree_sees(make, shape, orthographic):
     """A camera, its rays, and all that they meet by trimesh's own query: rays, triangles, t."""
     camera = make.camera(
-        48,
-        36,
+        32,
+        24,
         half=1.6 if orthographic else 0.45,
         eye=(2.3, -2.6, 1.9),
         target=(0.03, 0.02, 0.01),
         orthographic=orthographic,
     )
     rays = camera_rays(camera, *film_positions(camera.region, 0.0, 0.0))
-    o, d = (np.broadcast_to(v, (3, 48 * 36)).T for v in (rays.origins, rays.directions))
+    o, d = (np.broadcast_to(v, (3, 32 * 24)).T for v in (rays.origins, rays.directions))
     rtree = RayMeshIntersector(SHAPES[shape])  # mesh.ray is embreex, in float32, where it is there
     place, ray, triangle = rtree.intersects_location(o, d, multiple_hits=True)
     t = ((place - o[ray]) * d[ray]).sum(axis=1) / (d[ray] ** 2).sum(axis=1)
@@ -63,7 +63,7 @@ def test_trimesh_sees_the_same(shape, orthographic, method, make):
     mesh = SHAPES[shape]
     camera, origins, directions, ray, triangle, t = rtree_sees(make, shape, orthographic)
     frame = render(make.scene(camera, make.mesh(mesh)), Settings(method))
-    nearest = np.full(48 * 36, np.inf)
+    nearest = np.full(32 * 24, np.inf)
     np.minimum.at(nearest, ray, t)
     hit = np.isfinite(nearest)
     assert hit.mean() > 0.05
@@ -159,7 +159,7 @@ def _never(rays, p1, p2, p3):
 @pytest.mark.slow
 def test_many_samples_take_no_more_memory(make):
     """Of thousands of samples a pixel, not all are held at once."""
-    scene = make.scene(make.camera(64, 32), make.quad(-9, 0, -9, 9, -2))
+    scene = make.scene(make.camera(32, 16), make.quad(-9, 0, -9, 9, -2))
     peaks = []
     for samples in (2, 16):
         tracemalloc.start()

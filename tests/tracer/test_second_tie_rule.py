@@ -94,8 +94,8 @@ def test_built_to_tie(make, build, orthographic):
 
 
 def test_hostile_scenes(make):
-    found = [ambiguous(hostile_scene(make, np.random.default_rng(seed))) for seed in range(60)]
-    assert sum(n > 0 for n in found) > 10
+    found = [ambiguous(hostile_scene(make, np.random.default_rng(seed))) for seed in range(24)]
+    assert sum(n > 0 for n in found) > 4
 
 
 @pytest.mark.parametrize("path", EXERCISE, ids=lambda p: p.stem)

@@ -12,7 +12,7 @@ from reference_tracer.tracer.certified.bounds import Fractions, FromPoint, Paral
 from ..rational import functions, plane_functions, rational
 
 pytestmark = pytest.mark.filterwarnings("error")
-COUNT = 250
+COUNT = 120
 SCALES = (0, -300, 300, -170, 170, -340, -352, -358, 336)  # of lengths: 3 of them are multiplied
 
 

@@ -160,10 +160,10 @@ def test_subnormal_scenes(rng):
 def test_the_clip_range(rng, clip, what):
     """Surfaces exactly on its ends, within it; and t = 0 where it starts at 0."""
     met = []
-    for _ in range(8):
+    for _ in range(5):
         o, d, c = whole(rng)
         met.append(check(share(o, d, what), c, *clip).t)
-    assert np.isin(np.concatenate(met), clip).sum() > 5
+    assert np.isin(np.concatenate(met), clip).sum() > 2
 
 
 @pytest.mark.slow
@@ -172,7 +172,7 @@ def test_the_clip_range(rng, clip, what):
 def test_what_is_behind_may_be_seen(rng, clip, what):
     """An orthographic camera may start behind itself."""
     behind = 0
-    for family in (whole, ordinary) * 4:
+    for family in (whole, ordinary) * 2:
         o, d, c = family(rng)
         behind += (check(share(o, d, what), c, *clip).t < 0).sum()
     assert behind > 20

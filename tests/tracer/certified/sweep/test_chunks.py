@@ -120,7 +120,7 @@ def test_places_are_those_of_world_triangles(make, chunk, monkeypatch):
 def test_only_instances_that_no_ray_hits_are_left_out(make):
     """Judged by integers: all rays with all triangles of whatever is left out."""
     judged, instances, kept = 0, 0, 0
-    for seed in range(220):
+    for seed in range(90):
         rng = np.random.default_rng(seed)
         scale, camera = hostile_camera(make, rng)
         corners = hostile_triangles(camera, scale, rng).astype(np.float64)[..., :24]
@@ -145,7 +145,7 @@ def test_only_instances_that_no_ray_hits_are_left_out(make):
         for k in np.flatnonzero(found.side != OUTSIDE):
             assert not camera.clip_start <= found.t(k) <= camera.clip_end, seed
         judged, instances = judged + len(pixel), instances + len(hidden)
-    assert judged > 50_000 and instances > 500 and kept > 500
+    assert judged > 20_000 and instances > 200 and kept > 200
 
 
 def test_instances_come_from_the_front_to_the_back_and_none_that_is_out_of_view(make, rng):

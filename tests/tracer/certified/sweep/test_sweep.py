@@ -32,9 +32,9 @@ from ...rational import t_of_pixels
 
 pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
 SEEDS = 500  # in a part
-PARTS = [0, 1, *(pytest.param(part, marks=pytest.mark.torture) for part in range(2, 8))]
+PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 8))]
 SAMPLE = 120  # seeds that the oracle decides
-DIVIDED = 45
+DIVIDED = 20
 ARRAYS = ("t", "instance", "triangle", "s", "certainty")
 
 
@@ -159,8 +159,8 @@ def undivided(make):
         rng = np.random.default_rng(seed)
         scene, beside = hostile_scene(make, rng), offsets(rng)
         out.append((seed, scene, beside, swept(scene, beside=beside)))
-    assert sum(len(hits.ties) for *_, hits in out) > 200
-    assert sum((hits.certainty == Certainty.EXACT).sum() for *_, hits in out) > 120
+    assert sum(len(hits.ties) for *_, hits in out) > 80
+    assert sum((hits.certainty == Certainty.EXACT).sum() for *_, hits in out) > 50
     return out
 
 
@@ -245,12 +245,12 @@ def test_the_order_of_instances_only_names(undivided):
             assert now < (new[then[0]], then[1]) and then < (old[now[0]], now[1]), seed
             renamed += 1
         assert found.s[:, same].tobytes() == expected.s[:, same].tobytes(), seed
-    assert renamed > 60
+    assert renamed > 20
 
 
 def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
     """A whole frame with samples, as memory divides it."""
-    for seed, scene, *_ in undivided[:15]:
+    for seed, scene, *_ in undivided[:6]:
         settings = Settings("certified", samples=2)
         monkeypatch.setattr(render, "BYTES_PER_PIXEL", 224)
         whole = render.render(scene, settings)
