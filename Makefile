@@ -9,6 +9,8 @@ PYTHON_IN_VENV := .venv/bin/python
 WORKERS := 3
 PYTEST := $(PYTHON_IN_VENV) -m pytest
 SHARED = -n $(WORKERS) --no-loadscope-reorder
+# Bytecode is kept, also where the machine says no: else each of hundreds of processes compiles anew.
+export PYTHONDONTWRITEBYTECODE :=
 
 .PHONY: help demo check test test-matrix prove test-browser test-gui torture bench docs lint extension \
 	release clean

@@ -9,11 +9,14 @@ from reference_tracer.compare.metrics import largest_difference, psnr, rmse, ssi
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
-from skimage.metrics import (
-    mean_squared_error,
-    peak_signal_noise_ratio,
-    structural_similarity,
-)
+
+
+@pytest.fixture(scope="module")
+def skimage():
+    """scikit-image's metrics, which bring scipy.stats: a second that not all processes need."""
+    from skimage import metrics
+
+    return metrics
 
 
 def pictures(kind, make, rng):
@@ -30,27 +33,27 @@ def pictures(kind, make, rng):
 
 
 @pytest.mark.parametrize("kind", ["noise", "smooth", "black", "rendered"])
-def test_scikit_image_says_the_same(kind, make, rng):
+def test_scikit_image_says_the_same(kind, make, rng, skimage):
     first, second = pictures(kind, make, rng)
     first, second = first.astype(float), second.astype(float)
     options = {"win_size": 7, "gaussian_weights": False, "channel_axis": 2, "data_range": 1}
-    assert rmse(first, second) == pytest.approx(np.sqrt(mean_squared_error(first, second)))
+    assert rmse(first, second) == pytest.approx(np.sqrt(skimage.mean_squared_error(first, second)))
     assert psnr(rmse(first, second)) == pytest.approx(
-        peak_signal_noise_ratio(first, second, data_range=1)
+        skimage.peak_signal_noise_ratio(first, second, data_range=1)
     )
     assert result_of(ssim(first, second)) == pytest.approx(
-        structural_similarity(first, second, **options), abs=1e-10
+        skimage.structural_similarity(first, second, **options), abs=1e-10
     )
     assert psnr(rmse(first, second), 4) == pytest.approx(
-        peak_signal_noise_ratio(first, second, data_range=4)
+        skimage.peak_signal_noise_ratio(first, second, data_range=4)
     )
 
 
 @pytest.mark.parametrize("size", [3, 4, 5, 6, 7, 8])
-def test_small_pictures_take_the_window_that_fits(size, rng):
+def test_small_pictures_take_the_window_that_fits(size, rng, skimage):
     first, second = rng.random((2, size, size + 5, 4))
     window = min(7, size if size % 2 else size - 1)
-    expected = structural_similarity(
+    expected = skimage.structural_similarity(
         first, second, win_size=window, gaussian_weights=False, channel_axis=2, data_range=1
     )
     assert result_of(ssim(first, second)) == pytest.approx(expected, abs=1e-10)
