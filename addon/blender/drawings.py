@@ -70,13 +70,14 @@ def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[N
     of_hair = {u.object for u in features if u.feature == HAIR}
     others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
     growing = (o for o in bpy.data.objects if o.name_full in of_hair)
-    settings = (s.settings for o in growing for s in o.particle_systems)
-    hair = {s for s in settings if is_hair(s)}  # others of hair draw objects
-    objects = (o for o in bpy.data.objects if o.name_full in others)
-    whole = dict.fromkeys(objects, np.bool_(True))
-    leave_out(tmp, layer, [o for o in whole if is_animated(o, "hide_render", "hide_viewport")])
+    hair = {s.settings for o in growing for s in o.particle_systems if is_hair(s.settings)}
+    hiding = "hide_render", "hide_viewport"
+    objects = {o for o in bpy.data.objects if o.name_full in others}
+    old = {o for o in objects if o.type == "GPENCIL"}  # 4.2 would hide it from the user, too
+    leave_out(tmp, layer, old | {o for o in objects if is_animated(o, *hiding)})
+    whole = dict.fromkeys(objects - old, np.bool_(True))
     with ExitStack() as stack:
-        for name in ("hide_render", "hide_viewport"):
+        for name in hiding:
             stack.enter_context(untold(bpy.data.objects, name, whole))
         for name in ("render_type", "display_method"):
             none = bpy.types.ParticleSettings.bl_rna.properties[name].enum_items["NONE"].value

@@ -7,7 +7,6 @@ from typing import Any
 import bpy
 
 _FROM_5 = bpy.app.version >= (5, 0, 0)
-
 # What 'VERTEX' shows of a mesh without a colour attribute: checked in 4.2, 4.3, 4.5, 5.0 and 5.2.
 WITHOUT_ATTRIBUTE = "MATERIAL" if _FROM_5 else "OBJECT"
 # Whether the shading's own background colour is drawn where it is set: not in 4.2, 4.3, 4.5, 5.0.
