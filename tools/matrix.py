@@ -26,15 +26,26 @@ OUT = PROJECT / "out" / "matrix"
 WINDOW = PROJECT / "tools" / "whole_blender.sh"
 
 # What is to be found by comparisons is the same in each Blender, and takes a third of the time.
-LEFT_OUT = ("attacks.py", "digests.py", "mutations.py", "self_check.py")
+LEFT_OUT = tuple(
+    f"blender/test_{name}.py" for name in ("attacks", "digests", "mutations", "self_check")
+)
 # 4.2's wheel, any, crashes at the end of a process that has registered a property group with a
 # function: so does all that runs in a process of its own, and the command `reftrace`.
 CRASHES = (
-    "cli_blend.py",
-    "engine_faults.py::test_a_script_ends_with_an_exit_code[none]",
-    "frames.py::test_reftrace_goes_on_where_it_ended",
-    "handlers.py::test_data_may_come_and_go",
-    "hard_cases.py::test_rigid_bodies_fall_on_after_a_comparison",
+    "blender/test_cli_blend.py",
+    "blender/test_engine_faults.py::test_a_script_ends_with_an_exit_code[none]",
+    "blender/test_frames.py::test_reftrace_goes_on_where_it_ended",
+    "blender/test_handlers.py::test_data_may_come_and_go",
+    "blender/test_hard_cases.py::test_rigid_bodies_fall_on_after_a_comparison",
+)
+# The wheels of 4.5 and 5.0 are made for numpy 1: with 2 their module of sound complains once, with
+# a traceback, and these want none.
+COMPLAINS = (
+    "blender/test_cli_blend.py::test_a_scene_that_cannot_be_traced",
+    "blender/test_cli_blend.py::test_input_errors",
+    "blender/test_cli_blend.py::test_too_large_a_picture",
+    "blender/test_engine_faults.py::test_a_picture_that_does_not_fit_is_refused_in_words",
+    "test_extension.py::test_installs_and_registers_in_blender",
 )
 WHEEL_TESTS = ("tests/blender", "tests/test_extension.py", "-m", "not gui and not torture")
 WINDOW_TESTS = ("tests/gui", "-m", "gui and not torture")
@@ -60,9 +71,9 @@ CELLS = (
     Cell("4.2", "4.2.23", "3.11", "2.4.6", LEFT_OUT + CRASHES),
     Cell("4.3"),
     Cell("4.5", "4.5.15", "3.11", "1.26.4"),
-    Cell("4.5", "4.5.15", "3.11", "2.4.6"),
+    Cell("4.5", "4.5.15", "3.11", "2.4.6", LEFT_OUT + COMPLAINS),
     Cell("5.0", "5.0.1", "3.11", "1.26.4"),
-    Cell("5.0", "5.0.1", "3.11", "2.4.6"),
+    Cell("5.0", "5.0.1", "3.11", "2.4.6", LEFT_OUT + COMPLAINS),
     Cell("5.2", "5.2.3", "3.13", "2.5.5"),
 )
 
@@ -126,7 +137,7 @@ def prepared(cell: Cell) -> tuple[list[str], list[str | Path], tuple[str, ...]]:
     """Return what a cell's Blender says of its versions, the Python for its tests, and these."""
     if cell.bpy:
         python = environment(cell)
-        left_out = (f"--deselect=tests/blender/test_{name}" for name in cell.left_out)
+        left_out = (f"--deselect=tests/{name}" for name in cell.left_out)
         said, tests = run(python, "-c", VERSIONS), ("-n", "2", *WHEEL_TESTS, *left_out)
     else:
         run(WINDOW, "check")
