@@ -114,7 +114,8 @@ def environment(cell: Cell) -> Path:
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pins = (PROJECT / "constraints.txt").read_text("utf-8")
     stamp = folder / ".pins"  # what is complete; whatever was interrupted is done again
-    if stamp.exists() and stamp.read_text("utf-8") == pins:
+    complete = f"bpy=={cell.bpy} numpy=={cell.numpy}\n{pins}"
+    if stamp.exists() and stamp.read_text("utf-8") == complete:
         return python
     print(f"making {folder.relative_to(PROJECT)}", flush=True)
     run(find_python(cell.python), "-m", "venv", "--clear", "--without-pip", folder)
@@ -129,7 +130,7 @@ def environment(cell: Cell) -> Path:
     run(*pip, "--no-deps", "--only-binary=:all:", f"numpy=={cell.numpy}")
     if sys.platform == "linux":  # elsewhere a wheel brings them all
         run(PROJECT / "tools" / "venv.sh", "libraries", python)
-    stamp.write_text(pins, "utf-8")
+    stamp.write_text(complete, "utf-8")
     return python
 
 
