@@ -11,7 +11,8 @@ _FROM_5 = bpy.app.version >= (5, 0, 0)
 WITHOUT_ATTRIBUTE = "MATERIAL" if _FROM_5 else "OBJECT"
 # Whether the shading's own background colour is drawn where it is set: not in 4.2, 4.3, 4.5, 5.0.
 OWN_BACKGROUND = bpy.app.version >= (5, 2, 0)
-DITHER = 1.0 if bpy.app.version >= (4, 5, 0) else 1.275  # levels of 255 at most: 0.005 in 4.2
+# Levels of 255 that a dither of 1 adds at most: 255 * 0.005 in the source of 4.2, 0.0033 in newer.
+DITHER = 1.0 if bpy.app.version >= (4, 5, 0) else 1.275
 COMPOSITOR = "compositing_node_group" if _FROM_5 else "use_nodes"  # whether a scene has one
 STRIPS = "strips_all" if _FROM_5 else "sequences_all"  # of a sequencer
 # Names in a 3D view's filters of types; the old grease pencil is there up to 4.2.
