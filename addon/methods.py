@@ -10,8 +10,7 @@ import tomllib
 from collections.abc import Callable
 from enum import StrEnum, auto
 from pathlib import Path
-
-from .tracer import triangle
+from typing import Any
 
 _LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 
@@ -31,8 +30,6 @@ class Method(StrEnum):
     number: int
     color: str
     description: str
-    # The one of its name in `tracer/triangle.py`; None where pixels are proven.
-    function: Callable[..., triangle.Intersection] | None
 
     TEXTBOOK_LITERAL = auto()
     TEXTBOOK = auto()
@@ -42,12 +39,19 @@ class Method(StrEnum):
     AUTO = auto()
 
     def __init__(self, name: str) -> None:
-        vars(self).update(_LISTED[name], function=getattr(triangle, name, None))
+        vars(self).update(_LISTED[name])
 
     @property
     def is_plain(self) -> bool:
         """Whether it is floating point alone, in either precision, without a proof."""
-        return self.function is not None
+        return self not in (Method.CERTIFIED, Method.AUTO)
+
+    @property
+    def function(self) -> Callable[..., Any] | None:
+        """The one of its name in `tracer/triangle.py`; None where pixels are proven."""
+        from .tracer import triangle  # late: to register, Blender needs no numpy
+
+        return getattr(triangle, self) if self.is_plain else None
 
 
 PLAIN = tuple(m for m in Method if m.is_plain)

@@ -407,7 +407,7 @@ def test_the_definition_does_without_the_sweep():
         assert not any("sweep" in path.parts for path in needed_by(file)), file
 
 
-MOST_LINES = 22847
+MOST_LINES = 23_000
 
 
 def test_the_add_on_stays_small():

@@ -10,16 +10,6 @@ from typing import Any
 
 import bpy
 
-from .. import running
-from ..commands import HELP, compare, files, studies
-from ..parser import EXIT_CODES_HELP, Parser
-
-_ADD = {
-    "compare": compare.add_compare,
-    "explain": files.add_explain,
-    "trade": studies.add_trade,
-    "extremes": studies.add_extremes,
-}
 _handle: Any = None
 
 
@@ -28,6 +18,8 @@ def run(argv: list[str]) -> int:
 
     An exception would make Blender exit with 1, which means warnings here.
     """
+    from .. import running
+
     try:
         return running.run(lambda: _run(argv), "reference_tracer")
     except SystemExit as stop:
@@ -42,12 +34,17 @@ def _run(argv: list[str]) -> int:
     return options.run(options)
 
 
-def _parser() -> Parser:
+def _parser() -> Any:
+    from ..commands import HELP, compare, files, studies
+    from ..parser import EXIT_CODES_HELP, Parser
+
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     # A backup's name ends in .blend1; that no file is open is said once one is needed.
     file = Path(bpy.data.filepath or "none").with_suffix(".blend")
-    for name, add in _ADD.items():
+    adding = compare.add_compare, files.add_explain, studies.add_trade, studies.add_extremes
+    for add in adding:
+        name = add.__name__.removeprefix("add_")
         own = commands.add_parser(name, help=HELP[name])
         own.opened = file
         add(own)

@@ -9,29 +9,23 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
-import numpy as np
 
-from ..arguments import failure
-from ..compare.certificate import CameraCertificate
-from ..manifest import Manifest
-from ..scene import Scene, SceneError
-from ..tracer.frame import PASSES, Frame, Pass
-from ..tracer.render import steps
-from .camera import certify_camera
-from .export import export
-from .judges import Judge
-from .live.view import LiveView
-from .temporary import is_temporary, values_kept
+if TYPE_CHECKING:
+    from ..compare.certificate import CameraCertificate
+    from ..manifest import Manifest
+    from ..scene import Scene
+    from ..tracer.frame import Frame, Pass
+    from .judges import Judge
+
+    Certified = tuple[Scene, Manifest, CameraCertificate]
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message
 SHOW_EVERY = 0.5  # seconds, at least: showing rows takes at most the tenth part of the time
-_COMBINED = PASSES[0]
 
-Certified = tuple[Scene, Manifest, CameraCertificate]
 _captured: list[Certified] | None = None
 
 
@@ -51,12 +45,17 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: Any) -> None:
         """Render one view layer of one frame."""
+        from ..arguments import failure
+        from .temporary import is_temporary
+
         captures = _captured is not None and is_temporary(depsgraph.scene)
         if error := failure(_capture if captures else self._trace, depsgraph):
             self.report({"ERROR"}, error)
 
     def view_update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed for a 3D view in Rendered mode; each has its own engine."""
+        from .live.view import LiveView
+
         self.live = getattr(self, "live", None) or LiveView()
         self.live.update(context, depsgraph)
 
@@ -65,6 +64,10 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self.live.draw(self, context, depsgraph)
 
     def _trace(self, depsgraph: Any) -> None:
+        from ..tracer.frame import Frame
+        from ..tracer.render import steps
+        from .export import export
+
         began = time.monotonic()
         due = began + SHOW_EVERY
         self.update_stats("", "Exporting")
@@ -104,6 +107,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def _show(self, frame: Frame, layer: str, passes: Sequence[Pass], rows: slice) -> None:
         """Give Blender some rows of some passes; it puts them where they belong."""
+        import numpy as np
+
         width, height = frame.shape[1], rows.stop - rows.start
         result = self.begin_result(0, rows.start, width, height, layer=layer)
         have = result.layers[0].passes
@@ -117,7 +122,10 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
 def _enabled(layer: Any) -> tuple[Pass, ...]:
     """Return the passes of a view layer: the picture first, then what is chosen."""
-    return _COMBINED, *(p for p in PASSES if p.label in layer.reference_tracer.passes)
+    from ..tracer.frame import PASSES
+
+    chosen = layer.reference_tracer.passes
+    return PASSES[0], *(p for p in PASSES if p.label in chosen)
 
 
 def _say(text: str) -> None:
@@ -136,6 +144,9 @@ def _set_status(text: str | None) -> None:
 
 def export_certified(depsgraph: Any) -> Certified:
     """Return what :func:`export.export` does, and how well its camera is Blender's own."""
+    from .camera import certify_camera
+    from .export import export
+
     scene, manifest = export(depsgraph)
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 
@@ -154,6 +165,9 @@ def export_for_render(scene: Any) -> Certified:
     SceneError
         If the scene cannot be traced.
     """
+    from ..scene import SceneError
+    from .temporary import values_kept
+
     global _captured
     scene.render.engine = ENGINE
     _captured = []

@@ -3,32 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
-from ..compare.comparison import Comparison
-from ..explain import document, reproducer
-from ..explain.candidates import LIMIT
-from ..explain.derivation import Derivation, derive
-from ..explain.document import answer_sentence
-from ..explain.writers import WRITERS
-from ..report import folders
-from ..scene import SceneError
-from . import ray_objects, results
-from .compare import export_open_file
+from . import results
 from .judges import judge_named
-from .long_work import failed
+from .long_work import named, with_ending
 from .properties import SAID, SOURCES
+from .results import Kind
+
+if TYPE_CHECKING:
+    from ..explain.derivation import Derivation
 
 TEXT = "Reference Tracer Pixel"
 _SAID = SAID["explain"]
 
 
 def derive_here(
-    context: Any, x: int, y: int, source: str = "SCENE", limit: int = LIMIT
+    context: Any, x: int, y: int, source: str = "SCENE", limit: int = _SAID["limit"]["default"]
 ) -> Derivation:
     """Derive a pixel of the context's scene.
 
@@ -47,7 +41,10 @@ def derive_here(
     SceneError
         If the scene cannot be traced, or has no such pixel.
     """
-    latest = results.latest(Comparison, context.scene)
+    from ..explain.derivation import derive
+    from .compare import export_open_file
+
+    latest = results.latest(Kind.COMPARISON, context.scene)
     if source == "COMPARISON" and latest:
         scene = latest.content.scene
     else:
@@ -57,36 +54,26 @@ def derive_here(
     return derive(scene, x, y, limit, file)
 
 
+@named
 class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
-    bl_idname = "reference_tracer.explain"
-    bl_label = "Explain Pixel"
-    bl_description = (
-        "Derive what one pixel sees, step by step, in float32, float64 and exactly: in the text "
-        "'Reference Tracer Pixel', and the key numbers in the panel"
-    )
     bl_options = {"UNDO"}
 
     x: IntProperty(**_SAID["x"])  # type: ignore[valid-type]
     y: IntProperty(**_SAID["y"])  # type: ignore[valid-type]
     source: EnumProperty(items=SOURCES, options={"SKIP_SAVE"}, **_SAID["source"])  # type: ignore[valid-type]
-    limit: IntProperty(default=LIMIT, **_SAID["limit"])  # type: ignore[valid-type]
+    limit: IntProperty(**_SAID["limit"])  # type: ignore[valid-type]
     draw_ray: BoolProperty(options={"SKIP_SAVE"}, **_SAID["draw_ray"])  # type: ignore[valid-type]
-    filepath: StringProperty(  # type: ignore[valid-type]
-        name="File",
-        subtype="FILE_PATH",
-        options={"SKIP_SAVE"},
-        description=f"Write it there, too; the ending says as what: {', '.join(WRITERS)}",
-    )
+    filepath: StringProperty(options={"SKIP_SAVE"}, **_SAID["filepath"])  # type: ignore[valid-type]
 
     def execute(self, context: Any) -> set[str]:
-        try:
-            found = derive_here(context, self.x, self.y, self.source, self.limit)
-            if self.filepath:
-                _write(self.filepath, found)
-        except Exception as error:
-            return failed(self, error)
-        said = answer_sentence(found)
-        results.keep(Derivation, found, [said], context.scene.name)
+        from ..explain import document
+        from . import ray_objects
+
+        found = derive_here(context, self.x, self.y, self.source, self.limit)
+        if self.filepath:
+            _write(self.filepath, found)
+        said = document.answer_sentence(found)
+        results.keep(Kind.PIXEL, found, [said], context.scene.name)
         results.show_text(context, TEXT, document.document_markdown(found))
         if self.draw_ray:
             ray_objects.draw(context.scene, found)
@@ -97,59 +84,53 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
 def _write(filepath: str, found: Derivation, **other: Callable[[Derivation], str]) -> None:
     """Write a derivation as the file's ending says; `other` writers are by theirs."""
+    from ..explain.writers import WRITERS
+    from ..report import folders
+
     writers = WRITERS | {f".{ending}": writer for ending, writer in other.items()}
-    path = Path(bpy.path.abspath(filepath))
-    if path.suffix.lower() not in writers:
-        raise SceneError(f"'{filepath}' must end in {' or '.join(writers)}")
+    path = with_ending(filepath, *writers)
     folders.write_text(path, writers[path.suffix.lower()](found))
 
 
 class _OfLatest:
     @classmethod
     def poll(cls, context: Any) -> bool:
-        return results.latest(Derivation, context.scene) is not None
+        return results.latest(Kind.PIXEL, context.scene) is not None
 
 
+@named
 class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
-    bl_idname = "reference_tracer.draw_ray"
-    bl_label = "Draw the Ray"
-    bl_description = (
-        "Draw the pixel's ray, the planes it was tested with, the hit and the three triangles that "
-        "weigh the corners, as objects in a collection of their own. No picture shows them"
-    )
     bl_options = {"UNDO"}
 
     def execute(self, context: Any) -> set[str]:
-        found = results.latest(Derivation, context.scene).content
+        from . import ray_objects
+
+        found = results.latest(Kind.PIXEL, context.scene).content
         collection = ray_objects.draw(context.scene, found)
         self.report({"INFO"}, f"{len(collection.objects)} objects in '{collection.name}'")
         return {"FINISHED"}
 
 
+@named
 class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
-    bl_idname = "reference_tracer.remove_ray"
-    bl_label = "Remove the Ray"
-    bl_description = "Remove the objects that Draw the Ray has made, and nothing else"
     bl_options = {"UNDO"}
 
     @classmethod
     def poll(cls, context: Any) -> bool:
+        from . import ray_objects
+
         return ray_objects.are_drawn()
 
     def execute(self, context: Any) -> set[str]:
+        from . import ray_objects
+
         self.report({"INFO"}, f"{ray_objects.remove()} objects removed")
         return {"FINISHED"}
 
 
+@named
 class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
-    bl_idname = "reference_tracer.save_pixel"
-    bl_label = "Save Pixel"
-    bl_description = (
-        "Save the derivation (.html, .md), or the pixel's ray and all that it may meet as a small "
-        "file (.json) from which `reftrace explain FILE.json` derives it again"
-    )
-
-    filepath: StringProperty(subtype="FILE_PATH", default="pixel.html")  # type: ignore[valid-type]
+    filepath: StringProperty(**SAID["save_pixel"]["filepath"])  # type: ignore[valid-type]
     filter_glob: StringProperty(default="*.html;*.md;*.json", options={"HIDDEN"})  # type: ignore[valid-type]
 
     def invoke(self, context: Any, event: Any) -> set[str]:
@@ -157,21 +138,9 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Any) -> set[str]:
-        found = results.latest(Derivation, context.scene).content
-        try:
-            _write(self.filepath, found, json=lambda found: reproducer.text(found.pixel))
-        except Exception as error:
-            return failed(self, error)
+        from ..explain import reproducer
+
+        found = results.latest(Kind.PIXEL, context.scene).content
+        _write(self.filepath, found, json=lambda found: reproducer.text(found.pixel))
         self.report({"INFO"}, f"Saved {self.filepath}")
         return {"FINISHED"}
-
-
-CLASSES = (
-    REFERENCE_TRACER_OT_explain,
-    REFERENCE_TRACER_OT_draw_ray,
-    REFERENCE_TRACER_OT_remove_ray,
-    REFERENCE_TRACER_OT_save_pixel,
-)
-
-
-register, unregister = bpy.utils.register_classes_factory(CLASSES)

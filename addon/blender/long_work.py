@@ -1,4 +1,4 @@
-"""What every operator with long work shares: progress, time left, Esc, errors, one at a time.
+"""What every operator shares; those with long work, progress, time left, Esc, one at a time, too.
 
 An operator says in `begin` what the work is, a generator that yields the share that is done, and in
 `finish` what becomes of its result. A script's call runs through; a button's goes on in small
@@ -13,17 +13,36 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import StringProperty
 
-from ..arguments import EXPECTED, words
 from ..tracer.progress import Work, result_of
-from .compare import made_folder
+from .preferences import default_folder
 from .properties import SAID
 from .results import redraw
+from .versions import RELATIVE
 
 SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
 SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
+
+OPERATORS: list[type] = []  # to be registered
+
+
+def named(operator: type) -> type:
+    """Give an operator its identifier, texts and reports of errors; have it registered."""
+    name, execute = operator.__name__.rpartition("_OT_")[2], operator.execute
+
+    def guarded(self: Any, context: Any) -> set[str]:
+        try:
+            return execute(self, context)
+        except Exception as error:
+            return failed(self, error)
+
+    operator.bl_idname, operator.execute = f"reference_tracer.{name}", guarded
+    operator.bl_label, operator.bl_description = (SAID[name][t] for t in ("label", "description"))
+    OPERATORS.append(operator)
+    return operator
 
 
 class LongWork:
@@ -38,11 +57,16 @@ class LongWork:
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
 
-    directory: StringProperty(options={"SKIP_SAVE"}, **SAID["work"]["directory"])  # type: ignore[valid-type]
+    directory: StringProperty(options={"SKIP_SAVE"} | RELATIVE, **SAID["work"]["directory"])  # type: ignore[valid-type]
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
-        return made_folder(self.directory) if self.directory else None
+        from .compare import made_folder
+
+        directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
+        if directory and not self.directory:
+            say(f"Results go to {directory}")
+        return made_folder(directory) if directory else None
 
     def begin(self, context: Any) -> Work[Any]:
         """Return the work; what has to be done in one go is done here."""
@@ -59,10 +83,7 @@ class LongWork:
 
     def execute(self, context: Any) -> set[str]:
         """Run through, as a script wants it."""
-        try:
-            return self._end(context, result_of(self.begin(context)))
-        except Exception as error:
-            return failed(self, error)
+        return self._end(context, result_of(self.begin(context)))
 
     def invoke(self, context: Any, event: Any) -> set[str]:
         """Begin, and go on while the interface stays alive."""
@@ -84,7 +105,8 @@ class LongWork:
         """Work for one step, or stop at Esc."""
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
-            self.report({"WARNING"}, f"{self.bl_label} was cancelled; {self.left}")
+            said = rpt_("{} was cancelled; {}").format(rpt_(self.bl_label), rpt_(self.left))
+            self.report({"WARNING"}, said)
             return {"CANCELLED"}
         if event.type != "TIMER":
             return {"RUNNING_MODAL" if self.alone else "PASS_THROUGH"}
@@ -110,10 +132,9 @@ class LongWork:
             return
         self._shown, past = now, now - self._began
         context.window_manager.progress_update(int(100 * share))
-        left = f"  {past * (1 - share) / share:.0f} s left" if share > 0.01 else ""
-        context.workspace.status_text_set(
-            f"{self.bl_label}: {int(100 * share)} %{left}  (Esc: cancel)"
-        )
+        left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
+        said = rpt_("{}: {} %{}  (Esc: cancel)").format(rpt_(self.bl_label), int(100 * share), left)
+        context.workspace.status_text_set(said)
 
     @staticmethod
     def stop() -> None:
@@ -141,19 +162,31 @@ class LongWork:
 
 def failed(operator: Any, error: Exception) -> set[str]:
     """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
+    from ..arguments import EXPECTED, words
+
     if not isinstance(error, EXPECTED):
         traceback.print_exception(error)
     operator.report({"ERROR"}, words(error))
     return {"CANCELLED"}
 
 
+def with_ending(filepath: str, *endings: str) -> Path:
+    """Return the path of a file that is to have one of these endings; // is beside the .blend."""
+    from ..scene import SceneError
+
+    path = Path(bpy.path.abspath(filepath))
+    if path.suffix.lower() not in endings:
+        raise SceneError(f"'{filepath}' must end in {' or '.join(endings)}")
+    return path
+
+
 def is_blocked(operator: Any, context: Any, needs_camera: bool) -> bool:
     """Return whether long work or a missing camera is in the way; an operator's button says so."""
     why, name = "", context.scene.name
     if LongWork.running:
-        why = f"{LongWork.running} is running: Esc cancels it"
+        why = rpt_("{} is running: Esc cancels it").format(rpt_(LongWork.running))
     elif needs_camera and context.scene.camera is None:
-        why = f"Scene '{name}' has no camera: add one, or make one active"
+        why = rpt_("Scene '{}' has no camera: add one, or make one active").format(name)
     if why:
         operator.poll_message_set(why)
     return bool(why)

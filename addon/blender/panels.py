@@ -7,16 +7,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
-from ..compare import self_check
-from ..compare.animation import FrameRow
-from ..compare.cause import Cause
-from ..compare.comparison import Comparison
-from ..compare.engines import EngineRow
 from ..methods import Method
 from . import operators, results
 from .engine import ENGINE
 from .judges import JUDGES
+from .menus import REFERENCE_TRACER_PT_presets
+from .results import Kind
 
 _PARTS = "interior", "boundary"
 _WORST = 5  # frames of an animation that are listed
@@ -68,13 +66,16 @@ def wrapped(layout: Any, context: Any, text: str, icon: str = "NONE") -> None:
     letters = int(context.region.width / scale / _LETTER) - (10 if icon != "NONE" else 6)
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for line in textwrap.wrap(text, max(16, letters)):
-        column.label(text=line, icon=icon)
+    for line in textwrap.wrap(iface_(text), max(16, letters)):
+        column.label(text=line, icon=icon, translate=False)
         icon = "BLANK1" if icon != "NONE" else icon
 
 
 class _Main:
     bl_label = "Reference Tracer"
+
+    def draw_header_preset(self, _: Any) -> None:
+        REFERENCE_TRACER_PT_presets.draw_panel_header(self.layout)
 
     def draw(self, context: Any) -> None:
         """Draw the button and what it will do."""
@@ -95,7 +96,7 @@ class _Main:
         for name in ("judge", "shading", "identity", "self_check"):
             column.prop(stored, name)
         layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
-        if found := results.latest(EngineRow, context.scene):
+        if found := results.latest(Kind.ENGINES, context.scene):
             rows = [("Engine", "Differ", "Wrong", "Open")]
             for row in found.content:
                 p = row.pixels or {"differ": "-", "unexplained": "-"}
@@ -105,12 +106,13 @@ class _Main:
             draw_table(layout.box(), rows, NARROW)
         button = operators.REFERENCE_TRACER_OT_compare_animation.bl_idname
         layout.operator(button, icon="RENDER_ANIMATION")
-        if found := results.latest(FrameRow, context.scene):
+        if found := results.latest(Kind.FRAMES, context.scene):
             path, rows = found.content
             column = layout.box().column(align=True)
             for row in rows[:_WORST]:
-                counts = f"{row.explained + row.unexplained} differ, {row.unexplained} open"
-                text = f"Frame {row.frame}: {row.error or counts}"
+                differ, wrong = row.explained + row.unexplained, row.unexplained
+                counts = iface_("{} differ, {} open").format(differ, wrong)
+                text = f"{iface_('Frame')} {row.frame}: {row.error or counts}"
                 go = column.operator("wm.context_set_int", text=text)
                 go.data_path, go.value = "scene.frame_current", row.frame
             button = column.operator("wm.url_open", text="Open Page of All Frames", icon="URL")
@@ -122,10 +124,13 @@ class _Result:
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        return results.latest(Comparison, context.scene) is not None
+        return results.latest(Kind.COMPARISON, context.scene) is not None
 
     def draw(self, context: Any) -> None:
-        comparison = results.latest(Comparison, context.scene).content
+        from ..compare import self_check
+        from ..compare.cause import Cause
+
+        comparison = results.latest(Kind.COMPARISON, context.scene).content
         pixels, measured = comparison.pixels, comparison.metrics
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
@@ -162,7 +167,7 @@ class _Export:
 
     def draw(self, context: Any) -> None:
         """Draw the manifest: what was exported, skipped, not modelled."""
-        manifest = results.latest(Comparison, context.scene).content.manifest
+        manifest = results.latest(Kind.COMPARISON, context.scene).content.manifest
         column = self.layout.column(align=True)
         column.scale_y = 0.8
         for line, warns in manifest.facts():

@@ -10,37 +10,43 @@ from __future__ import annotations
 
 import tomllib
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
 from ..methods import Method
-from ..study.scenarios.sweeps import SCENARIOS
-from ..tracer.coloring import Color
-from ..tracer.frame import PASSES
-from ..tracer.settings import Precision, Settings
 from . import judges, results
-from .live.shows import SHOWS
 
-SAID = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+if TYPE_CHECKING:
+    from ..tracer.settings import Settings
+
+SAID, SCENARIOS = (
+    tomllib.loads(path.read_text(encoding="utf-8"))
+    for path in (
+        Path(__file__).with_suffix(".toml"),
+        Path(__file__).parents[1] / "study" / "scenarios" / "sweeps.toml",
+    )
+)
 _SCENE, _LAYER, _OBJECT, _WINDOW = (SAID[of] for of in ("scene", "layer", "object", "window"))
 
-# (identifier, name, description, number). A .blend stores the number: one that was given away is
-# never given to another, and a new item takes the next.
 METHOD_ITEMS = tuple((m.value, m.label, m.description, m.number) for m in reversed(Method))
-PRECISIONS, SHADINGS, SOURCES = (
-    tuple(map(tuple, SAID[items])) for items in ("precisions", "shadings", "sources")
+PRECISIONS, SHADINGS, COLORS, PASS_ITEMS, SOURCES = (
+    tuple(map(tuple, SAID[items]))
+    for items in ("precisions", "shadings", "colors", "passes", "sources")
 )
-COLORS = tuple((c.value, c.capitalize(), c.description, c.number) for c in Color)
 JUDGE_ITEMS = (
     (judges.AUTO, "Automatic", "The viewport in a window, Workbench in background", 0),
     *((j.name.upper(), j.label, j.description, j.number) for j in judges.choices().values()),
 )
-# Its number is one bit of what a .blend stores: a new pass takes the last place among PASSES.
-PASS_ITEMS = tuple((p.label, p.label, "", 2**k) for k, p in enumerate(PASSES) if p.label)[1:]
-SHOW_ITEMS = tuple((s.identifier, s.label, s.description, s.number) for s in SHOWS)
-SWEEPS = tuple((s.name, s.title, s.explanation) for s in SCENARIOS)
+SHOW_ITEMS = (
+    *map(tuple, SAID["shows"]),
+    *((name.upper(), *said, 4 + number) for name, *said, number in COLORS),
+)
+SWEEPS, MAPS = (
+    tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in SCENARIOS[kind])
+    for kind in ("scenario", "map")
+)
 
 
 def _redraw(owner: Any, context: Any) -> None:
@@ -62,6 +68,8 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
 
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
+        from ..tracer.settings import Precision, Settings
+
         precision = self.precision if self.has_precision else Precision.FLOAT64
         return Settings(self.method, precision, self.samples, color=self.color)
 

@@ -6,11 +6,12 @@ from typing import Any
 
 import bpy
 
-from . import engine, explain, inspector, operators, panels, properties, studies, study_panels
-from .long_work import LongWork
+from . import engine, inspector, menus, panels, preferences, properties, study_panels
+from .long_work import OPERATORS, LongWork
 from .results import forget
 
-MODULES = properties, engine, operators, studies, explain, inspector, panels, study_panels
+MODULES = properties, preferences, engine, menus, panels, study_panels
+_operators = bpy.utils.register_classes_factory(OPERATORS)  # the panels import them
 
 
 @bpy.app.handlers.persistent
@@ -25,13 +26,17 @@ def register() -> None:
     """Register every module of the add-on."""
     for module in MODULES:
         module.register()
+    _operators[0]()
+    bpy.app.handlers.load_post.append(preferences.set_up_new_file)
     bpy.app.handlers.load_pre.append(_file_closes)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     bpy.app.handlers.load_pre.remove(_file_closes)
+    bpy.app.handlers.load_post.remove(preferences.set_up_new_file)
     LongWork.stop()
     forget()
+    _operators[1]()
     for module in reversed(MODULES):
         module.unregister()

@@ -9,23 +9,24 @@ import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from enum import Enum
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
-from ..compare.comparison import Comparison
 from ..methods import Method
-from ..report import extremes as extremes_report
-from ..report import folders, plots
-from ..report import trade as trade_report
-from ..report.comparison import difference_picture
-from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points
-from ..study.trade import Trade
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..compare.comparison import Comparison
+    from ..study.extremes import BreakingPoint, ExtremesRow
+    from ..study.trade import Trade
+
+# What results are of. To name a kind, the class of its contents need not be imported.
+Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES BREAKING_POINTS")
 TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
 MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
@@ -41,32 +42,42 @@ class Result:
     page: str = ""  # the address of its plots
 
 
-_latest: dict[type, Result] = {}
+_latest: dict[Kind, Result] = {}
 
 
 def keep_comparison(context: Any, comparison: Comparison) -> Result:
     """Remember a comparison, and put its three pictures into images of Blender's."""
+    from ..report.comparison import difference_picture
+
     show(TRACED, comparison.frame.color)
     show(BLENDER, comparison.picture)
     shown = show(DIFFERENCE, difference_picture(comparison))
     show_in_editor(context, shown)
-    return keep(Comparison, comparison, comparison.lines(), comparison.manifest.scene)
+    return keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
 
 
 def keep_trade(trade: Trade) -> Result:
     """Remember a trade, and write its plot for the browser."""
+    from ..report import trade as trade_report
+
     page = _page("trade", trade_report.pictures(trade))
-    return keep(Trade, trade, [trade.advice], trade.scene, page)
+    return keep(Kind.TRADE, trade, [trade.advice], trade.scene, page)
 
 
 def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
     """Remember where each method breaks, and write the plots of it for the browser."""
-    lines, page = [_extremes_sentence(rows)], _page("extremes", extremes_report.pictures(rows))
-    keep(ExtremesRow, tuple(rows), lines)
-    return keep(BreakingPoint, tuple(breaking_points(rows)), lines, page=page)
+    from ..report import extremes as extremes_report
+    from ..study.extremes import breaking_points
+
+    page, points = _page("extremes", extremes_report.pictures(rows)), tuple(breaking_points(rows))
+    lines = [_extremes_sentence(rows, points)]
+    keep(Kind.EXTREMES, tuple(rows), lines)
+    return keep(Kind.BREAKING_POINTS, points, lines, page=page)
 
 
 def _page(name: str, pictures: dict[str, str]) -> str:
+    from ..report import folders, plots
+
     path = session_folder() / f"{name}.html"
     folders.write_text(path, plots.page(f"Reference Tracer {name}", pictures.values()))
     return path.as_uri()
@@ -78,11 +89,11 @@ def session_folder() -> Path:
     return Path(tempfile.mkdtemp(prefix="reference-tracer-"))
 
 
-def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
+def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoint]) -> str:
     """Return in one sentence whether the certified method holds, and which other holds longest."""
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
-    points = [p for p in breaking_points(rows) if Method(p.method).is_plain]
+    points = [p for p in points if Method(p.method).is_plain]
     holds = Counter({(p.method, p.precision): 0 for p in points})
     holds.update((p.method, p.precision) for p in points if p.never)
     if holds:
@@ -98,18 +109,15 @@ def _extremes_sentence(rows: Sequence[ExtremesRow]) -> str:
 
 
 def keep(
-    kind: type, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
+    kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
 ) -> Result:
     """Remember a result of a kind, for :func:`latest`."""
     _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, page)
     return _latest[kind]
 
 
-def latest(kind: type, scene: Any) -> Result | None:
-    """Return the latest result of a kind, if it is of this scene in the file that is open.
-
-    The kinds are Comparison, Derivation, EngineRow, FrameRow, Trade, BreakingPoint and ExtremesRow.
-    """
+def latest(kind: Kind, scene: Any) -> Result | None:
+    """Return the latest result of a kind, if it is of this scene in the file that is open."""
     found = _latest.get(kind)
     if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):
         return found
@@ -123,6 +131,8 @@ def forget() -> None:
 
 def show(name: str, color: NDArray) -> Any:
     """Put linear RGBA (h, w, 4) into our image of this name, made where it is not there."""
+    import numpy as np
+
     height, width = color.shape[:2]
     image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
     if image and image.source != "GENERATED":  # the user has saved it: it is theirs now

@@ -8,19 +8,13 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_iface as iface_
 
-from ..explain.derivation import Derivation, Test
-from ..explain.digits import exact_text, marked, off_text, ulps
-from ..explain.document import CERTAINTY_SENTENCES
-from ..explain.textbook import Arithmetic
 from ..methods import MEASURED, PLAIN, Method
-from ..study.extremes import BreakingPoint, written
-from ..study.scenarios.sweeps import BY_NAME
-from ..study.trade import Trade, TradeRow
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
 from .panels import NARROW, both, draw_table, short_name, wrapped
-from .scenario_scene import CHANGED
+from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
@@ -47,38 +41,46 @@ class _Inspector:
         row.operator(
             explain.REFERENCE_TRACER_OT_save_pixel.bl_idname, text="Save", icon="FILE_TICK"
         )
-        found = results.latest(Derivation, context.scene)
+        found = results.latest(Kind.PIXEL, context.scene)
         if found:
             _draw(layout, context, found.content, found.lines[0])
 
 
-def _draw(layout: Any, context: Any, derivation: Derivation, said: str) -> None:
+def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
+    from ..explain.document import CERTAINTY_SENTENCES
+    from ..explain.textbook import Arithmetic
+
     pixel = derivation.pixel
     box = layout.box()
-    box.label(text=f"Pixel ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
+    box.label(text=f"{iface_('Pixel')} ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
     wrapped(box, context, said)
     wrapped(box, context, f"This is {CERTAINTY_SENTENCES[derivation.certified.certainty]}.")
     if derivation.seen_test:
         _numbers(layout.box(), derivation.seen_test)
-    left_out = f", {pixel.left_out:,} more left out" if pixel.left_out else ""
     box = layout.box()
-    box.label(text=f"Tested: {len(derivation.tests)}{left_out}")
+    tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
+    box.label(text=tested)
     for number, test in enumerate(derivation.tests, 1):
         judged = test.verdicts[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:
             wrapped(box, context, reason.sentence, "BLANK1")
-    wrapped(layout, context, f"All of it is in the text '{explain.TEXT}'.", "TEXT")
+    wrapped(layout, context, f"{iface_('All of it is in the text')} '{explain.TEXT}'.", "TEXT")
 
 
-def _t(test: Test) -> str:
+def _t(test: Any) -> str:
+    from ..explain.textbook import Arithmetic
+
     t = next((q.values[Arithmetic.EXACT] for q in test.quantities if q.key == "t"), ())
     return f", t = {float(t[0]):.6g}" if t else ""
 
 
-def _numbers(layout: Any, test: Test) -> None:
+def _numbers(layout: Any, test: Any) -> None:
     """Draw the key numbers of what is seen; wrong digits are in brackets."""
+    from ..explain.digits import exact_text, marked, off_text, ulps
+    from ..explain.textbook import Arithmetic
+
     quantities = {q.key: q for q in test.quantities}
     for quantity in (quantities[key] for key in _KEYS if key in quantities):
         column = layout.column(align=True)
@@ -116,7 +118,7 @@ class _Trade:
         """Draw the button, and what was measured: the methods, then what no other row beats."""
         layout = self.layout
         layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
-        found = results.latest(Trade, context.scene)
+        found = results.latest(Kind.TRADE, context.scene)
         if not found:
             return
         trade = found.content
@@ -132,13 +134,13 @@ class _Trade:
         wrapped(layout, context, "* no other is faster with as few wrong pixels")
 
 
-def _method(row: TradeRow) -> tuple[str, ...]:
+def _method(row: Any) -> tuple[str, ...]:
     star = " *" if row.best_pixels else ""
     memory = f"{row.peak_bytes / 2**20:.1f}"
     return short_name(row), f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
 
 
-def _coverage(row: TradeRow) -> tuple[str, ...]:
+def _coverage(row: Any) -> tuple[str, ...]:
     size = f"{row.width}, {row.samples}²"
     return short_name(row), size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"
 
@@ -149,9 +151,13 @@ class _Extremes:
 
     def draw(self, context: Any) -> None:
         """Draw the button, the breaking points, and the way to each scene."""
+        from ..study.extremes import written
+        from ..study.scenarios.sweeps import BY_NAME
+        from .scenario_scene import CHANGED
+
         layout, shown = self.layout, context.window_manager.reference_tracer
         layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        found = results.latest(BreakingPoint, context.scene)
+        found = results.latest(Kind.BREAKING_POINTS, context.scene)
         if found:
             wrapped(layout, context, found.lines[0], "INFO")
             layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
@@ -163,7 +169,7 @@ class _Extremes:
         box.prop(shown, "scenario", text="")
         scenario = BY_NAME[shown.scenario]
         wrapped(box, context, scenario.explanation)
-        box.label(text=f"Open as a Scene ({scenario.scale_and_unit}):")
+        box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
         operator = studies.REFERENCE_TRACER_OT_extreme_scene
         grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
         for scale in scenario.scales:
@@ -175,11 +181,13 @@ class _Extremes:
                 wrapped(layout, context, line)
 
 
-def _breaking_points(layout: Any, points: tuple[BreakingPoint, ...], precision: str) -> None:
+def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
     """Draw a table: below each scenario's title a value for each method in a precision.
 
     What is certified is so in float64; it has a column where it breaks, which it should not.
     """
+    from ..study.scenarios.sweeps import BY_NAME
+
     proven = {p.scenario: p for p in points if p.method == Method.CERTIFIED}
     holds = all(p.never for p in proven.values())
     _cells(layout, [m.head for m in (PLAIN if holds else MEASURED)])
@@ -199,7 +207,9 @@ def _cells(layout: Any, texts: list[str]) -> None:
         row.label(text=text)
 
 
-def _point(point: BreakingPoint) -> str:
+def _point(point: Any) -> str:
+    from ..study.extremes import written
+
     if point.never:
         return "never"
     return written(point.lost) + " +" * (point.doubled is not None)

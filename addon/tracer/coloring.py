@@ -46,32 +46,22 @@ def depth(scene: Scene, rays: Rays, hits: Hits, depths: Depths) -> NDArray[np.fl
     return 1 - (1 - FARTHEST) * share[:, None]
 
 
+_SHADES: dict[str, Shade] = {shade.__name__: shade for shade in (normal, facing, depth)}
+
+
 class Color(StrEnum):
     """What a pixel shows of a surface, by its name in options and files."""
 
-    number: int  # what a .blend stores: one that was given away is never given to another
-    description: str  # in Blender's panel
-    function: Shade | None  # None for the object's own colour
-
-    OBJECT = "object", 0, "The object's own colour, which every comparison is about"
-    NORMAL = "normal", 1, "The normal in world space: red, green, blue are X, Y, Z", normal
-    FACING = "facing", 2, "Light where it faces the ray, dark edge-on, reddish at backs", facing
-    DEPTH = "depth", 3, "From white at the nearest hit to dark at the farthest, evenly", depth
-
-    def __new__(
-        cls, name: str, number: int, description: str, function: Shade | None = None
-    ) -> Color:
-        """Make a member of a record."""
-        self = str.__new__(cls, name)
-        self._value_, self.number = name, number
-        self.description, self.function = description, function
-        return self
+    OBJECT = "object"  # its own colour, which every comparison is about
+    NORMAL = "normal"
+    FACING = "facing"
+    DEPTH = "depth"
 
     def of(self, scene: Scene, depths: Depths, rays: Callable, hits: Hits) -> NDArray[np.float32]:
         """Return what each ray shows, (n, 4) linear RGBA; the background is the scene's."""
         out = colors(scene, hits)
-        if self.function:
+        if shade := _SHADES.get(self):
             hit = np.flatnonzero(hits.instance != NOTHING)
-            shown = self.function(scene, rays().take(hit), hits.take(hit), depths)
+            shown = shade(scene, rays().take(hit), hits.take(hit), depths)
             out[hit, :3] = curve_undone(shown)
         return out

@@ -10,8 +10,6 @@ from collections import Counter
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
-import numpy as np
-
 A, B, T = TypeVar("A"), TypeVar("B"), TypeVar("T")
 Work = Generator[float, None, T]
 Steps = Generator[str, None, T]  # of which each says which stage of the work it was
@@ -59,4 +57,6 @@ def timed(steps: Steps[T], stages: Counter[str], share: float = 0.0) -> Work[T]:
 
 def quiet(work: Work[T]) -> Work[T]:
     """Run work without numpy's warnings: what over- or underflows is not known, and found out."""
+    import numpy as np  # late: to register, Blender needs none
+
     return mapped(work, float, np.errstate(all="ignore")(next))

@@ -8,8 +8,7 @@ import sys
 
 import bpy
 import reference_tracer
-from reference_tracer.blender.results import latest
-from reference_tracer.compare.comparison import Comparison
+from reference_tracer.blender.results import Kind, latest
 
 DATA = bpy.data
 
@@ -62,7 +61,7 @@ def compared(judge, name, action, kind):
     finally:
         handlers.remove(handler)
     assert not {s for s in DATA.scenes if s.name not in before and not s.name.startswith("Added")}
-    return latest(Comparison, scene).content.verdict, len(calls)
+    return latest(Kind.COMPARISON, scene).content.verdict, len(calls)
 
 
 reference_tracer.register()

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import bpy
 import pytest
-from reference_tracer.blender import engine as engine_module
+from reference_tracer.blender import export as export_module
 from reference_tracer.blender.compare import gather_case
 from reference_tracer.compare.certificate import CameraMismatchError
 
@@ -39,14 +39,14 @@ def test_every_camera_has_one(setting, build):
 def test_another_camera_is_refused_before_any_picture(build, monkeypatch):
     build.scene()
     build.corner_camera()
-    real = engine_module.export
+    real = export_module.export
 
     def shifted(depsgraph):
         scene, manifest = real(depsgraph)
         window = replace(scene.camera.window, left=scene.camera.window.left * 1.1)
         return replace(scene, camera=replace(scene.camera, window=window)), manifest
 
-    monkeypatch.setattr(engine_module, "export", shifted)
+    monkeypatch.setattr(export_module, "export", shifted)
     with pytest.raises(CameraMismatchError, match="not Blender's"):
         gather_case(bpy.context)
     with pytest.raises(RuntimeError, match="not Blender's"):

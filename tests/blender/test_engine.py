@@ -229,7 +229,7 @@ def handed_over(monkeypatch):
     Gives the first row and the number of rows of each tile, and when it was handed over.
     """
     clock, tiles, module = SimpleNamespace(now=0.0), [], "reference_tracer.blender.engine"
-    show = ReferenceTracerEngine._show
+    show, steps = ReferenceTracerEngine._show, rendering.steps
 
     class Recorder:
         def __init__(self, engine):
@@ -244,13 +244,13 @@ def handed_over(monkeypatch):
             return self._engine.begin_result(x, y, width, height, layer=layer)
 
     def a_second_later(*args):
-        for share in rendering.steps(*args):
+        for share in steps(*args):
             clock.now += 1
             yield share
 
     monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (96 * 2))
     monkeypatch.setattr(ReferenceTracerEngine, "_show", lambda self, *a: show(Recorder(self), *a))
-    monkeypatch.setattr(f"{module}.steps", a_second_later)
+    monkeypatch.setattr(rendering, "steps", a_second_later)
     monkeypatch.setattr(f"{module}.time", SimpleNamespace(monotonic=lambda: clock.now))
     return tiles
 

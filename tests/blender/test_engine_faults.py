@@ -10,6 +10,7 @@ import pytest
 from reference_tracer.blender import engine
 from reference_tracer.blender.camera import export_camera
 from reference_tracer.scene import SceneError
+from reference_tracer.tracer import render as rendering
 
 
 def no_camera(scene):
@@ -106,31 +107,31 @@ def test_comparing_it_names_what_is_wrong(fault, scene, compare):
 @pytest.mark.parametrize(
     "kind", [RuntimeError, KeyError, MemoryError, ZeroDivisionError, SceneError]
 )
-@pytest.mark.parametrize("where", ["export", "steps"])
+@pytest.mark.parametrize("where", ["blender.export.export", "tracer.render.steps"])
 def test_an_exception_fails_the_render(where, kind, scene, no_file, monkeypatch):
     def fail(*args, **options):
         raise kind("on purpose")
 
-    monkeypatch.setattr(engine, where, fail)
+    monkeypatch.setattr(f"reference_tracer.{where}", fail)
     with pytest.raises(RuntimeError, match="on purpose"):
         bpy.ops.render.render(write_still=True)
 
 
 @pytest.mark.parametrize("kind", [RuntimeError, SceneError])
 def test_an_exception_midway_fails_the_render(kind, scene, no_file, monkeypatch):
-    real = engine.steps
+    real = rendering.steps
 
     def fail(*args, **options):
         yield next(iter(real(*args, **options)))
         raise kind("on purpose")
 
-    monkeypatch.setattr(engine, "steps", fail)
+    monkeypatch.setattr(rendering, "steps", fail)
     with pytest.raises(RuntimeError, match="on purpose"):
         bpy.ops.render.render(write_still=True)
 
 
 def test_settings_that_are_out_of_range_fail_the_render(scene, no_file, monkeypatch):
-    monkeypatch.setattr("reference_tracer.blender.properties.Settings", fail_settings)
+    monkeypatch.setattr("reference_tracer.tracer.settings.Settings", fail_settings)
     with pytest.raises(RuntimeError, match="samples is 99"):
         bpy.ops.render.render(write_still=True)
 
@@ -175,7 +176,7 @@ reference_tracer.unregister()
         ("", None),
         ("scene.camera.data.type = 'PANO'", "is of type pano"),
         ("scene.camera = None", "no camera"),
-        ("from reference_tracer.blender import engine; engine.export = None", "TypeError"),
+        ("from reference_tracer.blender import export; export.export = None", "TypeError"),
     ],
     ids=["none", "panoramic", "no camera", "exporter"],
 )

@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 from reference_tracer.blender import ray_objects, results
 from reference_tracer.blender.compare import export_open_file
-from reference_tracer.blender.results import MARK
-from reference_tracer.compare.comparison import Comparison
+from reference_tracer.blender.results import MARK, Kind
 from reference_tracer.explain import document, reproducer
 from reference_tracer.explain.candidates import gather_pixel
-from reference_tracer.explain.derivation import Derivation, derive
+from reference_tracer.explain.derivation import derive
 
 ops = bpy.ops.reference_tracer
 DOCS = Path(__file__).resolve().parents[2] / "docs"
@@ -27,7 +26,7 @@ def suzanne(opened):
 
 
 def latest():
-    return results.latest(Derivation, bpy.context.scene).content
+    return results.latest(Kind.PIXEL, bpy.context.scene).content
 
 
 def text():
@@ -68,7 +67,7 @@ def test_a_saved_text_is_the_users(suzanne, tmp_path):
 def test_of_the_comparison(suzanne):
     """The picture's own scene, though something has moved since."""
     ops.compare()
-    compared = results.latest(Comparison, bpy.context.scene).content
+    compared = results.latest(Kind.COMPARISON, bpy.context.scene).content
     for obj in bpy.data.objects:
         obj.location.x += 100 if obj.type == "MESH" else 0
     ops.explain(**PIXEL, source="COMPARISON")
@@ -104,7 +103,7 @@ def test_what_cannot_be_explained_is_said(suzanne, tmp_path):
     bpy.context.scene.camera = None
     with pytest.raises(RuntimeError, match="camera"):
         ops.explain(**PIXEL)
-    assert results.latest(Derivation, bpy.context.scene) is None
+    assert results.latest(Kind.PIXEL, bpy.context.scene) is None
     assert not any(t.get(MARK) for t in bpy.data.texts)
 
 

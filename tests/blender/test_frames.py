@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import commands, results
 from reference_tracer.blender import compare as compare_module
-from reference_tracer.compare.animation import FrameRow
+from reference_tracer.blender.results import Kind
 
 from . import hard_cases as hard
 from .test_hard_cases import own_picture
@@ -239,7 +239,7 @@ def test_the_operator_goes_back_to_the_users_frame(moving, out):
         assert bpy.ops.reference_tracer.compare_animation(directory=str(out)) == {"FINISHED"}
         assert moving.frame_current == 2 and cube.location.x == 0.25
         assert not before.items() & done(out).items() and len(done(out)) == 4
-    path, rows = results.latest(FrameRow, moving).content
+    path, rows = results.latest(Kind.FRAMES, moving).content
     assert path == out / "animation.html" and rows[0].frame == 3
 
 

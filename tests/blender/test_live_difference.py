@@ -84,7 +84,7 @@ def test_while_others_are_busy_it_is_asked_now_and_then(make, monkeypatch):
     asked = []
     monkeypatch.setattr(like_for_like, "is_busy", lambda: not asked.append(1))
     scene = make.scene(make.camera(32, 24), make.quad(-1, 1, -1, 1, -3))
-    show = next(s for s in shows.SHOWS if s.identifier == "DIFFERENCE")
+    show = shows.SHOWS["DIFFERENCE"]
     kept = SimpleNamespace(scene=lambda camera: scene)
     live, engine = view.LiveView(), SimpleNamespace(tag_redraw=lambda: None)
     live._job = view.Job(view.Wanted("", 0, Settings(), show, 0), kept, scene.camera, 1)

@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import bpy
 import pytest
+from reference_tracer.blender.live.shows import SHOWS
 from reference_tracer.blender.properties import (
     COLORS,
     JUDGE_ITEMS,
+    MAPS,
     METHOD_ITEMS,
+    PASS_ITEMS,
     PRECISIONS,
+    SAID,
     SHADINGS,
+    SHOW_ITEMS,
+    SWEEPS,
 )
+from reference_tracer.explain.candidates import LIMIT
+from reference_tracer.explain.writers import WRITERS
 from reference_tracer.methods import Method
+from reference_tracer.study import tradeoff
+from reference_tracer.study.scenarios import sweeps
+from reference_tracer.tracer.coloring import Color
+from reference_tracer.tracer.frame import PASSES
 from reference_tracer.tracer.settings import Precision, Settings
 
 # As released. A line may be added, none changed or removed: files are out there.
@@ -28,6 +40,10 @@ STORED = {
     "judge": {"AUTO": 0, "WORKBENCH": 1, "CYCLES": 2},
     "shading": {"LIKE_FOR_LIKE": 0, "AS_IS": 1},
     "color": {"object": 0, "normal": 1, "facing": 2, "depth": 3},
+    "show": {
+        **{"PICTURE": 0, "WRONG": 1, "DIFFERENCE": 2, "CERTAINTY": 3},
+        **{"OBJECT": 4, "NORMAL": 5, "FACING": 6, "DEPTH": 7},
+    },
 }
 CASES = [(name, value) for name, values in STORED.items() for value in values]
 
@@ -39,13 +55,25 @@ def test_numbers_are_those_that_were_released():
         "judge": JUDGE_ITEMS,
         "shading": SHADINGS,
         "color": COLORS,
+        "show": SHOW_ITEMS,
     }
     assert {n: {i[0]: i[-1] for i in some} for n, some in items.items()} == STORED
 
 
-def test_every_method_and_precision_is_offered():
+def test_what_is_offered_is_what_there_is():
+    """The texts stand where reading them needs no numpy; what they are of stands elsewhere."""
     assert {i[0] for i in METHOD_ITEMS} == {m.value for m in Method}
     assert {i[0] for i in PRECISIONS} == {p.value for p in Precision}
+    assert [i[0] for i in COLORS] == [c.value for c in Color]
+    assert [i[0] for i in SHOW_ITEMS] == list(SHOWS)
+    bits = {p.label: 2**k for k, p in enumerate(PASSES) if p.label and p.label != "Combined"}
+    assert {i[0]: i[-1] for i in PASS_ITEMS} == bits
+    assert [i[0] for i in SWEEPS] == [s.name for s in sweeps.SCENARIOS]
+    assert [i[0] for i in MAPS] == [m.name for m in sweeps.MAPS]
+    width, samples = (SAID["trade"][name]["default"] for name in ("width", "samples"))
+    assert (width, samples) == (tradeoff.WIDTH, tradeoff.SAMPLES)
+    assert SAID["explain"]["limit"]["default"] == LIMIT
+    assert all(SAID["explain"]["filepath"]["description"].count(e) for e in WRITERS)
 
 
 @pytest.mark.parametrize(("name", "value"), CASES)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 from reference_tracer.blender import results
-from reference_tracer.compare.comparison import Comparison
+from reference_tracer.blender.results import Kind
 
 PICTURE = np.ones((4, 6, 4), np.float32)
 
@@ -44,6 +44,6 @@ def test_another_file_has_no_result(build, compare):
     build.solids()
     build.corner_camera()
     results.keep_comparison(bpy.context, compare())
-    assert results.latest(Comparison, bpy.context.scene)
+    assert results.latest(Kind.COMPARISON, bpy.context.scene)
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(Comparison, bpy.context.scene) is None
+    assert results.latest(Kind.COMPARISON, bpy.context.scene) is None

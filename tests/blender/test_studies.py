@@ -11,9 +11,8 @@ from urllib.request import url2pathname
 import bpy
 import pytest
 from reference_tracer.blender import commands, results
+from reference_tracer.blender.results import Kind
 from reference_tracer.study import extremes
-from reference_tracer.study.extremes import BreakingPoint
-from reference_tracer.study.trade import Trade
 
 from .test_unchanged import differences, state
 
@@ -47,14 +46,14 @@ def test_trade_shows_its_table_and_plot_and_changes_nothing(solids, tmp_path):
     before = state()
     out = tmp_path / "out"
     assert bpy.ops.reference_tracer.trade(directory=str(out), **SMALL) == {"FINISHED"}
-    found = results.latest(Trade, solids)
+    found = results.latest(Kind.TRADE, solids)
     assert len(found.content.whole) == 9
     assert found.content.whole[0].width == 16
     assert found.lines == (found.content.advice,)
     assert differences(before, state()) == []
     assert {p.name for p in out.iterdir()} == TRADE_FILES
     plot = (out / "tradeoff.svg").read_text(encoding="utf-8")
-    assert plot in page_of(Trade, solids) and found.content.scene in plot
+    assert plot in page_of(Kind.TRADE, solids) and found.content.scene in plot
     written = json.loads((out / "tradeoff.json").read_text(encoding="utf-8"))
     assert written["scene"] == solids.name
     assert written["advice"] == found.content.advice
@@ -67,23 +66,23 @@ def test_trade_of_a_scene_that_cannot_be_traced(solids):
     with pytest.raises(RuntimeError, match="has no camera"):
         bpy.ops.reference_tracer.trade(**SMALL)
     assert differences(before, state()) == []
-    assert results.latest(Trade, solids) is None
+    assert results.latest(Kind.TRADE, solids) is None
 
 
 def test_extremes_shows_its_table_and_pictures_and_changes_nothing(solids):
     before = state()
     assert bpy.ops.reference_tracer.extremes(**FEW) == {"FINISHED"}
-    points = results.latest(BreakingPoint, solids).content
+    points = results.latest(Kind.BREAKING_POINTS, solids).content
     assert {p.scenario for p in points} == {"closed_fan"}
     assert [p.never for p in points if p.method == "certified"] == [True]
-    assert page_of(BreakingPoint, solids).count("<svg") == 2
+    assert page_of(Kind.BREAKING_POINTS, solids).count("<svg") == 2
     assert differences(before, state()) == []
 
 
 def test_extremes_shows_a_map_of_two_scales(solids):
     bpy.ops.reference_tracer.extremes(scenario="angle_and_aspect", rays=6)
-    assert page_of(BreakingPoint, solids).count("<svg") == 1
-    assert results.latest(BreakingPoint, solids).content == ()
+    assert page_of(Kind.BREAKING_POINTS, solids).count("<svg") == 1
+    assert results.latest(Kind.BREAKING_POINTS, solids).content == ()
 
 
 def test_extremes_writes_what_reftrace_does(solids, tmp_path):
@@ -105,9 +104,9 @@ def test_a_folder_that_cannot_be_written_is_known_before_the_work(run, options, 
 
 def test_results_go_with_their_file(solids):
     bpy.ops.reference_tracer.extremes(**FEW)
-    assert results.latest(BreakingPoint, bpy.context.scene) is not None
+    assert results.latest(Kind.BREAKING_POINTS, bpy.context.scene) is not None
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(BreakingPoint, bpy.context.scene) is None
+    assert results.latest(Kind.BREAKING_POINTS, bpy.context.scene) is None
 
 
 def test_the_commands(solids, tmp_path, capsys):

@@ -20,7 +20,7 @@ from story import (
 )
 
 BUTTON = 44  # pixels from the top of the image editor's sidebar to the middle of our button
-DERIVATION = "explain.derivation.Derivation"
+DERIVATION = "PIXEL"
 
 
 def area_of(kind):

@@ -16,6 +16,7 @@ import bpy
 sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
 import hard_stories
+import house_stories
 import inspector_stories
 import interruption_stories
 import page_stories
@@ -29,6 +30,7 @@ STORIES = {
     for module in (
         stories,
         hard_stories,
+        house_stories,
         inspector_stories,
         interruption_stories,
         page_stories,

@@ -130,14 +130,14 @@ def engines():
     noted["pressed"] = list(invoke("compare_all"))
 
     def compared_all():
-        return result("compare.engines.EngineRow") is not None
+        return result("ENGINES") is not None
 
     yield from until(compared_all)
     yield 1
     after = settings(), data_blocks()
     noted["changed"] = {k: (before[0][k], v) for k, v in after[0].items() if before[0][k] != v}
     noted["new"] = {k: v for k, v in after[1].items() if v != before[1][k]}
-    noted["rows"] = [row.to_dict() for row in result("compare.engines.EngineRow").content]
+    noted["rows"] = [row.to_dict() for row in result("ENGINES").content]
     yield from open_tab()
     screenshot("engines")
 
@@ -154,7 +154,7 @@ def animation():
     noted["pressed"] = list(invoke("compare_animation"))
 
     def some_are_done():
-        found = result("compare.animation.FrameRow")
+        found = result("FRAMES")
         return found and len(found.content[1]) > 2
 
     def stopped():
@@ -164,7 +164,7 @@ def animation():
     screenshot("animation_running")
     press("Escape")
     yield from until(stopped)
-    page, rows = result("compare.animation.FrameRow").content
+    page, rows = result("FRAMES").content
     noted["frames"] = [row.frame for row in rows]
     noted["on_disk"] = sorted(p.parent.name for p in page.parent.glob("*/made_by.json"))
     noted["page"] = page.read_text(encoding="utf-8")

@@ -1,8 +1,8 @@
 """What stories share: the window, the keyboard, waiting, and what must stay as it was."""
 
 import hashlib
+import importlib
 import subprocess
-import sys
 import time
 from pathlib import Path
 
@@ -101,14 +101,14 @@ def reports():
 
 
 def module(name):
-    """A module of the installed extension."""
-    return sys.modules[f"{MODULE}.addon.{name}"]
+    """A module of the installed extension, which imports most of its own late."""
+    return importlib.import_module(f"{MODULE}.addon.{name}")
 
 
-def result(kind="compare.comparison.Comparison"):
-    """The latest result of a kind, by its class."""
-    path, name = kind.rsplit(".", 1)
-    return module("blender.results").latest(getattr(module(path), name), window().scene)
+def result(kind="COMPARISON"):
+    """The latest result of a kind."""
+    results = module("blender.results")
+    return results.latest(results.Kind[kind], window().scene)
 
 
 def compared():

@@ -25,7 +25,7 @@ from story import (
     window,
 )
 
-TRADE, EXTREMES = "study.trade.Trade", "study.extremes.BreakingPoint"
+TRADE, EXTREMES = "TRADE", "BREAKING_POINTS"
 SMALL = {"width": 48, "samples": 2}
 
 

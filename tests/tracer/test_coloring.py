@@ -16,7 +16,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.render import render, steps
 from reference_tracer.tracer.settings import Settings
 
-SHAPES = [c for c in Color if c.function]
+SHAPES = [c for c in Color if c != Color.OBJECT]
 ROUNDING = 1e-6  # of float32, in which a frame has its colours
 
 

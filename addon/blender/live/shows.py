@@ -1,4 +1,4 @@
-"""What a 3D view in Rendered mode can show: a record and a function each.
+"""What a 3D view in Rendered mode can show: a function each.
 
 A function fills a picture in steps. All but the picture of F12 show how each pixel came about: by
 the one ray through its centre.
@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,16 +53,8 @@ class Picture:
         return cls(color, done, space, is_coarse)
 
 
-class Show(NamedTuple):
-    """One thing to show; `steps` fills a picture in steps of some milliseconds, with the share."""
-
-    identifier: str
-    label: str
-    description: str
-    number: int  # what a .blend stores: one that was given away is never given to another
-    steps: Callable[[Scene, Settings, Picture], Iterator[float]]
-
-
+# Fills a picture in steps of some milliseconds, with the share.
+Steps = Callable[[Scene, Settings, Picture], Iterator[float]]
 Rows = Callable[[Frame, slice], NDArray]  # what is shown of rows of a frame, linear RGBA
 
 
@@ -156,26 +147,11 @@ def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Wor
     return frame
 
 
-_WRONG = (
-    "What the method makes, dimmed; red where it sees another surface than is proven. Counted in "
-    "the view's corner"
-)
-_DIFFERENCE = (
-    "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that differ "
-    "have the colour of their cause, as in a comparison"
-)
-_CERTAINTY = (
-    "How each pixel was decided: dark by an error bound, blue by integers, yellow by a rule, as "
-    "the ray meets an edge or two surfaces at once"
-)
-SHOWS = (
-    Show("PICTURE", "Picture", "What a render shows", 0, picture),
-    Show("WRONG", "Wrong Pixels", _WRONG, 1, wrong_pixels),
-    Show("DIFFERENCE", "Difference to Blender's Viewport", _DIFFERENCE, 2, difference),
-    Show("CERTAINTY", "Certainty", _CERTAINTY, 3, certainty),
-    # The others follow, in the order of their numbers, from 4 on.
-    *(
-        Show(c.name, c.capitalize(), c.description, 4 + c.number, partial(colored, c))
-        for c in Color
-    ),
-)
+# By its identifier in `properties.toml`, which says what there is to say of each.
+SHOWS: dict[str, Steps] = {
+    "PICTURE": picture,
+    "WRONG": wrong_pixels,
+    "DIFFERENCE": difference,
+    "CERTAINTY": certainty,
+    **{color.name: partial(colored, color) for color in Color},
+}

@@ -36,7 +36,7 @@ class Wanted(NamedTuple):
     camera: str  # all that it has
     version: int  # of the scene
     settings: Settings
-    show: shows.Show
+    show: shows.Steps
     space: int  # the address of the view's
 
 
@@ -51,7 +51,7 @@ class Job:
         corner = scene.camera.region
         self.place = corner.x0 * width, corner.y0 * height, width, height
         self.picture = shows.Picture.empty(scene.camera, wanted.space, factor > 1)
-        self._work = wanted.show.steps(scene, wanted.settings, self.picture)
+        self._work = wanted.show(scene, wanted.settings, self.picture)
 
     def step(self) -> None:
         """Do one step of the work; a generator that has ended holds nothing."""
@@ -118,9 +118,9 @@ class LiveView:
         scene, space = context.scene, context.space_data
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
-        show = next(s for s in shows.SHOWS if s.identifier == scene.reference_tracer.show)
+        show = shows.SHOWS[scene.reference_tracer.show]
         version, view = self._kept.version, space.as_pointer()
-        if show.steps is shows.difference:  # of which a part is Blender's
+        if show is shows.difference:  # of which a part is Blender's
             version += self._kept.drawings
         wanted = Wanted(str(camera.to_dict()), version, settings, show, view)
         if self._wanted != wanted:
