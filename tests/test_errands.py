@@ -61,6 +61,10 @@ PASS = {
         '    Pass("rows_done"),\n',
         '    Pass("twice", "Twice"),\n',
     ),
+    "blender/properties.toml": (
+        "]\n\n# identifier, name, description\nsources",
+        '  ["Twice", "Twice", "Two times t", 0x400],\n',
+    ),
 }
 SEES_PASS = """
 frame = render(scene, Settings("textbook"))
