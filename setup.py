@@ -5,6 +5,7 @@ PACKAGES = {  # by the folder that each stands in
     "addon": "reference_tracer",
     "grading": "reference_tracer_grading",
     "benchmarks": "reference_tracer_benchmarks",
+    "cluster": "reference_tracer_cluster",
 }
 found = [f"{name}.{sub}" for folder, name in PACKAGES.items() for sub in find_packages(folder)]
 setup(packages=[*PACKAGES.values(), *found])

@@ -60,6 +60,8 @@ def parser(argv: Sequence[str]) -> Parser:
         own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         if name == asked and file:
             getattr(import_module(f"{__package__}.commands.{file}"), f"add_{name}")(own)
+            for found in entry_points(group="reference_tracer.options"):
+                found.load()(own, name)
         elif name == asked:
             installed[name].load().add(own)
     return out

@@ -19,7 +19,7 @@ from reference_tracer.tracer.progress import Work
 
 from .children import one_core
 from .peers import MissingPeerError, missing
-from .plan import COMMANDS, Plan
+from .plan import COMMANDS, SPREAD, Plan
 from .rounds import Runner, in_rounds, ratio
 from .rows import Bench, CommandRow
 from .window import WINDOW, in_the_window
@@ -43,7 +43,8 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
     cache : Path
         The folder for what commands read and write.
     """
-    if not plan.commands:
+    wanted = [c for c in COMMANDS if c in plan.commands and c not in (*WINDOW, SPREAD)]
+    if not wanted:
         return
     with one_core():
         try:
@@ -51,7 +52,6 @@ def measure_commands(plan: Plan, bench: Bench, cache: Path) -> Work[None]:
         except MissingPeerError as error:
             bench.note(f"commands: {error}")
             return
-        wanted = [name for name in COMMANDS if name in plan.commands and name not in WINDOW]
         ruler = Runner(partial(cpu_seconds, [sys.executable, "-c", RULER]))
         runners = {name: Runner(_work(name, files)) for name in wanted}
         budget = plan.budget * (1 + len(wanted))

@@ -29,12 +29,14 @@ QUICK_COMMANDS = (
     "F12, 1920 x 1080",
     "F12, 1920 x 1080, the picture alone",
 )
+SPREAD = "local:2, times one process (seconds as waited)"  # see `spread.py`
 COMMANDS = (
     *QUICK_COMMANDS,
     "compare suzanne, 960 x 540",
     "compare 12 triangles, 1920 x 1080",
     "compare 385,000 pixels that one cause excuses",
     *WINDOW,
+    SPREAD,
 )
 
 
@@ -91,6 +93,8 @@ def plan(names: list[str] | None = None, quick: bool = False, repeats: int | Non
     """
     if repeats is not None and repeats < 1:
         raise SceneError(f"--repeats is {repeats}; it must be at least 1")
+    if names == ["spread"]:  # alone
+        return Plan((), quick, repeats or REPEATS, 0.0, 0.0, commands=(SPREAD,))
     chosen = [scenes.subject(name).name for name in dict.fromkeys(names or _default(quick))]
     cases = [case for name in chosen for case in (_quick if quick else _whole)(name)]
     commands = () if names else QUICK_COMMANDS if quick else COMMANDS

@@ -17,6 +17,7 @@ from .measure import METHODS, measure
 from .plan import Plan, plan
 from .report import load, write_json
 from .rows import Bench, machine
+from .spread import measure_spread
 
 SCENES = 0.8  # their share of the time, about
 
@@ -66,4 +67,5 @@ def run(
 def _all(wanted: Plan, bench: Bench, directory: Path) -> Work[None]:
     share = SCENES if wanted.commands else 1.0
     yield from scaled(measure(wanted, bench, directory), 0.0, share)
-    yield from scaled(measure_commands(wanted, bench, directory), share, 1 - share)
+    yield from scaled(measure_commands(wanted, bench, directory), share, (1 - share) / 2)
+    yield from scaled(measure_spread(wanted, bench, directory), (1 + share) / 2, (1 - share) / 2)

@@ -22,6 +22,7 @@ from .compare import compare_to_folder, made_folder
 from .stepping import bake_bodies, visited
 from .temporary import values_kept
 
+_NOT_MADE_BY = "frames", "out", "scheduler", "verify"  # options by which no frame is another
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
 
 
@@ -113,7 +114,7 @@ def _made_by(options: Any) -> dict[str, Any]:
     typed = {
         k: str(v)
         for k, v in vars(options).items()
-        if v is not None and not (callable(v) or isinstance(v, Path) or k in ("frames", "out"))
+        if v is not None and not (callable(v) or isinstance(v, Path) or k in _NOT_MADE_BY)
     }
     return {
         "versions": [sys.modules[_ADDON].__version__, bpy.app.version_string],

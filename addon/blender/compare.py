@@ -25,6 +25,7 @@ from ..report import folders, page
 from ..scene import Scene, SceneError
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
+from ..tracer.render import Tracer
 from ..tracer.settings import Settings
 from .camera import export_camera
 from .drawings import Drawing, with_identity, with_what_draws_itself
@@ -50,6 +51,7 @@ def gather_case(
     as_is: bool | None = None,
     identity: bool | None = None,
     self_check: bool | None = None,
+    tracer: Tracer | None = None,
 ) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
 
@@ -111,7 +113,10 @@ def gather_case(
     if there != [o.name_full for o in scene.objects]:
         manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(scene)))
     return Case(
-        with_planes, manifest, settings, shown, certificate, self_check=checked, next_frame=later
+        *(with_planes, manifest, settings, shown, certificate),
+        self_check=checked,
+        next_frame=later,
+        tracer=tracer,
     )
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import os
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -56,12 +58,16 @@ def run(options: argparse.Namespace) -> int:
         if file and file.resolve() in [out / name for name in comparison_report.NAMES]:
             raise SceneError(f"'{file}' is called as a result: choose another --out, or rename it")
     written = comparison_report.failure_written(options.out)  # but for an animation
-    with folders.made(Path(options.out)), written if options.frames is None else nullcontext():
+    with (
+        folders.made(Path(options.out)),
+        written if options.frames is None else nullcontext(),
+        options.place(options) as place,
+    ):
         import_trimesh()  # which diagnoses the meshes
-        return _with_blender(options) if options.against is None else _against(options)
+        return (_with_blender if options.against is None else _against)(options, place)
 
 
-def _with_blender(options: argparse.Namespace) -> int:
+def _with_blender(options: argparse.Namespace, place: dict[str, Any]) -> int:
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -76,6 +82,7 @@ def _with_blender(options: argparse.Namespace) -> int:
             "as_is": options.as_is or None,
             "identity": options.identity,
             "self_check": options.self_check,
+            **place,
         }
         judge = options.judge.upper() if options.judge else None
         if options.frames:
@@ -91,12 +98,12 @@ def _with_blender(options: argparse.Namespace) -> int:
         return _told_comparison(options, result_of(work, progress))
 
 
-def _against(options: argparse.Namespace) -> int:
+def _against(options: argparse.Namespace, place: dict[str, Any]) -> int:
     """Compare with a picture of unknown make."""
     picture = images.read_picture(options.against)
     with progress_bar() as progress:
         of = _blend if options.scene.suffix.lower() == ".blend" else _file
-        comparison = result_of(of(options, picture), progress)
+        comparison = result_of(of(options, picture, place), progress)
         finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
     comparison_report.write(options.out, comparison, extras)
@@ -115,7 +122,9 @@ def _told(options: argparse.Namespace, verdict: str, *pages: Path) -> int:
     return EXIT_CODES[verdict]
 
 
-def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
+def _blend(
+    options: argparse.Namespace, picture: images.StoredPicture, place: dict[str, Any]
+) -> Work[Comparison]:
     with open_blend(options.scene, choice_from(options)) as blender:
         from ..blender.against import gather_against
         from ..blender.camera import export_camera
@@ -127,14 +136,17 @@ def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[C
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = settings_from(options, context.scene.reference_tracer.settings())
         case = gather_against(context, shown, settings, bool(options.self_check))
-        return (yield from compared(case))
+        return (yield from compared(replace(case, **place)))
 
 
-def _file(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
+def _file(
+    options: argparse.Namespace, picture: images.StoredPicture, place: dict[str, Any]
+) -> Work[Comparison]:
     scene, stored = load(options.scene, choice_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     settings, shown = settings_from(options, stored), _shown(options, picture, scene.camera)
-    case = Case(scene, manifest, settings, shown, curves=(), self_check=bool(options.self_check))
+    checked = bool(options.self_check)
+    case = Case(scene, manifest, settings, shown, curves=(), self_check=checked, **place)
     return (yield from trace_and_compare(case))
 
 

@@ -42,8 +42,8 @@ def trace(options: argparse.Namespace) -> None:
             raise SceneError("--check-rounding is about proven pixels: --method certified has them")
         if options.rows:
             scene = _rows_alone(scene, settings.color, *options.rows)
-        with progress_bar() as progress:
-            frame = render(scene, settings, progress)
+        with options.place(options) as place, progress_bar() as progress:
+            frame = render(scene, settings, progress, **place)
             if options.check_rounding:
                 checked = result_of(check_rounding(scene, frame), progress)
         with folders.replacing_file(options.out) as new:

@@ -32,8 +32,8 @@ def trade(options: argparse.Namespace) -> None:
     with folders.made(Path(options.out)) if options.out else nullcontext():
         scene, _ = load(options.scene, choice_from(options, options.scene))
         samples = settings_from(options, Settings(samples=tradeoff.SAMPLES)).samples
-        with progress_bar() as progress:
-            work = tradeoff.measure(scene, options.width, samples, options.scene.name)
+        with options.place(options) as place, progress_bar() as progress:
+            work = tradeoff.measure(scene, options.width, samples, options.scene.name, **place)
             found = result_of(work, progress)
         print(report.table(found))
         if options.out:
@@ -53,8 +53,8 @@ def extremes(options: argparse.Namespace) -> None:
     from ..study.extremes import measure
 
     with folders.made(Path(options.out)):
-        with progress_bar() as progress:
-            rows = result_of(measure(rays=options.rays), progress)
+        with options.place(options) as place, progress_bar() as progress:
+            rows = result_of(measure(rays=options.rays, **place), progress)
         print(report.breaking_table(rows))
         report.write(options.out, rows)
         print(f"written to {options.out}")

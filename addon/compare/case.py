@@ -13,6 +13,7 @@ from ..manifest import Effect, Manifest
 from ..scene import Scene
 from ..tracer.coloring import Color
 from ..tracer.hits import NOTHING
+from ..tracer.render import Tracer
 from ..tracer.settings import Settings
 from .certificate import CameraCertificate
 from .picture import Curve, Picture
@@ -41,6 +42,7 @@ class Case:
     curves: tuple[Curve, ...] | None = None
     self_check: bool = False  # known faults are to be made, and found
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
+    tracer: Tracer | None = None  # where whole pictures are traced, if not here
 
     def __post_init__(self) -> None:
         if self.settings.color != Color.OBJECT:

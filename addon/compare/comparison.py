@@ -245,11 +245,11 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     region = case.scene.camera.region
     check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # frames ask for theirs again
     frame = Frame.empty(case.scene)
-    tracing = steps(case.scene, case.settings, frame)
+    tracing = steps(case.scene, case.settings, frame, case.tracer)
     checking = _CHECKING if case.self_check else 0.0
     first, second = ((1 - checking) * share for share in (_TRACING, _METHODS))
     yield from scaled(tracing, 0.0, first)
-    listing = list_methods(case.scene, case.settings, frame)
+    listing = list_methods(case.scene, case.settings, frame, case.tracer)
     rows, textbook = yield from scaled(listing, first, second)
     found = yield from scaled(compare(case, frame), first + second, 1 - first - second)
     return replace(found, methods=rows, textbook=textbook)

@@ -9,7 +9,7 @@ from ..scene import Scene
 from ..tracer.certified.certainty import Certainty, broken_assumptions
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
+from ..tracer.render import Tracer, steps
 from ..tracer.settings import Precision, Settings
 
 
@@ -36,7 +36,7 @@ class MethodRow(NamedTuple):
 
 
 def list_methods(
-    scene: Scene, settings: Settings, frame: Frame
+    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
 ) -> Work[tuple[tuple[MethodRow, ...], Frame]]:
     """Trace a scene by the textbook and certified, too; yields the share of the work done.
 
@@ -50,7 +50,7 @@ def list_methods(
     missing = [w for w in wanted if w != own]
     for number, key in enumerate(missing):
         frames[key] = Frame.empty(scene)
-        tracing = steps(scene, Settings(*key), frames[key])
+        tracing = steps(scene, Settings(*key), frames[key], tracer)
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
     truth = frames[wanted[0]] if Method.CERTIFIED in possible else None
     rows = tuple(

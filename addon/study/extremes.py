@@ -8,7 +8,7 @@ it is known how often a ray must cross the scene's surfaces, even or odd, on all
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -66,6 +66,11 @@ class ExtremesRow:
         return self.lost / self.rays
 
 
+Scenes = Sequence[tuple[Scenario, float]]
+# Finds the rows of all scenes, in their order; its parameters are as of `measure`.
+Every = Callable[[Scenes, int | None, int], Work[list[ExtremesRow]]]
+
+
 class BreakingPoint(NamedTuple):
     """The first scale of a scenario at which a method goes wrong, each way; None for never."""
 
@@ -110,7 +115,10 @@ def written(scale: float | None) -> str:
 
 
 def measure(
-    scenarios: Sequence[Scenario] = ALL, rays: int | None = None, judged: int = JUDGED
+    scenarios: Sequence[Scenario] = ALL,
+    rays: int | None = None,
+    judged: int = JUDGED,
+    every: Every | None = None,
 ) -> Work[list[ExtremesRow]]:
     """Trace every scenario at every scale by every method; yields the share of the work done.
 
@@ -121,25 +129,35 @@ def measure(
         About as many of each scene, instead of its own number.
     judged : int
         Rays of each scene about which the oracle is asked.
+    every : Every, optional
+        Where the rows are found, if not here.
 
     Raises
     ------
     certainty.AssumptionError
         If nothing can be certified in this process.
     """
-    rows: list[ExtremesRow] = []
     scenes = [(s, scale) for s in scenarios for scale in s.scales]
+    if every:
+        return (yield from every(scenes, rays, judged))
+    rows: list[ExtremesRow] = []
     for done, (scenario, scale) in enumerate(scenes):
-        width, height = _size(scenario, rays)
-        scene = scenario.build(scale, width, height)
-        begun, step = done / len(scenes), 1 / len(scenes) / (len(PLAIN_SETTINGS) + 1)
-        truth = yield from scaled(truth_of(scene), begun, step)
-        for k, settings in enumerate(PLAIN_SETTINGS, start=1):
-            yield begun + k * step
-            rows.append(_plain_row(scenario, scale, truth, settings))
-        rows.append(_certified_row(scenario, scale, truth, judged))
+        work = rows_of(scenario, scale, rays, judged)
+        rows += yield from scaled(work, done / len(scenes), 1 / len(scenes))
     yield 1.0
     return rows
+
+
+def rows_of(
+    scenario: Scenario, scale: float, rays: int | None, judged: int
+) -> Work[list[ExtremesRow]]:
+    """Trace a scenario at a scale by every method; parameters are as of :func:`measure`."""
+    scene, step = scenario.build(scale, *_size(scenario, rays)), 1 / (len(PLAIN_SETTINGS) + 1)
+    truth, rows = (yield from scaled(truth_of(scene), 0.0, step)), []
+    for k, settings in enumerate(PLAIN_SETTINGS, start=1):
+        yield k * step
+        rows.append(_plain_row(scenario, scale, truth, settings))
+    return [*rows, _certified_row(scenario, scale, truth, judged)]
 
 
 def _size(scenario: Scenario, rays: int | None) -> tuple[int, int]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 import tracemalloc
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from statistics import median
 
@@ -47,7 +48,7 @@ BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 
 @dataclass(eq=False)
-class _Choice:
+class Choice:
     """A row on its way."""
 
     settings: Settings
@@ -63,6 +64,7 @@ class _Choice:
         return self.settings.samples**2 * (camera.width * camera.height + self.scene.triangle_count)
 
     def row(self) -> TradeRow:
+        """Return the row."""
         s, camera, (wrong, t_error, coverage) = self.settings, self.scene.camera, self.errors
         return TradeRow(
             *(s.method.value, s.precision.value, s.samples, camera.width, camera.height),
@@ -70,8 +72,16 @@ class _Choice:
         )
 
 
+# Measures choices against the converged colour of the largest picture: a row each.
+Every = Callable[[list[Choice], NDArray[np.float64]], Work[list[TradeRow]]]
+
+
 def measure(
-    scene: Scene, width: int | None = None, samples: int = SAMPLES, name: str = ""
+    scene: Scene,
+    width: int | None = None,
+    samples: int = SAMPLES,
+    name: str = "",
+    every: Every | None = None,
 ) -> Work[Trade]:
     """Measure what a scene's user can trade; closed before its end, it leaves nothing behind.
 
@@ -86,6 +96,8 @@ def measure(
         Up to `samples` x `samples` a pixel are measured.
     name : str
         Of the scene, for those who read the result.
+    every : Every, optional
+        Where the rows are measured, if not here.
 
     Raises
     ------
@@ -99,22 +111,27 @@ def measure(
     pixels, each = camera.width * camera.height, sum(c.cost for c in choices)
     k = max(2 * samples, min(CONVERGED, int((CONVERGED_RAYS / pixels) ** 0.5)))
     rays = k * k * pixels
-    first, second = (cost / (rays + 6 * each) for cost in (rays, 2 * each))
+    first = rays / (rays + 6 * each)
     truth = yield from scaled(converged(choices[0].scene, k), 0.0, first)
-    yield from scaled(_look_at_all(choices, truth), first, second)
-    yield from scaled(_time_all(choices), first + second, 1 - first - second)
-    rows = mark([choice.row() for choice in choices])
+    rows = mark((yield from scaled((every or rows_of)(choices, truth), first, 1 - first)))
     return Trade(name, rows, advice(rows), k)
 
 
-def choose(scene: Scene, width: int, samples: int) -> list[_Choice]:
+def rows_of(choices: list[Choice], truth: NDArray[np.float64]) -> Work[list[TradeRow]]:
+    """Measure choices; of a width the certified ones are what the others are held against."""
+    yield from scaled(_look_at_all(choices, truth), 0.0, 1 / 3)
+    yield from scaled(_time_all(choices), 1 / 3, 2 / 3)
+    return [choice.row() for choice in choices]
+
+
+def choose(scene: Scene, width: int, samples: int) -> list[Choice]:
     """Return what is measured, the largest picture first."""
     ladder = [*PLAIN_SETTINGS, Settings(Method.CERTIFIED)]
     widths = sorted({-(-width // share) for share in SMALLER}, reverse=True)
     scenes = [at_width(scene, w) for w in widths]
-    found = [_Choice(s, small) for small in scenes for s in ladder]
+    found = [Choice(s, small) for small in scenes for s in ladder]
     more = [replace(s, samples=n) for n in levels(samples) if n > 1 for s in SAMPLED]
-    return found + [_Choice(s, scenes[0]) for s in more]
+    return found + [Choice(s, scenes[0]) for s in more]
 
 
 def at_width(scene: Scene, width: int) -> Scene:
@@ -176,7 +193,7 @@ def largest_t_error(frame: Frame, certified: Frame) -> float | None:
     return float(np.abs(frame.t[same] - certified.t[same]).max()) if same.any() else None
 
 
-def _look_at_all(choices: list[_Choice], truth: NDArray[np.float64]) -> Work[None]:
+def _look_at_all(choices: list[Choice], truth: NDArray[np.float64]) -> Work[None]:
     """Render each once, untimed, for its memory and its errors; only certified frames are kept."""
     total, done, certified = sum(c.cost for c in choices), 0.0, {}
     for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):  # certified first
@@ -188,7 +205,7 @@ def _look_at_all(choices: list[_Choice], truth: NDArray[np.float64]) -> Work[Non
         choice.errors = wrong, *errors
 
 
-def _look(choice: _Choice) -> Work[Frame]:
+def _look(choice: Choice) -> Work[Frame]:
     """Render with tracemalloc watching, to which numpy tells its memory."""
     ours = not tracemalloc.is_tracing()
     if ours:
@@ -210,7 +227,7 @@ def _look(choice: _Choice) -> Work[Frame]:
             tracemalloc.stop()
 
 
-def _time_all(choices: list[_Choice]) -> Work[None]:
+def _time_all(choices: list[Choice]) -> Work[None]:
     """Time all, round by round, so that a slow moment of the machine is shared.
 
     Every other round goes backwards, so that none has always the same one before it.
@@ -224,7 +241,7 @@ def _time_all(choices: list[_Choice]) -> Work[None]:
     yield 1.0
 
 
-def _repeat(choice: _Choice) -> Work[None]:
+def _repeat(choice: Choice) -> Work[None]:
     """Render once; only the steps count, not what happens between them."""
     work = steps(choice.scene, choice.settings, Frame.empty(choice.scene))
     seconds, share = 0.0, 0.0

@@ -46,12 +46,19 @@ RAYS = 1 << 23  # of a band where a pixel has many certified ones: a second or t
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, fragments, hits
 WHOLE = 0.999  # of the progress, until the picture is whole
 
+# Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).
+TraceBand = Callable[[Region, float, float], Work[Hits]]
+# Where rays are traced: prepares to trace a scene's bands, by settings whose method is one. Rays
+# pass their pixels' centres within a reach, in pixels; what it takes is counted. It is `here`.
+Tracer = Callable[[Scene, Settings, float, Statistics], Work[TraceBand]]
+
 
 def render(
     scene: Scene,
     settings: Settings | None = None,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
+    tracer: Tracer | None = None,
 ) -> Frame:
     """Trace a scene.
 
@@ -62,6 +69,8 @@ def render(
     cancelled : callable, optional
         Asked after every step; once it says True, the frame is returned with the rows that are
         done, and marked `cancelled`.
+    tracer : Tracer, optional
+        Where rays are traced, if not here.
 
     Raises
     ------
@@ -69,7 +78,7 @@ def render(
         If the method is `certified`, and this process's arithmetic allows no proof.
     """
     frame = Frame.empty(scene)
-    for share in steps(scene, settings or Settings(), frame):
+    for share in steps(scene, settings or Settings(), frame, tracer):
         if progress:
             progress(share)
         if share < 1 and cancelled and cancelled():
@@ -78,13 +87,15 @@ def render(
     return frame
 
 
-def steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
+def steps(
+    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
+) -> Iterator[float]:
     """Trace a scene into an empty frame; yields the share of the work done after each step.
 
     The caller stops by not asking for more, and then calls `frame.cancel`. What the caller does
     between two steps does not count as time.
     """
-    work, statistics = _steps(scene, settings, frame), frame.statistics
+    work, statistics = _steps(scene, settings, frame, tracer or here), frame.statistics
     share: float | None = 0.0
     while share is not None:
         began = time.perf_counter()
@@ -115,17 +126,17 @@ def trace(
     settings = resolved(settings, statistics)
     if rays:
         return result_of(trace_rays(scene, rays, settings, statistics))
-    tracer = result_of(_tracer(scene, settings, 0.0, statistics))
+    tracer = result_of(here(scene, settings, 0.0, statistics))
     found = [result_of(tracer(band, 0.0, 0.0)) for band in bands(scene.camera, settings)]
     return Hits.joined(found)
 
 
-def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
+def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> Iterator[float]:
     settings = resolved(settings, frame.statistics)
     frame.statistics.triangles = scene.triangle_count
     offsets = sample_offsets(settings.samples) if settings.samples > 1 else []
     reach = max((abs(o) for offset in offsets for o in offset), default=0.0)
-    tracer = yield from _tracer(scene, settings, reach, frame.statistics)
+    trace_band = yield from tracer(scene, settings, reach, frame.statistics)
     rounds, every = [(offsets, settings.color)], bands(scene.camera, settings)
     if settings.color is Color.DEPTH:  # whose greys are between the nearest and the farthest hit
         rounds.insert(0, ([], None))
@@ -134,15 +145,13 @@ def _steps(scene: Scene, settings: Settings, frame: Frame) -> Iterator[float]:
         depths = frame.depths() if k else (0.0, 0.0)
         shade = color and partial(color.of, scene, depths)
         for number, band in enumerate(every, start=k * len(every)):
-            work = _band(tracer, band, some, shade, frame, is_traced=k > 0)
+            work = _band(trace_band, band, some, shade, frame, is_traced=k > 0)
             yield from scaled(work, number * share, share)
     yield 1.0
 
 
-def _tracer(
-    scene: Scene, settings: Settings, reach: float, statistics: Statistics
-) -> Work[Callable[[Region, float, float], Work[Hits]]]:
-    """Prepare the settings' method; yields 0, as nothing is traced yet."""
+def here(scene: Scene, settings: Settings, reach: float, statistics: Statistics) -> Work[TraceBand]:
+    """Prepare to trace bands in this process; yields 0, as nothing is traced yet."""
     if not settings.method.is_plain:
         statistics.refused, statistics.rounding = refused(scene), str(rounding(scene))
         return lambda band, dx, dy: certified(scene, band, settings.memory // 2, dx, dy, statistics)
@@ -167,7 +176,7 @@ def resolved(settings: Settings, statistics: Statistics) -> Settings:
 
 
 def _band(
-    tracer, band: Region, offsets: list, shade: Callable | None, frame: Frame, is_traced: bool
+    trace, band: Region, offsets: list, shade: Callable | None, frame: Frame, is_traced: bool
 ) -> Work[None]:
     """Trace a band through its pixels' centres and, for its colour, at these offsets from them.
 
@@ -177,7 +186,7 @@ def _band(
     rows = slice(band.y0 - camera.region.y0, band.y1 - camera.region.y0)
     hits = frame.hits(rows)
     if not is_traced:
-        hits = yield from scaled(tracer(band, 0.0, 0.0), 0.0, share)
+        hits = yield from scaled(trace(band, 0.0, 0.0), 0.0, share)
 
     def shaded(hits: Hits, part: slice, dx: float = 0.0, dy: float = 0.0) -> NDArray[np.float32]:
         pixel = np.arange(part.start, part.start + len(hits))
@@ -185,7 +194,7 @@ def _band(
 
     color = None
     for number, (dx, dy) in enumerate(offsets, start=1):
-        other = yield from scaled(tracer(band, dx, dy), number * share, share)
+        other = yield from scaled(trace(band, dx, dy), number * share, share)
         if color is None:
             color = np.zeros((len(hits), 4))
         for part in parts(len(hits), PIXELS // 8):

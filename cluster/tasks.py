@@ -1,0 +1,122 @@
+"""What workers do: bytes, numbers and texts come in, bytes go out. None of our objects travels."""
+
+from __future__ import annotations
+
+import json
+import platform
+from collections.abc import Callable
+from dataclasses import asdict
+from functools import lru_cache, wraps
+from hashlib import sha256
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import reference_tracer
+from distributed import get_worker
+from reference_tracer.checked_json import camera_of
+from reference_tracer.scene import Region, Scene
+from reference_tracer.scene_files import load_scene
+from reference_tracer.study import extremes, tradeoff
+from reference_tracer.study.scenarios.sweeps import ALL
+from reference_tracer.tracer.hits import Statistics
+from reference_tracer.tracer.progress import Work
+from reference_tracer.tracer.render import here, resolved
+from reference_tracer.tracer.settings import Settings
+
+from .claims import Claim, packed, unpacked
+
+PROVEN = Settings("certified")
+_PACKAGES, _CODE = (reference_tracer.__file__, __file__), (".py", ".toml")
+
+
+@lru_cache(maxsize=1)
+def about() -> str:
+    """Return all that another version of may be another result, as JSON."""
+    files = sorted(f for p in _PACKAGES for f in Path(p).parent.rglob("*") if f.suffix in _CODE)
+    code = sha256("".join(f.read_text("utf-8") for f in files).encode()).hexdigest()
+    own = f"{reference_tracer.__version__} (code {code[:8]})"
+    python = ".".join(platform.python_version_tuple()[:2])
+    return json.dumps({"Reference Tracer": own, "numpy": np.__version__, "Python": python})
+
+
+def _named(task: Callable[..., bytes]) -> Callable[..., bytes]:
+    """Have a task refuse callers of another version, and say which worker has failed."""
+
+    @wraps(task)
+    def named(asked_by: str, *arguments: object) -> bytes:
+        worker = f"worker {get_worker().address}"
+        if asked_by != about():
+            raise RuntimeError(f"{worker} is of another version: {about()}, not {asked_by}")
+        try:
+            return task(*arguments)
+        except LookupError as error:
+            raise LookupError(*error.args, get_worker().address) from None
+        except Exception as error:  # with what it holds it would have to be pickled
+            raise RuntimeError(f"{worker}: {type(error).__name__}: {error}") from None
+
+    return named
+
+
+def _done(work: Work) -> object:
+    """Run work to its end, or until nobody wants it any more; returns its result."""
+    worker = get_worker()
+    own = worker.state.tasks[worker.get_current_task()]
+    while own.state == "executing":
+        try:
+            next(work)
+        except StopIteration as stop:
+            return stop.value
+    raise RuntimeError("cancelled")
+
+
+_KEPT: dict[str, bytes] = {}  # by name; the last three that came
+
+
+def keep(name: str, data: bytes) -> None:
+    """Keep bytes for tasks to come."""
+    _KEPT.pop(name, None)
+    for old in list(_KEPT)[: len(_KEPT) - 2]:
+        del _KEPT[old]
+    _KEPT[name] = data
+
+
+@lru_cache(maxsize=2)
+def _scene(name: str) -> Scene:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.npz"
+        path.write_bytes(_KEPT[name])
+        return load_scene(path)
+
+
+def _seen(scene: str, camera: str) -> Scene:
+    return _scene(scene).seen_by(camera_of(json.loads(camera)))
+
+
+@_named
+def trace(
+    scene: str, camera: str, settings: str, reach: float, region: tuple, dx: float, dy: float
+) -> bytes:
+    """Return a `Claim` of what a region's rays see."""
+    seen, statistics = _seen(scene, camera), Statistics()
+    chosen = resolved(Settings(**json.loads(settings)), statistics)
+    trace_band = _done(here(seen, chosen, reach, statistics))
+    return Claim.of(_done(trace_band(Region(*region), dx, dy)), statistics).packed()
+
+
+@_named
+def trade_row(scene: str, camera: str, settings: str, truth: str) -> bytes:
+    """Return a row of the trade, as JSON; it is held against the colour `truth` (h, w, 4)."""
+    seen, [color] = _seen(scene, camera), unpacked(_KEPT[truth], (np.float64, (None, None, 4)))
+    wanted = tradeoff.Choice(Settings(**json.loads(settings)), seen)
+    proven = tradeoff.Choice(PROVEN, seen)
+    rows = _done(tradeoff.rows_of([proven, wanted], color))[-1:]
+    return packed(np.array(json.dumps([asdict(row) for row in rows])))
+
+
+@_named
+def extremes_rows(scenario: str, scale: float, rays: int | None, judged: int) -> bytes:
+    """Return the rows of a scenario at a scale, as JSON."""
+    [wanted] = (s for s in ALL if s.name == scenario)
+    rows = _done(extremes.rows_of(wanted, scale, rays, judged))
+    return packed(np.array(json.dumps([asdict(row) for row in rows])))

@@ -1,0 +1,111 @@
+"""Real schedulers and workers of Dask, in processes of their own on this machine."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.scene import Scene
+from reference_tracer_cluster.connection import connected
+
+WAIT = 60.0  # seconds for a process to begin, on a machine with more to do
+
+
+class Dask:
+    """A scheduler, and its workers by their names; all end with it."""
+
+    def __init__(self, folder: Path, *tls: str) -> None:
+        self.folder, self.processes, self._tls = folder, {}, tls
+        told = folder / "scheduler.json"
+        self._start("scheduler", "--port", "0", "--scheduler-file", str(told))
+        self.address = self._wait(lambda: json.loads(told.read_text())["address"])
+
+    def _start(self, name: str, *options: str, **env: str) -> subprocess.Popen:
+        kind = "scheduler" if name == "scheduler" else "worker"
+        common = "--host", ("tls://" if self._tls else "") + "127.0.0.1", "--no-dashboard"
+        with open(self.folder / f"{name}.log", "wb") as log:
+            self.processes[name] = subprocess.Popen(
+                [
+                    sys.executable,
+                    "-m",
+                    f"distributed.cli.dask_{kind}",
+                    *common,
+                    *self._tls,
+                    *options,
+                ],
+                env=os.environ | env,
+                stderr=log,
+                stdout=log,
+            )
+        return self.processes[name]
+
+    def _wait(self, found):
+        """What a file of a process says, once it does."""
+        end = time.monotonic() + WAIT
+        while True:
+            try:
+                return found()
+            except (OSError, ValueError, IndexError):
+                assert time.monotonic() < end, [p.read_text() for p in self.folder.glob("*.log")]
+                time.sleep(0.05)
+
+    def work(self, name: str, *options: str, **env: str) -> str:
+        """Start a worker of one thread; returns its address once it is there."""
+        alone = "--nthreads", "1", "--no-nanny", "--name", name, "--death-timeout", "60"
+        self._start(name, self.address, *alone, *options, **env)
+        log = self.folder / f"{name}.log"
+        told = "Start worker at:"
+        self._wait(lambda: log.read_text().split("Registered to:")[1])
+        return log.read_text().split(told)[1].split()[0]
+
+    def end(self, *names: str) -> None:
+        """End processes as if by a crash: those named, or all."""
+        for name in names or list(self.processes):
+            process = self.processes.pop(name)
+            process.kill()
+            process.wait()
+
+
+@contextmanager
+def dask(folder: Path, *tls: str):
+    running = Dask(folder, *tls)
+    try:
+        yield running
+    finally:
+        running.end()
+
+
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory):
+    """A scheduler with two workers, which every test leaves as they are."""
+    with dask(tmp_path_factory.mktemp("dask")) as running:
+        running.work("first"), running.work("second")
+        yield running
+
+
+@pytest.fixture
+def cluster(shared):
+    with connected(shared.address) as found:
+        yield found
+
+
+@pytest.fixture(scope="session")
+def scene(make) -> Scene:
+    """A ball before a plane; squares in one place, and an ulp apart; a box whose edges are met."""
+    back = np.eye(4)
+    back[:3, 3] = -0.6, 0, -3
+    ball = make.mesh(trimesh.creation.icosphere(3, radius=0.8), back)
+    back[0, 3] = 1.0
+    box = make.mesh(trimesh.creation.box((0.5, 0.5, 0.5)), back)
+    square = make.quad(-0.5, 1, -1, -0.5, -3)
+    behind = make.quad(-0.5, 0.2, -0.7, -0.5, np.nextafter(-3, 0))
+    planes = [((0, 0, -5), (0, 0.3, 1))]
+    return make.scene(make.camera(48, 36), ball, box, square, square, behind, planes=planes)
