@@ -7,7 +7,6 @@ import os
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -61,13 +60,13 @@ def run(options: argparse.Namespace) -> int:
     with (
         folders.made(Path(options.out)),
         written if options.frames is None else nullcontext(),
-        options.place(options) as place,
+        options.place(options) as options.placed,
     ):
         import_trimesh()  # which diagnoses the meshes
-        return (_with_blender if options.against is None else _against)(options, place)
+        return _with_blender(options) if options.against is None else _against(options)
 
 
-def _with_blender(options: argparse.Namespace, place: dict[str, Any]) -> int:
+def _with_blender(options: argparse.Namespace) -> int:
     if options.scene.suffix.lower() != ".blend":
         raise SceneError(
             f"'{options.scene}' is not a .blend: Blender draws only those. Name a picture of it "
@@ -82,7 +81,7 @@ def _with_blender(options: argparse.Namespace, place: dict[str, Any]) -> int:
             "as_is": options.as_is or None,
             "identity": options.identity,
             "self_check": options.self_check,
-            **place,
+            **options.placed,
         }
         judge = options.judge.upper() if options.judge else None
         if options.frames:
@@ -98,12 +97,12 @@ def _with_blender(options: argparse.Namespace, place: dict[str, Any]) -> int:
         return _told_comparison(options, result_of(work, progress))
 
 
-def _against(options: argparse.Namespace, place: dict[str, Any]) -> int:
+def _against(options: argparse.Namespace) -> int:
     """Compare with a picture of unknown make."""
     picture = images.read_picture(options.against)
     with progress_bar() as progress:
         of = _blend if options.scene.suffix.lower() == ".blend" else _file
-        comparison = result_of(of(options, picture, place), progress)
+        comparison = result_of(of(options, picture), progress)
         finding = page.extras(comparison, options.trade, options.extremes)
         extras = result_of(finding, progress)
     comparison_report.write(options.out, comparison, extras)
@@ -122,9 +121,7 @@ def _told(options: argparse.Namespace, verdict: str, *pages: Path) -> int:
     return EXIT_CODES[verdict]
 
 
-def _blend(
-    options: argparse.Namespace, picture: images.StoredPicture, place: dict[str, Any]
-) -> Work[Comparison]:
+def _blend(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
     with open_blend(options.scene, choice_from(options)) as blender:
         from ..blender.against import gather_against
         from ..blender.camera import export_camera
@@ -136,18 +133,15 @@ def _blend(
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = settings_from(options, context.scene.reference_tracer.settings())
         case = gather_against(context, shown, settings, bool(options.self_check))
-        return (yield from compared(replace(case, **place)))
+        return (yield from compared(replace(case, **options.placed)))
 
 
-def _file(
-    options: argparse.Namespace, picture: images.StoredPicture, place: dict[str, Any]
-) -> Work[Comparison]:
+def _file(options: argparse.Namespace, picture: images.StoredPicture) -> Work[Comparison]:
     scene, stored = load(options.scene, choice_from(options, options.scene))
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     settings, shown = settings_from(options, stored), _shown(options, picture, scene.camera)
-    checked = bool(options.self_check)
-    case = Case(scene, manifest, settings, shown, curves=(), self_check=checked, **place)
-    return (yield from trace_and_compare(case))
+    case = Case(scene, manifest, settings, shown, curves=(), self_check=bool(options.self_check))
+    return (yield from trace_and_compare(replace(case, **options.placed)))
 
 
 def _shown(
