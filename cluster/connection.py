@@ -18,6 +18,7 @@ from reference_tracer.images import MissingLibraryError
 from reference_tracer.scene import SceneError
 
 try:
+    import dask.config
     from distributed import Client, LocalCluster, Security
     from distributed.comm import CommClosedError
     from distributed.core import rpc
@@ -101,7 +102,9 @@ def _security(address: str) -> dict[str, Security]:
 @contextmanager
 def _processes(count: int) -> Iterator[LocalCluster]:
     """Start workers in processes of this machine that nobody else reaches, and end them."""
-    with _deaf():
+    # Dask would have malloc give memory back at once: page faults would take as long as tracing.
+    kept = {"distributed.nanny.pre-spawn-environ": {"OMP_NUM_THREADS": 1}}
+    with _deaf(), dask.config.set(kept):
         own = LocalCluster(
             n_workers=count,
             threads_per_worker=1,
