@@ -14,11 +14,7 @@ from .properties import MAPS, SAID, SWEEPS
 
 _TRADE, _EXTREMES, _SCENE = (SAID[of] for of in ("trade", "extremes", "extreme_scene"))
 EVERY = "ALL"  # in place of a scenario's name
-STUDIES = [
-    (EVERY, "All", "Every scenario, and the maps of two scales at once"),
-    *SWEEPS,
-    *MAPS,
-]
+STUDIES = [(EVERY, "All", "Every scenario, and the maps of two scales at once"), *SWEEPS, *MAPS]
 
 
 @named
