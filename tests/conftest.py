@@ -24,13 +24,14 @@ MARKED = {  # all tests of a folder
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config, log):
-    """Keep the tests of a file in one worker, and all that share the window's Blender."""
+    """Keep the tests of a file in one worker, and all that share a Blender's window or Dask."""
     from xdist.scheduler import LoadScopeScheduling
 
     class Together(LoadScopeScheduling):
         def _split_scope(self, nodeid):
             file = nodeid.split("::")[0]
-            return "tests/gui" if file.startswith("tests/gui/") else file
+            folder = file.rpartition("/")[0]
+            return folder if folder in ("tests/gui", "tests/cluster") else file
 
     return Together(config, log)
 
@@ -39,6 +40,7 @@ def pytest_xdist_make_scheduler(config, log):
 LONGEST = (
     "tests/gui/",
     "tests/farms/",
+    "tests/cluster/",
     "tests/blender/test_attacks.py",
     "tests/blender/test_hard_cases.py",
     "tests/blender/test_digests.py",

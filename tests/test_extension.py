@@ -34,7 +34,7 @@ bpy.context.scene.render.engine = "REFERENCE_TRACER"
 
 def held():
     folder = Path(sys.modules[module].__file__).parent
-    files = [p for p in folder.rglob("*") if "__pycache__" not in p.parts]
+    files = [p for p in folder.rglob("*") if p.is_file() and "__pycache__" not in p.parts]
     return {p: (p.stat().st_mtime_ns, p.stat().st_size) for p in files}
 
 before = held()

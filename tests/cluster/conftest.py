@@ -83,7 +83,7 @@ def dask(folder: Path, *tls: str):
         running.end()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def shared(tmp_path_factory):
     """A scheduler with two workers, which every test leaves as they are."""
     with dask(tmp_path_factory.mktemp("dask")) as running:

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 from reference_tracer.methods import Method
 from reference_tracer.scene import Region
-from reference_tracer.tracer import candidates
+from reference_tracer.tracer import candidates, triangle
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.coloring import Color
@@ -146,7 +146,7 @@ def test_float32_and_methods_reach_the_picture(make, monkeypatch):
     pictures = {m: render(scene, Settings(m)).t.tobytes() for m in plain}
     for method in plain:
         with monkeypatch.context() as patched:
-            patched.setattr(method, "function", _never)
+            patched.setattr(triangle, method, _never)
             changed = {m for m in plain if render(scene, Settings(m)).t.tobytes() != pictures[m]}
         assert changed == {method}
 
