@@ -159,7 +159,7 @@ def _never(rays, p1, p2, p3):
 @pytest.mark.slow
 def test_many_samples_take_no_more_memory(make):
     """Of thousands of samples a pixel, not all are held at once."""
-    scene = make.scene(make.camera(32, 16), make.quad(-9, 0, -9, 9, -2))
+    scene = make.scene(make.camera(64, 32), make.quad(-9, 0, -9, 9, -2))
     peaks = []
     for samples in (2, 16):
         tracemalloc.start()
