@@ -22,7 +22,7 @@ from .compare import compare_to_folder, made_folder
 from .stepping import bake_bodies, visited
 from .temporary import values_kept
 
-_NOT_MADE_BY = "frames", "out", "scheduler", "verify"  # options by which no frame is another
+_NOT_MADE_BY = "frames", "out", "scheduler", "verify", "placed"  # by which no frame is another
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
 
 
