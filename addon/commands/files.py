@@ -70,7 +70,7 @@ def _rows_alone(scene: Scene, color: Color, first: int, last: int) -> Scene:
     if color == Color.DEPTH:
         raise SceneError("--rows: the greys of --color depth are those of a whole picture")
     if not 0 <= first <= last < r.height:
-        raise SceneError(f"--rows {first} {last}: the picture's rows are 0 to {r.height - 1}")
+        raise SceneError(f"--rows {first} {last}: rows are 0 to {r.height - 1}, the lower first")
     region = replace(r, y0=r.y0 + first, y1=r.y0 + last + 1)
     return replace(scene, camera=replace(scene.camera, region=region))
 

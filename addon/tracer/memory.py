@@ -34,7 +34,7 @@ def check_memory(width: int, height: int, bytes_per_pixel: int, always: int = AL
         raise PictureTooLargeError(
             f"The picture has {width} x {height} pixels, which take {needed / _GIB:.1f} GiB with "
             f"all outputs, and {free / _GIB:.1f} GiB of memory are free: choose a smaller size, "
-            "or a border."
+            "a border, or --rows."
         )
 
 

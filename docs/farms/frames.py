@@ -14,8 +14,9 @@ scene, named, failed = bpy.context.scene, sys.argv[-1], []
 valid = re.fullmatch(r"(-?\d+(--?\d+)?(,|$))+", named)
 ranges = re.findall(r"(-?\d+)(?:-(-?\d+))?", named) if valid else []
 frames = [n for first, last in ranges for n in range(int(first), int(last or first) + 1)]
-places = [Path(bpy.path.abspath(scene.render.frame_path(frame=n))) for n in frames]
-for frame, place in zip(frames, places, strict=True):
+places = {n: Path(bpy.path.abspath(scene.render.frame_path(frame=n))) for n in frames}
+print(*(f"{place} is there already" for place in places.values() if place.exists()), sep="\n")
+for frame, place in places.items():
     if not place.exists():
         scene.frame_start = scene.frame_end = frame
         scene.render.filepath = str(place.with_name(f".unfinished-{uuid.uuid4().hex}-####"))
@@ -26,5 +27,4 @@ for frame, place in zip(frames, places, strict=True):
         except (OSError, RuntimeError) as error:
             aside.unlink(missing_ok=True)
             failed.append(f"frame {frame}: {error}")
-if failed or not frames:
-    sys.exit("\n".join(failed) or f"'{named}' names no frames: end with -- 1-250, or 1-10,17")
+sys.exit("\n".join(failed) or (not frames and f"'{named}' names no frames: end with -- 1-9,17"))

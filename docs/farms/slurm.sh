@@ -1,17 +1,17 @@
 #!/bin/bash
-# A Slurm array: each task does a chunk of the frames FIRST to LAST, or of the rows of a picture.
+# A Slurm array: each task does a chunk of the frames FIRST to LAST, or of a picture's rows.
 #
-#   sbatch --array=1-250:10 slurm.sh render  FILE.blend FOLDER 250
-#   sbatch --array=1-250:10 slurm.sh compare FILE.blend FOLDER 250
-#   sbatch --array=0-2159:270 slurm.sh trace FILE.npz   FOLDER 2159
+#   sbatch --array=0-24 slurm.sh render  FILE.blend FOLDER 1 250 10
+#   sbatch --array=0-24 slurm.sh compare FILE.blend FOLDER 1 250 10
+#   sbatch --array=0-7  slurm.sh trace   FILE.npz   FOLDER 0 2159 270
 #
 # Submit it from its own folder, in which frames.py lies, too. FILE and FOLDER are absolute paths.
 #SBATCH --job-name=reference-tracer --output=%x-%A-%a.log
 set -euo pipefail
 
-work=$1 file=$2 folder=$3 end=$4
-first=$SLURM_ARRAY_TASK_ID
-last=$((first + SLURM_ARRAY_TASK_STEP - 1))
+work=$1 file=$2 folder=$3 begin=$4 end=$5 size=$6
+first=$((begin + SLURM_ARRAY_TASK_ID * size))
+last=$((first + size - 1))
 last=$((last < end ? last : end))
 case $work in
     render)

@@ -36,7 +36,7 @@ def test_too_large_a_picture_is_refused(make):
     text = str(refused.value)
     assert re.fullmatch(
         r"The picture has 60000000 x 50000000 pixels, which take [\d.]+ GiB with all outputs, and "
-        r"[\d.]+ GiB of memory are free: choose a smaller size, or a border.",
+        r"[\d.]+ GiB of memory are free: choose a smaller size, a border, or --rows.",
         text,
     )
 
