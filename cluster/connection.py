@@ -56,8 +56,9 @@ def connected(address: str) -> Iterator[Cluster]:
             said = f"no scheduler answers at {address} ({words(error)}): {do}"
             raise ClusterError(said) from error
         try:
-            _check_workers(client, address)
-            yield Cluster(client, address)
+            cluster = Cluster(client, address)
+            _check_workers(cluster)
+            yield cluster
         except CommClosedError as error:
             raise ClusterError(f"the scheduler at {address} has ended") from error
         finally:
@@ -134,19 +135,22 @@ def _deaf() -> Iterator[None]:
         yield
 
 
-def _check_workers(client: Client, address: str) -> None:
-    """Raise a ClusterError if there are no workers, or some are of other versions."""
+def _check_workers(cluster: Cluster) -> None:
+    """Raise a ClusterError if no worker answers, or some are of other versions."""
+    address = cluster.address
     try:
-        client.wait_for_workers(1, timeout=TIMEOUT)
+        cluster.client.wait_for_workers(1, timeout=TIMEOUT)
     except TimeoutError:
         do = f"start some with dask worker {address}"
         raise ClusterError(f"the scheduler at {address} has no workers: {do}") from None
     own, wrong = tasks.about(), []
-    for worker, told in sorted(client.run(tasks.about, on_error="return").items()):
+    for worker, told in sorted(cluster.told(tasks.about).items()):
         if told != own:
             wrong.append(f"worker {worker} has {difference(own, told)}")
     if wrong:
         raise ClusterError("; ".join(wrong))
+    if not cluster.workers().keys() - cluster.silent:
+        raise ClusterError(f"no worker of the scheduler at {address} answers: start others")
 
 
 def difference(own: str, told: object) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from collections import deque
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import islice
@@ -16,6 +17,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, NoReturn
 
 import numpy as np
+from reference_tracer.arguments import words
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.coloring import Color
@@ -27,7 +29,7 @@ from reference_tracer.tracer.settings import Settings
 
 from . import checks, tasks
 from .claims import Claim
-from .cluster import Asked, Cluster, ClusterError
+from .cluster import Asked, Cluster, ClusterError, NobodyError
 
 EACH = 6  # regions of a picture that each thread of a worker has, about: so none waits for long
 MOST = 1 << 20  # pixels of one
@@ -122,8 +124,7 @@ class Picture:
             if not right:
                 self._blame([worker], part)
             for place in self._places(part) if self.share else ():
-                others = self.cluster.workers().keys() - {worker}
-                asked = self._ask(place, dx, dy, without=frozenset([worker])) if others else None
+                asked = self._ask(place, dx, dy, without=frozenset([worker]))
                 again.append((place, part, claim, worker, asked))
             yield (number + 1) / len(parts)
         for number, each in enumerate(again, start=1):
@@ -135,10 +136,9 @@ class Picture:
         certified = not self.settings.method.is_plain
         try:
             return Claim.read(data, self.scene, region.width * region.height, certified), worker
-        except (ValueError, MemoryError) as error:
-            raise ClusterError(
-                f"worker {worker} has answered what is no picture: {error}"
-            ) from None
+        except Exception as error:  # whatever it is made to be
+            said = f"worker {worker} has answered what is no picture: {words(error)}"
+            raise ClusterError(said) from None
 
     def _places(self, part: Region) -> list[Region]:
         """Return where a part is traced again: places of one size, at random."""
@@ -160,14 +160,14 @@ class Picture:
         part: Region,
         claim: Claim,
         worker: str,
-        asked: Asked | None,
+        asked: Asked,
         *at: float,
     ) -> Work[None]:
         """Raise a ClusterError that names the worker whose claim is not what is traced here."""
         rows, columns = (np.arange(*ends) for ends in ((place.y0, place.y1), (place.x0, place.x1)))
         pixel = ((rows - part.y0)[:, None] * part.width + columns - part.x0).ravel()
         said = {worker: claim.about(pixel)}
-        if asked:
+        with suppress(NobodyError):
             other, another = yield from self._claim(asked, place)
             said[another] = other.about(np.arange(len(pixel)))
             if said[another] == said[worker]:

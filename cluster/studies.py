@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import asdict, fields, replace
 from math import ceil
 from random import SystemRandom
@@ -16,6 +17,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arguments import words
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
 from reference_tracer.study.trade import TradeRow
@@ -23,7 +25,7 @@ from reference_tracer.tracer.progress import Work, scaled
 
 from . import tasks
 from .claims import packed, unpacked
-from .cluster import Cluster, ClusterError
+from .cluster import Cluster, ClusterError, NobodyError
 from .pictures import camera_json, scene_name
 
 _KINDS: dict[str, Any] = {"int": int, "float": (int, float), "str": str, "bool": bool}
@@ -78,19 +80,19 @@ def _every(
         data, worker = yield from cluster.answer(asked)
         try:
             return [_row(kind, row) for row in json.loads(str(*unpacked(data, (str, ()))))], worker
-        except (ValueError, TypeError, KeyError, AttributeError) as error:
-            raise ClusterError(f"worker {worker} has answered what is no row: {error}") from None
+        except Exception as error:  # whatever it is made to be
+            said = f"worker {worker} has answered what is no row: {words(error)}"
+            raise ClusterError(said) from None
 
     first, found, second = [ask(k) for k in range(len(told))], [], {}
     twice = SystemRandom().sample(range(len(told)), ceil((share or 0) * len(told)))
     for k, one in enumerate(first):
         found.append((yield from scaled(rows(one), k / len(told), 0.0)))
         if k in twice:
-            others = cluster.workers().keys() - {found[k][1]}
-            second[k] = ask(k, found[k][1]) if others else None
+            second[k] = ask(k, found[k][1])
     for k, other in second.items():
         said = [found[k]]
-        if other:
+        with suppress(NobodyError):
             said.append((yield from scaled(rows(other), 1.0, 0.0)))
             if _facts(said[0][0]) == _facts(said[1][0]):
                 continue

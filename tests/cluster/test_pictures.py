@@ -16,10 +16,11 @@ from reference_tracer.study import extremes
 from reference_tracer.study.scenarios.sweeps import ALL
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render, steps
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_cluster import cluster as cluster_module
-from reference_tracer_cluster import pictures
+from reference_tracer_cluster import pictures, tasks
 from reference_tracer_cluster.cluster import ClusterError
 from reference_tracer_cluster.connection import connected
 
@@ -90,6 +91,36 @@ def test_a_worker_is_paused(victim, shared, cluster, larger, monkeypatch):
         shared.processes["victim"].send_signal(signal.SIGSTOP)
 
     assert bits(happens(cluster, larger, pause, share=None)) == bits(render(larger))
+
+
+def test_workers_are_silent_from_the_start(shared, cluster, scene, monkeypatch):
+    """Neither a scene nor a command waits for them; only if all are, it ends."""
+    monkeypatch.setattr(cluster_module, "PATIENCE", 0.5)
+    first, second = (shared.processes[name] for name in ("first", "second"))
+    try:
+        second.send_signal(signal.SIGSTOP)
+        for _ in range(2):
+            assert bits(render(scene, tracer=pictures.tracer(cluster, 1.0))) == bits(render(scene))
+            assert len(cluster.silent) == 1
+        with connected(shared.address) as another:
+            assert another.silent == cluster.silent
+        first.send_signal(signal.SIGSTOP)
+        with pytest.raises(ClusterError, match=r"no worker .* answers"), connected(shared.address):
+            pass
+    finally:
+        first.send_signal(signal.SIGCONT)
+        second.send_signal(signal.SIGCONT)
+
+
+def test_what_is_kept(cluster, monkeypatch):
+    """The last three; workers that lose it are not sent it for ever."""
+    names = [cluster.keep(bytes([k])) for k in (0, 1, 2, 0, 3)]
+    assert list(cluster.kept) == [names[k] for k in (2, 0, 4)]
+    monkeypatch.setattr(cluster_module.Cluster, "_bring", lambda *a: None)
+    with pytest.raises(ClusterError, match=r"worker tcp://.* does not keep what it is sent"):
+        given = tasks.about(), names[4] + "gone", "{}", "{}", 0.0, (), 0.0, 0.0
+        cluster.kept[given[1]] = b""
+        result_of(cluster.answer(cluster.ask(tasks.trace, *given)))
 
 
 def test_a_task_is_done_twice(cluster, scene, monkeypatch):
