@@ -64,7 +64,10 @@ def can_be(scene: Scene, region: Region, dx: float, dy: float, claim: Claim) -> 
 
 
 def _known(scene: Scene, rays: Rays, claim: Claim, part: slice, hits: Hits) -> bool:
-    """Return whether t is the one, and the barycentrics are, in floats or correctly rounded."""
+    """Return whether t is the one, and the barycentrics are, in floats or correctly rounded.
+
+    Which of the two, who was beaten has decided; whoever traces again alone sees it.
+    """
     some = slice(*np.searchsorted(claim.known.ray, (part.start, part.stop)))
     ray, (t, *s) = claim.known.ray[some] - part.start, claim.known.values[:, some]
     other = np.flatnonzero((np.stack(s) != hits.s[:, ray]).any(axis=0))

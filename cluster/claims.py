@@ -17,7 +17,7 @@ from numpy.typing import DTypeLike, NDArray
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.certified.reasons import Reason
-from reference_tracer.tracer.hits import NOTHING, Hits, LazyHits, Measured, Name, Statistics, Ties
+from reference_tracer.tracer.hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
 
 Expected = tuple[DTypeLike, tuple[int | None, ...]]  # None: any length
 
@@ -58,27 +58,27 @@ class Claim:
 
     names: NDArray[np.int32]  # (2, n): instance and triangle
     certainty: NDArray[np.uint8]  # (n,)
-    known: Measured
+    known: Measured  # of all rays that integers decided, and no other
     ties: Ties
-    statistics: str  # JSON
+    statistics: Statistics  # of which only counts are told
 
     @classmethod
     def of(cls, hits: Hits, statistics: Statistics) -> Claim:
         """Return what hits say."""
-        names, every = np.stack((hits.instance, hits.triangle)), np.arange(len(hits))
-        known = Measured.none()
+        decided = _decided(hits.certainty)
         if isinstance(hits, LazyHits):
-            known = hits.known
-        elif hits.certainty.any():  # certified in halves, for want of memory
-            known = Measured(every, np.vstack((hits.t, hits.s)))
-        s = statistics
-        counts = s.pairs_tested, {r.name: n for r, n in s.reasons.items()}, s.culling, s.stages
-        return cls(names, hits.certainty, known, hits.ties, json.dumps(counts))
+            values = hits.measure(decided)
+        else:
+            values = np.vstack((hits.t, hits.s))[:, decided]
+        names = np.stack((hits.instance, hits.triangle))
+        return cls(names, hits.certainty, Measured(decided, values), hits.ties, statistics)
 
     def packed(self) -> bytes:
         """Return it as bytes."""
-        of = vars(self.known).values(), vars(self.ties).values()
-        return packed(self.names, self.certainty, *of[0], *of[1], np.array(self.statistics))
+        s, ties = self.statistics, vars(self.ties).values()
+        counts = s.pairs_tested, {r.name: n for r, n in s.reasons.items()}, s.culling, s.stages
+        told = np.array(json.dumps(counts))
+        return packed(self.names, self.certainty, self.known.values, *ties, told)
 
     @classmethod
     def read(cls, data: bytes, scene: Scene, count: int, certified: bool) -> Claim:
@@ -86,53 +86,69 @@ class Claim:
 
         Raises
         ------
-        ValueError
-            If it is not.
+        Exception
+            If it is not: numpy and Python raise many kinds on what was made to be no such thing.
         """
         index, number = (np.int64, (None,)), (np.int32, (None,))
-        names, certainty, ray, values, *ties, told = unpacked(
-            *(data, (np.int32, (2, count)), (np.uint8, (count,))),
-            *(index, (np.float64, (4, None)), index, index, number, number, number, (str, ())),
+        names, certainty, values, *ties, told = unpacked(
+            *(data, (np.int32, (2, count)), (np.uint8, (count,)), (np.float64, (4, None))),
+            *(index, index, number, number, number, (str, ())),
         )
-        claim = cls(names, certainty, Measured(ray, values), Ties(*ties), str(told))
+        known = Measured(_decided(certainty), values)
+        claim = cls(names, certainty, known, Ties(*ties), _statistics(str(told)))
         if not claim._is_sound(scene, certified):
             raise ValueError("it names what is not there")
         return claim
 
     def _is_sound(self, scene: Scene, certified: bool) -> bool:
         """Return whether all that it names is there."""
-        ties, known, count = self.ties, self.known, len(self.certainty)
-        levels = list(Certainty)[1:] if certified else [Certainty.NOT_CERTIFIED]
+        ties, levels = self.ties, (Certainty.BOUND, Certainty.AMBIGUOUS) if certified else (0, 0)
         return (
-            _ascends(ties.ray, count)
-            and _ascends(known.ray, count)
-            and known.values.shape[1] == len(known.ray)
-            and (certified or not (len(known.ray) or len(ties.ray)))
+            levels[0] <= self.certainty.min() <= self.certainty.max() <= levels[1]
+            and self.known.values.shape[1] == len(self.known.ray)
+            and _ascends(ties.ray, len(self.certainty))
+            and (certified or not len(ties.ray))
             and len(ties.ray) == len(ties.start) == len(ties.count)
             and len(ties.instance) == len(ties.triangle)
             and bool(((ties.start >= 0) & (ties.count > 0)).all())
-            and bool((ties.start + ties.count <= len(ties.instance)).all())
-            and bool(np.isin(self.certainty, levels).all())
+            and bool((ties.start <= len(ties.instance) - ties.count).all())
             and _are_there(scene, *self.names)
             and _are_there(scene, ties.instance, ties.triangle)
         )
 
-    def about(self, ray: NDArray[np.integer]) -> tuple[bytes, bytes, dict[int, frozenset[Name]]]:
-        """Return what it says of some rays, to be compared."""
+    def about(self, ray: NDArray[np.integer]) -> tuple:
+        """Return what it says of some rays, which ascend, to be compared."""
         tied = np.flatnonzero(np.isin(ray, self.ties.ray))
         ties = {k: self.ties[int(ray[k])] for k in tied.tolist()}
-        return self.names[:, ray].tobytes(), self.certainty[ray].tobytes(), ties
+        known = self.known.values[:, np.isin(self.known.ray, ray)]
+        return *(v.tobytes() for v in (self.names[:, ray], self.certainty[ray], known)), ties
 
     def count_in(self, statistics: Statistics) -> None:
         """Add what it says that it took, which nobody checks."""
-        try:
-            pairs, reasons, culling, stages = json.loads(self.statistics)
-            statistics.pairs_tested += int(pairs)
-            statistics.reasons += Counter({Reason[k]: int(n) for k, n in reasons.items()})
-            statistics.culling += Counter({str(k): int(n) for k, n in culling.items()})
-            statistics.stages.update({str(k): float(n) for k, n in stages.items()})
-        except (AttributeError, KeyError, TypeError, ValueError) as error:
-            raise ValueError(f"its statistics cannot be read: {error}") from error
+        own = self.statistics
+        statistics.pairs_tested += own.pairs_tested
+        statistics.reasons += own.reasons
+        statistics.culling += own.culling
+        statistics.stages.update(own.stages)
+
+
+def _decided(certainty: NDArray[np.uint8]) -> NDArray[np.int64]:
+    """Return the rays of which integers were asked who is nearest."""
+    return np.flatnonzero(certainty > Certainty.BOUND)
+
+
+def _statistics(told: str) -> Statistics:
+    """Return counts from JSON, if they can be such."""
+    pairs, reasons, culling, stages = json.loads(told)
+    every = pairs, *reasons.values(), *culling.values(), *stages.values()
+    if not all(0 <= n < 1 << 63 for n in every) or not "".join((*culling, *stages)).isprintable():
+        raise ValueError("its statistics are no counts")
+    return Statistics(
+        pairs_tested=int(pairs),
+        reasons=Counter({Reason[k]: int(n) for k, n in reasons.items()}),
+        culling=Counter({k: int(n) for k, n in culling.items()}),
+        stages=Counter({k: float(n) for k, n in stages.items()}),
+    )
 
 
 def _ascends(ray: NDArray[np.int64], count: int) -> bool:
@@ -142,10 +158,11 @@ def _ascends(ray: NDArray[np.int64], count: int) -> bool:
 
 def _are_there(scene: Scene, instance: NDArray[np.int32], triangle: NDArray[np.int32]) -> bool:
     """Return whether a scene has all of these surfaces, of which NOTHING is one."""
-    first = len(scene.instances)
-    sizes = np.array([0, *(len(m.triangles) for m in scene.meshes)])[scene.instance_meshes + 1]
-    if not ((instance >= NOTHING) & (instance < first + len(scene.planes))).all():
+    others = np.zeros(len(scene.planes) + 1, np.int32)  # NOTHING, -1, is the last one
+    if instance.max(initial=NOTHING) >= len(scene.instances) + len(scene.planes):
         return False
-    on_mesh = (instance >= 0) & (instance < first)
-    size = np.append(sizes, np.zeros(len(scene.planes) + 1, int))[instance]
-    return bool(np.where(on_mesh, (triangle >= 0) & (triangle < size), triangle == NOTHING).all())
+    if min(instance.min(initial=NOTHING), triangle.min(initial=NOTHING)) < NOTHING:
+        return False
+    sizes = np.array([-1, *(len(m.triangles) or -1 for m in scene.meshes)], np.int32)
+    size = np.r_[sizes[scene.instance_meshes + 1], others].take(instance)
+    return bool((triangle < size).all() and ((triangle < 0) == (size == 0)).all())

@@ -10,7 +10,8 @@ from reference_tracer.cli import main
 from reference_tracer.parser import INPUT_ERROR
 from reference_tracer.scene import Mesh
 from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.render import render
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.render import render, steps
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_cluster import pictures
 from reference_tracer_cluster.cluster import ClusterError
@@ -25,7 +26,7 @@ FORGER = """
 import os
 from itertools import count
 from pathlib import Path
-from reference_tracer_cluster import tasks
+from reference_tracer_cluster import claims, tasks
 from reference_tracer_cluster.claims import Claim
 
 honest, calls = Claim.__dict__.get("honest", Claim.of), count()  # a preload may be run twice
@@ -44,7 +45,8 @@ def forged(hits, statistics):
     elif kind == "what is behind":
         instance[:] = 1
     elif kind == "certainty":
-        claim.certainty[:] = 2
+        hits.certainty[hits.certainty == 1] = 2
+        claim = honest(hits, statistics)
     elif kind == "t":
         claim.known.values[0] *= 1 + 2.0**-52
     elif kind == "a barycentric":
@@ -53,8 +55,23 @@ def forged(hits, statistics):
         claim.ties.triangle[:] = (claim.ties.triangle + 2) % 128
     elif kind == "no such triangle":
         triangle[0] = 10**6
-    elif kind == "no arrays":
-        claim.packed = lambda: b"no"
+    elif kind == "another rounding":
+        known, measure = claim.known, hits.measure
+        floats = measure.func(*measure.args[:3], known.none(), known.ray, **measure.keywords)
+        assert (floats != known.values).any()
+        known.values[:] = floats
+    elif kind == "a tie far away":
+        claim.ties.start[:] = 2**63 - 1
+    elif kind == "a broken header":
+        claim.packed = lambda: b"\\x93NUMPY\\x01\\x00\\x02\\x00(\\n"
+    elif kind == "negative counts":
+        claim.statistics.culling["left"] = -1
+    elif kind == "endless counts":
+        claim.statistics.stages["contest"] = float("inf")
+    elif kind == "deep counts":
+        told, claims.json.dumps = claims.json.dumps, lambda counts: "[" * 10**5
+        data, claims.json.dumps = claim.packed(), told
+        claim.packed = lambda: data
     elif kind == "no bytes":
         claim.packed = lambda: {"any": "thing"}
     return claim
@@ -62,9 +79,11 @@ def forged(hits, statistics):
 Claim.of = staticmethod(forged)
 """
 # Found whatever is asked for; by a check of every pixel; or in places that are traced again.
-AT_ONCE = "no such triangle", "no arrays", "no bytes"
+AT_ONCE = "no such triangle", "a broken header", "no bytes", "a tie far away"
+AT_ONCE += "negative counts", "endless counts", "deep counts"
 CHECKED = "another owner", "t", "a barycentric", "a tie"
 AGAIN = "nothing", "what is behind", "certainty"
+ALL = ("another rounding",)  # of a hundredth of the pixels, which all places may miss
 
 
 def wall(distance: float, name: str) -> Mesh:
@@ -100,15 +119,16 @@ def small_parts(monkeypatch):
     monkeypatch.setattr(pictures, "EACH", 40)
 
 
-@pytest.mark.parametrize("kind", [*AT_ONCE, *CHECKED, *AGAIN])
+@pytest.mark.parametrize("kind", [*AT_ONCE, *CHECKED, *AGAIN, *ALL])
 def test_a_tenth_of_the_parts_is_forged(kind, forger, walls, small_parts):
-    """The only worker: a hundredth of the picture is traced again here."""
+    """The only worker: a hundredth of the picture, or all of it, is traced again here."""
     running, address, tell = forger
     tell(f"{kind}:10")
     said = "has answered what is no picture" if kind in AT_ONCE else "gave a wrong answer"
+    share = None if kind in AT_ONCE else 1.0 if kind in ALL else 0.01
     with connected(running.address) as cluster:
         with pytest.raises(ClusterError, match=f"worker {address} {said}"):
-            render(walls, tracer=pictures.tracer(cluster, None if kind in AT_ONCE else 0.01))
+            render(walls, tracer=pictures.tracer(cluster, share))
 
 
 @pytest.mark.parametrize("kind", ["another owner", "nothing"])
@@ -122,11 +142,16 @@ def test_of_a_plain_method_it_is_found_too(kind, forger, walls):
         render(walls, settings, tracer=pictures.tracer(cluster, share))
 
 
-def test_of_two_workers_the_one_that_lies_is_named(forger, walls, tmp_path, capsys):
+@pytest.fixture(scope="module")
+def honest(forger):
+    """A second worker's address."""
+    return forger[0].work("honest")
+
+
+def test_of_two_workers_the_one_that_lies_is_named(forger, honest, walls, tmp_path, capsys):
     """As the command says it, which leaves nothing."""
     running, address, tell = forger
     tell("what is behind:1")
-    honest = running.work("honest")
     save_scene(tmp_path / "walls.npz", walls)
     argv = ["trace", str(tmp_path / "walls.npz"), "--out", str(tmp_path / "new" / "picture.png")]
     assert main([*argv, "--scheduler", running.address, "--verify", "0.01"]) == INPUT_ERROR
@@ -135,11 +160,15 @@ def test_of_two_workers_the_one_that_lies_is_named(forger, walls, tmp_path, caps
     assert honest not in said and not (tmp_path / "new").exists()
 
 
-def test_who_says_the_truth_is_believed(forger, walls):
+def test_who_says_the_truth_is_believed(forger, honest, walls):
+    """Also where the only one that may say it again dies: then it is found here."""
     running, _, tell = forger
     tell("nothing at all:1")
-    camera = replace(walls.camera, width=40, height=40, region=None)
+    seen = walls.seen_by(replace(walls.camera, width=40, height=40, region=None))
+    truth, frame = render(seen), Frame.empty(seen)
     with connected(running.address) as cluster:
-        seen = walls.seen_by(camera)
-        found = render(seen, tracer=pictures.tracer(cluster, 1.0))
-    assert (found.t == render(seen).t).all()
+        assert (render(seen, tracer=pictures.tracer(cluster, 0.1)).t == truth.t).all()
+        for share in steps(seen, Settings(), frame, pictures.tracer(cluster, 1.0)):
+            if share > 0.1 and "honest" in running.processes:
+                running.end("honest")
+    assert "honest" not in running.processes and (frame.t == truth.t).all()
