@@ -161,9 +161,14 @@ class Cluster:
         future = self.client.submit(asked.task, *asked.arguments, **options)
         asked.futures.append(future)
         loop = self.client.loop.asyncio_loop
-        future.add_done_callback(
-            lambda _: asyncio.run_coroutine_threadsafe(self._fetch(asked, future), loop)
-        )
+
+        def done(future: Future) -> None:
+            if future.cancelled():  # by the end of the scheduler, or of the client and its loop
+                asked.answers.put((asyncio.CancelledError(), ""))
+            else:
+                asyncio.run_coroutine_threadsafe(self._fetch(asked, future), loop)
+
+        future.add_done_callback(done)
 
     async def _fetch(self, asked: Asked, future: Future) -> None:
         """Fetch an answer by itself, in the client's own thread.
