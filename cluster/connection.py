@@ -52,7 +52,7 @@ def connected(address: str) -> Iterator[Cluster]:
                 asyncio.run(asyncio.wait_for(_answered(address, **security), TIMEOUT))
             client = Client(own or address, timeout=TIMEOUT, set_as_default=False, **security)
         except (OSError, RuntimeError, TypeError, ValueError) as error:
-            do = "start one with dask scheduler, or try local:2"
+            do = "start one (docs/cluster.md says how, safely), or try local:2"
             said = f"no scheduler answers at {address} ({words(error)}): {do}"
             raise ClusterError(said) from error
         try:
@@ -141,7 +141,7 @@ def _check_workers(cluster: Cluster) -> None:
     try:
         cluster.client.wait_for_workers(1, timeout=TIMEOUT)
     except TimeoutError:
-        do = f"start some with dask worker {address}"
+        do = "start some (docs/cluster.md says how, safely)"
         raise ClusterError(f"the scheduler at {address} has no workers: {do}") from None
     own, wrong = tasks.about(), []
     for worker, told in sorted(cluster.told(tasks.about).items()):

@@ -44,7 +44,10 @@ def tracer(cluster: Cluster, share: float | None) -> Tracer:
         scene: Scene, settings: Settings, reach: float, statistics: Statistics
     ) -> Work[TraceBand]:
         own = yield from here(scene, settings, reach, statistics)
-        name = scene_name(cluster, scene)
+        name, checked = scene_name(cluster, scene), ""
+        if share:
+            checked = f": every pixel is checked here, {share:.3g} of the rays are traced twice"
+        statistics.notes.append(f"traced by {len(cluster.workers())} Dask workers{checked}")
         return Picture(cluster, share, scene, settings, reach, statistics, own, name).trace
 
     return prepare
