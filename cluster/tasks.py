@@ -89,6 +89,7 @@ def _scene(name: str) -> Scene:
         return load_scene(path)
 
 
+@lru_cache(maxsize=2)  # a scene keeps tables once they are made
 def _seen(scene: str, camera: str) -> Scene:
     return _scene(scene).seen_by(camera_of(json.loads(camera)))
 
