@@ -6,27 +6,27 @@ set -euo pipefail
 
 ip link set lo up
 ip address add 127.0.0.2 dev lo # with 127.0.0.1 alone, glibc looks up no IPv4 address
-mkdir /tmp/slurm /tmp/bin
-cat >/tmp/slurm/slurm.conf <<END
+work=$(mktemp --directory)
+cat >"$work/slurm.conf" <<END
 ClusterName=farm
 SlurmctldHost=$(hostname)(127.0.0.1)
 SlurmUser=root
 SlurmdUser=root
 AuthType=auth/none
 CredType=cred/none
-StateSaveLocation=/tmp/slurm
-SlurmdSpoolDir=/tmp/slurm
-SlurmctldPidFile=/tmp/slurm/slurmctld.pid
-SlurmdPidFile=/tmp/slurm/slurmd.pid
+StateSaveLocation=$work
+SlurmdSpoolDir=$work
+SlurmctldPidFile=$work/slurmctld.pid
+SlurmdPidFile=$work/slurmd.pid
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 NodeName=node NodeAddr=127.0.0.1 CPUs=2
 PartitionName=all Nodes=ALL Default=YES
 END
-echo CgroupPlugin=disabled >/tmp/slurm/cgroup.conf # a container may have none
-printf '#!/bin/sh\nPYTHONPATH=/project exec python3 -m addon.cli "$@"\n' >/tmp/bin/reftrace
-chmod +x /tmp/bin/reftrace
-export SLURM_CONF=/tmp/slurm/slurm.conf PATH="/tmp/bin:$PATH"
+echo CgroupPlugin=disabled >"$work/cgroup.conf" # a container may have none
+printf '#!/bin/sh\nPYTHONPATH=/project exec python3 -m addon.cli "$@"\n' >"$work/reftrace"
+chmod +x "$work/reftrace"
+export SLURM_CONF="$work/slurm.conf" PATH="$work:$PATH"
 export BLENDER_USER_RESOURCES=/project/out/farms/user
 
 slurmctld -D -c &
@@ -35,8 +35,8 @@ until [ "$(sinfo --noheader --format %T 2>/dev/null)" = idle ]; do sleep 0.2; do
 cd /project/docs/farms
 while read -r array; do
     # shellcheck disable=SC2086  # words
-    sbatch --output=/tmp/slurm/%A-%a.log $array
+    sbatch --output="$work/%A-%a.log" $array
 done
 while [ -n "$(squeue --noheader)" ]; do sleep 0.2; done
-head --lines=-0 /tmp/slurm/*-*.log
+head --lines=-0 "$work"/*-*.log
 scontrol --oneliner show job
