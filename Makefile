@@ -84,7 +84,7 @@ release: .venv/.stamp ## write what a user downloads, of the last commit: dist/r
 
 clean: ## remove what was built; keeps .venv and the whole Blender
 	rm -rf build dist out wheels *.egg-info .pytest_cache .ruff_cache
-	find addon benchmarks cluster grading tests tools sample_scenes -name __pycache__ -prune -exec rm -rf {} +
+	find addon packages tests tools sample_scenes -name __pycache__ -prune -exec rm -rf {} +
 
 .venv/.stamp: pyproject.toml setup.py constraints.txt
 	bash tools/venv.sh

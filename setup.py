@@ -3,9 +3,9 @@ from setuptools import find_packages, setup
 
 PACKAGES = {  # by the folder that each stands in
     "addon": "reference_tracer",
-    "grading": "reference_tracer_grading",
-    "benchmarks": "reference_tracer_benchmarks",
-    "cluster": "reference_tracer_cluster",
+    "packages/grading": "reference_tracer_grading",
+    "packages/benchmarks": "reference_tracer_benchmarks",
+    "packages/cluster": "reference_tracer_cluster",
 }
 found = [f"{name}.{sub}" for folder, name in PACKAGES.items() for sub in find_packages(folder)]
 setup(packages=[*PACKAGES.values(), *found])

@@ -19,7 +19,7 @@ class Method(StrEnum):
     """How a ray meets a triangle, in the order of how far the answer can be trusted.
 
     A member is its name in options and files, its attributes are its record's. `certified` proves
-    every pixel (`tracer/certified`); `auto` does, too, where the machine's arithmetic allows a
+    every pixel (`certified`); `auto` does, too, where the machine's arithmetic allows a
     proof, and is `watertight` in float64 where it does not.
     """
 

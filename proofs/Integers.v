@@ -1,4 +1,4 @@
-(** addon/tracer/certified/exact.py: how it makes integers of floats, and what it computes of them.
+(** addon/certified/exact.py: how it makes integers of floats, and what it computes of them.
 
     Names are those of the Python code. Python's integers have no limit, so they are Coq's [Z]. *)
 Require Import ZArith Reals Psatz List Bool.

@@ -37,7 +37,7 @@ def register_properties() -> None:
         )
         sys.modules[spec.name] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(sys.modules[spec.name])
-    importlib.import_module("reference_tracer.blender.properties").register()
+    importlib.import_module("reference_tracer.blender.ui.properties").register()
 
 
 def make(name: str, folder: Path) -> Path:

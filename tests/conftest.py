@@ -45,7 +45,7 @@ LONGEST = (
     "tests/blender/test_hard_cases.py",
     "tests/blender/test_digests.py",
     "tests/suites/test_exact.py",
-    "tests/tracer/certified/sweep/test_sweep.py",
+    "tests/certified/sweep/test_sweep.py",
     "tests/test_docs.py",
     "tests/suites/test_pbrt.py",
     "tests/blender/test_cli_blend.py",

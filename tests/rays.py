@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.certified.contest import Contest
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
-from reference_tracer.tracer.certified.contest import Contest
 from reference_tracer.tracer.hits import Hits, Statistics
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import WorldTriangles

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import cli, images
+from reference_tracer import images
+from reference_tracer.cli.main import main
 from reference_tracer.scene import Region
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.render import render
@@ -39,7 +40,7 @@ def against(scene, tmp_path, capsys):
             images.save_exr(path, {"color": color})
         out = tmp_path / "out"
         arguments = ["compare", tmp_path / source, "--against", path, "--out", out, *options]
-        code = cli.main([str(a) for a in arguments])
+        code = main([str(a) for a in arguments])
         held = out / "comparison.json"
         found = json.loads(held.read_text(encoding="utf-8")) if held.exists() else None
         printed = capsys.readouterr()
@@ -152,7 +153,7 @@ def test_a_mesh_with_a_camera_of_the_command_line(against, tmp_path):
     trimesh.creation.box((1, 2, 1)).export(tmp_path / "box.ply")
     options = ("--width", "40", "--height", "30", "--eye", "4", "3", "2")
     arguments = ["trace", tmp_path / "box.ply", "--out", tmp_path / "box.png", *options]
-    assert cli.main([str(a) for a in arguments]) == 0
+    assert main([str(a) for a in arguments]) == 0
     code, found, _ = against(
         name="box.png", source="box.ply", save=lambda path: None, options=options
     )
@@ -202,5 +203,5 @@ def test_options_that_do_not_fit(scene, against, options, message):
 
 def test_a_filter_needs_a_picture(tmp_path, capsys):
     arguments = ["compare", str(tmp_path / "a.blend"), "--filter", "1", "--out", str(tmp_path)]
-    assert cli.main(arguments) == 4
+    assert main(arguments) == 4
     assert "--filter is for a picture of --against" in capsys.readouterr().err

@@ -130,7 +130,7 @@ def test_the_animation_turns_and_is_small():
 
 def test_every_fault_is_described():
     grading = (DOCS / "grading.md").read_text(encoding="utf-8")
-    folder = PROJECT / "grading"
+    folder = PROJECT / "packages" / "grading"
     names = set()
     for file in ("hit_faults.py", "value_faults.py", "faults.py"):
         for node in ast.walk(ast.parse((folder / file).read_text(encoding="utf-8"))):

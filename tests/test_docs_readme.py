@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import trimesh
-from reference_tracer.cli import parser
+from reference_tracer.cli.main import parser
 from reference_tracer.compare.cause import Cause
 from reference_tracer.report.page.content import _hex
 

@@ -28,7 +28,7 @@ METHOD = {
     "methods.py": ("    CERTIFIED = auto()", "    NEVER = auto()\n"),
 }
 SEES_METHOD = """
-from reference_tracer.arguments import add_settings
+from reference_tracer.cli.arguments import add_settings
 from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import extreme_plots
 from reference_tracer.study import tradeoff
@@ -51,7 +51,7 @@ from reference_tracer.explain.derivation import derive
 assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
 """
 SEES_METHOD_IN_BLENDER = """
-from reference_tracer.blender.properties import METHOD_ITEMS
+from reference_tracer.blender.ui.properties import METHOD_ITEMS
 assert ("never", "Never", "Misses", 77) in METHOD_ITEMS
 """
 PASS = {
@@ -61,7 +61,7 @@ PASS = {
         '    Pass("rows_done"),\n',
         '    Pass("twice", "Twice"),\n',
     ),
-    "blender/properties.toml": (
+    "blender/ui/properties.toml": (
         "]\n\n# identifier, name, description\nsources",
         '  ["Twice", "Twice", "Two times t", 0x400],\n',
     ),
@@ -71,7 +71,7 @@ frame = render(scene, Settings("textbook"))
 assert np.array_equal(frame.passes()["twice"], 2 * frame.t)
 """
 SEES_PASS_IN_BLENDER = """
-from reference_tracer.blender.properties import PASS_ITEMS
+from reference_tracer.blender.ui.properties import PASS_ITEMS
 assert PASS_ITEMS[-1][:2] == ("Twice", "Twice")
 """
 CAMERA = {

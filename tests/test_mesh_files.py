@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import opening
+from reference_tracer.cli import opening
 from reference_tracer.diagnosis import diagnose
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.scene_files import load_meshes, load_scene, scene_of_meshes
@@ -325,7 +325,7 @@ def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
     code = """if True:
         import sys
         from pathlib import Path
-        from reference_tracer import opening
+        from reference_tracer.cli import opening
         for name in sys.argv[1:]:
             for mesh in opening.load(Path(name))[0].meshes:
                 print(mesh.vertices[mesh.triangles].tolist())

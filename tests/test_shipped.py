@@ -101,9 +101,9 @@ def beside_the_code(source: str) -> list[str]:
 
 
 # Who advises to install packages, and why nobody reads that in Blender.
-NOT_IN_BLENDER = {"opening": "said where there is no Blender"}
+NOT_IN_BLENDER = {"cli.opening": "said where there is no Blender"}
 # Who hands a folder of its own to others, and to whom.
-HANDED_ON = {"blender.menus": "Blender lists the presets in it, which are files of the zip"}
+HANDED_ON = {"blender.ui.menus": "Blender lists the presets in it, which are files of the zip"}
 
 
 def test_what_is_shipped_writes_nothing_beside_itself_and_advises_no_packages():

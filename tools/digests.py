@@ -16,8 +16,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.cli.opening import open_blend
 from reference_tracer.methods import Method
-from reference_tracer.opening import open_blend
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.scene import Camera, Region, Scene, ViewWindow
 from reference_tracer.tracer.render import render

@@ -38,7 +38,7 @@ def run(command: Command) -> str:
     if name != "reftrace":
         raise SystemExit(f"documents run reftrace, not '{name}'")
     done = subprocess.run(
-        [sys.executable, "-m", "reference_tracer.cli", *arguments],
+        [sys.executable, "-m", "reference_tracer.cli.main", *arguments],
         cwd=PROJECT,
         capture_output=True,
         text=True,

@@ -27,13 +27,13 @@ from ..manifest import Manifest
 from ..scene import Scene
 from ..tracer.settings import Settings
 from .compare import export_open_file
-from .drawings import Drawing, drawn_by_others
+from .drawing.drawings import Drawing, drawn_by_others
+from .drawing.judges import JUDGES
+from .drawing.temporary import go_to, temporary_scene, values_kept
+from .drawing.viewport import read
 from .engine import export_for_render
-from .export import export
-from .judges import JUDGES
-from .temporary import go_to, temporary_scene, values_kept
+from .reading.export import export
 from .versions import set_format
-from .viewport import read
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
 MOST = 16  # alternatives: each is traced where pixels are left open

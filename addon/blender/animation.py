@@ -12,15 +12,15 @@ from typing import Any
 
 import bpy
 
-from ..arguments import words
+from ..cli.arguments import words
 from ..compare.animation import CODES, FrameRow, frames_named
 from ..report import animation as report
 from ..scene import SceneError
 from ..tracer.progress import Work, result_of, scaled
-from .camera import export_camera
 from .compare import compare_to_folder, made_folder
+from .drawing.temporary import values_kept
+from .reading.camera import export_camera
 from .stepping import bake_bodies, visited
-from .temporary import values_kept
 
 _NOT_MADE_BY = "frames", "out", "scheduler", "verify", "placed"  # by which no frame is another
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here

@@ -18,7 +18,7 @@ def run(argv: list[str]) -> int:
 
     An exception would make Blender exit with 1, which means warnings here.
     """
-    from .. import running
+    from ..cli import running
 
     try:
         return running.run(lambda: _run(argv), "reference_tracer")
@@ -35,8 +35,8 @@ def _run(argv: list[str]) -> int:
 
 
 def _parser() -> Any:
-    from ..commands import HELP, compare, files, studies
-    from ..parser import EXIT_CODES_HELP, Parser
+    from ..cli.commands import HELP, compare, files, studies
+    from ..cli.parser import EXIT_CODES_HELP, Parser
 
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)

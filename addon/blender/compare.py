@@ -12,7 +12,7 @@ from typing import Any
 
 import bpy
 
-from ..arguments import words
+from ..cli.arguments import words
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
@@ -27,15 +27,15 @@ from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer
 from ..tracer.settings import Settings
-from .camera import export_camera
-from .drawings import Drawing, with_identity, with_what_draws_itself
+from .drawing.drawings import Drawing, with_identity, with_what_draws_itself
+from .drawing.judges import JUDGES, Judge, judge_named
+from .drawing.rasteriser import snapping_of
+from .drawing.temporary import go_to, temporary_scene, values_kept
+from .drawing.viewport import anti_aliasing, picture, prepare_scene, solid_shading, use_view_shading
 from .engine import export_for_judge
-from .judges import JUDGES, Judge, judge_named
-from .planes import stand_ins
-from .rasteriser import snapping_of
-from .temporary import go_to, temporary_scene, values_kept
-from .unmodelled import by_handlers, of_shading
-from .viewport import anti_aliasing, picture, prepare_scene, solid_shading, use_view_shading
+from .reading.camera import export_camera
+from .reading.planes import stand_ins
+from .reading.unmodelled import by_handlers, of_shading
 
 
 def compared(case: Case) -> Work[Comparison]:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..manifest import Manifest
     from ..scene import Scene
     from ..tracer.frame import Frame, Pass
-    from .judges import Judge
+    from .drawing.judges import Judge
 
     Certified = tuple[Scene, Manifest, CameraCertificate]
 
@@ -45,8 +45,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: Any) -> None:
         """Render one view layer of one frame."""
-        from ..arguments import failure
-        from .temporary import is_temporary
+        from ..cli.arguments import failure
+        from .drawing.temporary import is_temporary
 
         captures = _captured is not None and is_temporary(depsgraph.scene)
         if error := failure(_capture if captures else self._trace, depsgraph):
@@ -66,7 +66,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     def _trace(self, depsgraph: Any) -> None:
         from ..tracer.frame import Frame
         from ..tracer.render import steps
-        from .export import export
+        from .reading.export import export
 
         began = time.monotonic()
         due = began + SHOW_EVERY
@@ -144,8 +144,8 @@ def _set_status(text: str | None) -> None:
 
 def export_certified(depsgraph: Any) -> Certified:
     """Return what :func:`export.export` does, and how well its camera is Blender's own."""
-    from .camera import certify_camera
-    from .export import export
+    from .reading.camera import certify_camera
+    from .reading.export import export
 
     scene, manifest = export(depsgraph)
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
@@ -166,7 +166,7 @@ def export_for_render(scene: Any) -> Certified:
         If the scene cannot be traced.
     """
     from ..scene import SceneError
-    from .temporary import values_kept
+    from .drawing.temporary import values_kept
 
     global _captured
     scene.render.engine = ENGINE

@@ -6,9 +6,10 @@ from typing import Any
 
 import bpy
 
-from . import engine, inspector, menus, panels, preferences, properties, study_panels
-from .long_work import OPERATORS, LongWork
-from .results import forget
+from . import engine
+from .ui import inspector, menus, panels, preferences, properties, study_panels
+from .ui.long_work import OPERATORS, LongWork
+from .ui.results import forget
 
 MODULES = properties, preferences, engine, menus, panels, study_panels
 _operators = bpy.utils.register_classes_factory(OPERATORS)  # the panels import them

@@ -8,9 +8,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..certainty import Certainty
 from ..images import curve_undone
 from ..runs import by_runs
-from ..tracer.certified.certainty import Certainty
 from .cause import Cause, Color
 
 WRONG: Color = (1.0, 0.0, 0.0)

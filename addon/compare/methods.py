@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from ..certainty import Certainty, broken_assumptions
 from ..methods import Method
 from ..scene import Scene
-from ..tracer.certified.certainty import Certainty, broken_assumptions
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer, steps

@@ -10,8 +10,8 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from ..certainty import Certainty
 from ..images import to_display
-from ..tracer.certified.certainty import Certainty
 from . import blocks
 from .blocks import Block, Heading, Paragraph, Table, numbers
 from .derivation import Derivation, Test

@@ -13,13 +13,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..certainty import Certainty, broken_assumptions
+from ..certified.contest import Contest
 from ..methods import Method
 from ..scene import Camera, SceneError
 from ..tracer import plane
 from ..tracer.camera import Rays, camera_rays, corner_rays
 from ..tracer.candidates import Pairs
-from ..tracer.certified.certainty import Certainty, broken_assumptions
-from ..tracer.certified.contest import Contest
 from ..tracer.hits import NOTHING, NOWHERE, Hits, Name, Statistics
 from ..tracer.nearest import within_clip
 from ..tracer.progress import result_of

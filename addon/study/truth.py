@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..certainty import Certainty
+from ..certified.any_rays import decide
 from ..methods import Method
 from ..scene import Camera, Scene
-from ..tracer.any_rays import decide
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.candidates import Pairs
-from ..tracer.certified.certainty import Certainty
 from ..tracer.frame import Frame
 from ..tracer.nearest import candidates, film_positions, plan
 from ..tracer.progress import Work, scaled

@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..certainty import Certainty
+from ..certified.measures import Measures
 from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
-from .certified.certainty import Certainty
 from .hits import NOTHING, Hits, LazyHits, Statistics, Ties
-from .measures import Measures
 from .memory import TRACED, check_memory
 
 _PIXELS = 1 << 15  # of which something is computed together

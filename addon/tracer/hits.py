@@ -10,8 +10,8 @@ from functools import cache, cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .certified.certainty import Certainty
-from .certified.reasons import Reason, sentences
+from ..certainty import Certainty
+from ..certified.reasons import Reason, sentences
 from .vector import Arrays, Index, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing

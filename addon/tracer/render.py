@@ -14,29 +14,29 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..certainty import AssumptionError, check_assumptions
+from ..certified.any_rays import trace_rays
+from ..certified.rounding import rounding
 from ..methods import Method
 from ..scene import Camera, Region, Scene
-from .any_rays import trace_rays
 from .camera import Rays, camera_rays, film_positions
-from .certified.certainty import AssumptionError, check_assumptions
 from .coloring import Color
 from .frame import Frame
 from .hits import Hits, Statistics
 from .nearest import plan, trace_tile
 from .progress import Steps, Work, result_of, scaled, timed
-from .rounding import rounding
 from .settings import Precision, Settings
 from .vector import parts
 from .world import refused
 
 try:
-    from .certified.sweep.sweep import sweep as certified
+    from ..certified.sweep.sweep import sweep as certified
 except ModuleNotFoundError as missing:
     # Where `sweep/` is deleted, but for what else may be in its folder, the definition finds the
     # same, later. Whatever else is missing is an error.
     if missing.name not in {f"{__package__}.certified.sweep{end}" for end in ("", ".sweep")}:
         raise
-    from .certified.plain import plain as certified
+    from ..certified.plain import plain as certified
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32

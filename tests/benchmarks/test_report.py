@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from reference_tracer.cli import main
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import AGREE, INPUT_ERROR, INTERRUPTED
 from reference_tracer.methods import Method
-from reference_tracer.parser import AGREE, INPUT_ERROR, INTERRUPTED
 from reference_tracer.scene import SceneError
 from reference_tracer_benchmarks import run as bench_run
 from reference_tracer_benchmarks.measure import measure

@@ -8,7 +8,7 @@ import sys
 
 import bpy
 import reference_tracer
-from reference_tracer.blender.results import Kind, latest
+from reference_tracer.blender.ui.results import Kind, latest
 
 DATA = bpy.data
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import bpy
 import pytest
-from reference_tracer.blender import visible
-from reference_tracer.blender.camera import export_camera
-from reference_tracer.blender.export import export as export_depsgraph
 from reference_tracer.blender.live.kept import KeptScene
+from reference_tracer.blender.reading import visible
+from reference_tracer.blender.reading.camera import export_camera
+from reference_tracer.blender.reading.export import export as export_depsgraph
 
 HANDLERS = bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.frame_change_post
 

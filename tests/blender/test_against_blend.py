@@ -7,8 +7,9 @@ import json
 import bpy
 import numpy as np
 import pytest
-from reference_tracer import cli, images
+from reference_tracer import images
 from reference_tracer.blender import registration
+from reference_tracer.cli.main import main
 
 
 @pytest.fixture
@@ -51,7 +52,7 @@ def judged(tmp_path, capsys, addon):
         try:
             paths = (str(tmp_path / name) for name in ("scene.blend", "drawn.png", "out"))
             blend, picture, out = paths
-            code = cli.main(["compare", blend, "--against", picture, "--out", out, *options])
+            code = main(["compare", blend, "--against", picture, "--out", out, *options])
         finally:
             registration.register()
         found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.camera import border_region, export_camera
+from reference_tracer.blender.reading.camera import border_region, export_camera
 
 
 def borders(count: int, seed: int):

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from reference_tracer.blender.camera import export_camera
+from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.tracer.camera import camera_rays, film_of
 
 SIZES = {"landscape": (192, 108), "portrait": (90, 160), "square": (128, 128)}

@@ -7,10 +7,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
+from reference_tracer import certainty
 from reference_tracer.blender.engine import ENGINE
+from reference_tracer.certainty import Certainty
 from reference_tracer.scene import Region
-from reference_tracer.tracer.certified import certainty
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 

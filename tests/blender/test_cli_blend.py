@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer import cli
 from reference_tracer.blender import registration
+from reference_tracer.cli.main import main
 from reference_tracer.images import to_display
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.render import render
@@ -23,7 +23,7 @@ SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"
 
 def shell(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess:
     return subprocess.run(
-        [sys.executable, "-m", "reference_tracer.cli", *map(str, argv)],
+        [sys.executable, "-m", "reference_tracer.cli.main", *map(str, argv)],
         capture_output=True,
         text=True,
         timeout=300,
@@ -39,7 +39,7 @@ def reftrace(addon, capfd):
         registration.unregister()  # the command registers by itself, in a process of its own
         capfd.readouterr()
         try:
-            code = cli.main([*map(str, argv)])
+            code = main([*map(str, argv)])
         finally:
             registration.register()
         return subprocess.CompletedProcess(argv, code, *capfd.readouterr())
@@ -194,7 +194,7 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
     """What is swallowed there is heard all the same, and nothing is left."""
     code = (
         "import signal, sys, threading, time\n"
-        "from reference_tracer import cli, running\n"
+        "from reference_tracer.cli import main as cli, running\n"
         "def later():\n"
         "    while not running._holding:\n"
         "        time.sleep(0.001)\n"

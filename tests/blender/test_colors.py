@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.colors import background
+from reference_tracer.blender.reading.colors import background
 from reference_tracer.blender.versions import WITHOUT_ATTRIBUTE
 
 from .scenes import HALF_FLOAT, assert_same_colors

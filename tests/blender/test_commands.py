@@ -83,7 +83,7 @@ def test_3_the_sizes_do_not_match(saved, out, monkeypatch, capsys):
 
 def test_3_also_where_blender_made_another_size(saved, out, monkeypatch, capsys):
     """It is noticed where the picture is read."""
-    from reference_tracer.blender import viewport
+    from reference_tracer.blender.drawing import viewport
 
     real = viewport.read
     monkeypatch.setattr(viewport, "read", lambda path: real(path)[:, :-1])

@@ -10,7 +10,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.judges import JUDGES
+from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.render import render
 

@@ -20,15 +20,15 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.compare import export_open_file
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified.rounding import check_rounding
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
-from reference_tracer.tracer.rounding import check_rounding
 from reference_tracer.tracer.settings import Settings
 
-from ..tracer.certified import digest
+from ..certified import digest
 
 PROJECT = Path(__file__).parents[2]
 OTHERS = PROJECT / ".venv" / "others"

@@ -10,9 +10,10 @@ import sys
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import commands, results
+from reference_tracer.blender import commands
 from reference_tracer.blender import compare as compare_module
-from reference_tracer.blender.results import Kind
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.results import Kind
 
 from . import hard_cases as hard
 from .test_hard_cases import own_picture
@@ -245,7 +246,7 @@ def test_the_operator_goes_back_to_the_users_frame(moving, out):
 
 def test_reftrace_goes_on_where_it_ended(moving, out):
     """As a user's shell runs it; where the work is done makes no other frames."""
-    argv = [sys.executable, "-m", "reference_tracer.cli", "compare", bpy.data.filepath]
+    argv = [sys.executable, "-m", "reference_tracer.cli.main", "compare", bpy.data.filepath]
     argv += ["--out", str(out), "--no-identity", "--frames"]
     elsewhere = "--scheduler", "local:1"
     for frames, place, told in (("2", (), [2]), ("1-3", elsewhere, [1, 3]), ("1-3", elsewhere, [])):

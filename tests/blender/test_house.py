@@ -8,9 +8,10 @@ from pathlib import Path
 
 import bpy
 import pytest
-from reference_tracer.blender import long_work, menus, preferences, registration
-from reference_tracer.blender.properties import POINTERS, SAID
-from reference_tracer.commands import files
+from reference_tracer.blender import registration
+from reference_tracer.blender.ui import long_work, menus, preferences
+from reference_tracer.blender.ui.properties import POINTERS, SAID
+from reference_tracer.cli.commands import files
 
 PRESETS = Path(menus.__file__).parent / "presets" / "reference_tracer"
 GROUPS = [group for *_, group in POINTERS]

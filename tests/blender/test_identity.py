@@ -116,7 +116,7 @@ def test_a_wrong_colour_is_no_wrong_object(build, compare, monkeypatch):
 
 def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch):
     """What is drawn for identity lacks an object, and no colour says so."""
-    from reference_tracer.blender import drawings
+    from reference_tracer.blender.drawing import drawings
 
     build.scene(color_type="SINGLE")
     build.solids()

@@ -8,7 +8,7 @@ import sys
 
 import bpy
 import pytest
-from reference_tracer.blender.judges import JUDGES, judge_named
+from reference_tracer.blender.drawing.judges import JUDGES, judge_named
 from reference_tracer.scene import SceneError
 
 # A Blender of its own, in which the records have one more before anything else reads them.
@@ -32,7 +32,7 @@ judges.JUDGES["draft"] = judges.Judge(
 
 import bpy
 import reference_tracer
-from reference_tracer import cli
+from reference_tracer.cli import main as cli
 from reference_tracer.blender import commands
 
 reference_tracer.register()

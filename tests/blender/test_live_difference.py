@@ -8,9 +8,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.camera import export_camera
 from reference_tracer.blender.live import like_for_like, shows, view
 from reference_tracer.blender.live.kept import KeptScene
+from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.tracer.settings import Settings
 

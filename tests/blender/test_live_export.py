@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.visible import types_left_out
+from reference_tracer.blender.reading.visible import types_left_out
 
 from .live import assert_as_a_whole_export, of_view, space
 

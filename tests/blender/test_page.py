@@ -7,8 +7,8 @@ import re
 
 import bpy
 import pytest
-from reference_tracer.blender import results
-from reference_tracer.blender.long_work import LongWork
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.long_work import LongWork
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of

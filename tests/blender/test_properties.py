@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import pytest
 from reference_tracer.blender.live.shows import SHOWS
-from reference_tracer.blender.properties import (
+from reference_tracer.blender.ui.properties import (
     COLORS,
     JUDGE_ITEMS,
     MAPS,

@@ -6,7 +6,7 @@ import os
 
 import bpy
 import pytest
-from reference_tracer.blender.colors import random_color
+from reference_tracer.blender.reading.colors import random_color
 
 from .scenes import assert_same_colors
 

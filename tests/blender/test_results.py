@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from reference_tracer.blender import results
-from reference_tracer.blender.results import Kind
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.results import Kind
 
 PICTURE = np.ones((4, 6, 4), np.float32)
 

@@ -30,7 +30,7 @@ def properties():
     make_scenes.register_properties()
     yield
     if not there:
-        sys.modules["reference_tracer.blender.properties"].unregister()
+        sys.modules["reference_tracer.blender.ui.properties"].unregister()
 
 
 def opened(name: str, folder: Path = FOLDER) -> bpy.types.Scene:

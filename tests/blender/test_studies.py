@@ -10,8 +10,9 @@ from urllib.request import url2pathname
 
 import bpy
 import pytest
-from reference_tracer.blender import commands, results
-from reference_tracer.blender.results import Kind
+from reference_tracer.blender import commands
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.results import Kind
 from reference_tracer.study import extremes
 
 from .test_unchanged import differences, state

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import reference_tracer
 from reference_tracer.blender import compare as compare_module
-from reference_tracer.blender.results import BLENDER, DIFFERENCE, TRACED
+from reference_tracer.blender.ui.results import BLENDER, DIFFERENCE, TRACED
 
 OURS = {TRACED, BLENDER, DIFFERENCE}
 # 4.2 itself counts a scene's collections once more for every copy of it that comes and goes.

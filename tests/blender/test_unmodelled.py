@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.unmodelled import world_bounds
+from reference_tracer.blender.reading.unmodelled import world_bounds
 
 MODES = ("VIEWPORT", "RENDER")
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender import viewport
-from reference_tracer.blender.camera import export_camera
-from reference_tracer.blender.judges import JUDGES, judge_named
-from reference_tracer.blender.temporary import temporary_scene
+from reference_tracer.blender.drawing import viewport
+from reference_tracer.blender.drawing.judges import JUDGES, judge_named
+from reference_tracer.blender.drawing.temporary import temporary_scene
+from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.compare.comparison import SizeError
 from reference_tracer.scene import SceneError
 

@@ -13,8 +13,8 @@ from argparse import Namespace
 import dask.config
 import psutil
 import pytest
-from reference_tracer.cli import main
-from reference_tracer.parser import INPUT_ERROR
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.scene import SceneError
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.render import render
@@ -148,7 +148,7 @@ def test_own_processes_end_with_it(tmp_path, scene, capsys):
     left = set(psutil.Process().children(recursive=True)) - before
     assert not [p for p in left if "resource_tracker" not in str(p.cmdline())]
     many = "--samples", "64", "--method", "textbook"
-    argv = [sys.executable, "-m", "reference_tracer.cli", *command, *many]
+    argv = [sys.executable, "-m", "reference_tracer.cli.main", *command, *many]
     work = subprocess.Popen(argv, start_new_session=True, stderr=subprocess.PIPE, text=True)
     workers: list[psutil.Process] = []
     while len([p for p in workers if p.cpu_times().user > 0.8]) < 2:

@@ -9,12 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.cli import main
-from reference_tracer.parser import INPUT_ERROR
+from reference_tracer.certainty import Certainty
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.scene_files import save_scene
 from reference_tracer.study import extremes
 from reference_tracer.study.scenarios.sweeps import ALL
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render, steps

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.cli import main
-from reference_tracer.parser import INPUT_ERROR
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.scene import Mesh
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.frame import Frame

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from reference_tracer.cli import main
+from reference_tracer.cli.main import main
 from reference_tracer.compare.animation import CODES, FrameRow, frames_named, worst_first
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from reference_tracer.certainty import Certainty
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.maps import (
     DIM,
@@ -16,7 +17,6 @@ from reference_tracer.compare.maps import (
     wrong_map,
 )
 from reference_tracer.images import to_display
-from reference_tracer.tracer.certified.certainty import Certainty
 
 RED = (*WRONG, 1)
 

@@ -7,10 +7,10 @@ import json
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.certainty import Certainty
 from reference_tracer.compare import methods
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.methods import list_methods
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import pytest
 import trimesh
-from reference_tracer.cli import main
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.explain import reproducer, writers
-from reference_tracer.parser import AGREE, INPUT_ERROR
 from reference_tracer.scene_files import save_scene
 
 SMALL = ["--width", "24", "--height", "16"]
@@ -85,7 +85,8 @@ def test_a_name_that_steers_a_terminal_is_spelt_out(make, tmp_path, capsys):
 def test_without_a_terminal(ball, tmp_path):
     """As `reftrace ... >&-` in a shell, or a service starts it."""
     options = "explain", ball, "--pixel", "12", "8", "--out", str(tmp_path / "a.md"), *SMALL
-    call = f"import sys; sys.stdout = None; from reference_tracer.cli import main; main({options})"
+    imported = "import sys; sys.stdout = None; from reference_tracer.cli.main import main"
+    call = f"{imported}; main({options})"
     done = subprocess.run([sys.executable, "-c", call], capture_output=True, text=True)
     assert not done.stderr and (tmp_path / "a.md").is_file()
 
@@ -93,7 +94,16 @@ def test_without_a_terminal(ball, tmp_path):
 @pytest.mark.slow
 def test_a_terminal_without_the_letters(ball):
     """Windows' pipes have 256 letters, and formulas more."""
-    command = [sys.executable, "-m", "reference_tracer.cli", "explain", ball, "--pixel", "12", "8"]
+    command = [
+        sys.executable,
+        "-m",
+        "reference_tracer.cli.main",
+        "explain",
+        ball,
+        "--pixel",
+        "12",
+        "8",
+    ]
     done = subprocess.run(
         [*command, *SMALL], capture_output=True, env=os.environ | {"PYTHONIOENCODING": "cp1252"}
     )

@@ -8,6 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from reference_tracer.certainty import Certainty
 from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.formulas import Rejection
@@ -15,7 +16,6 @@ from reference_tracer.explain.textbook import Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Precision, Settings
 

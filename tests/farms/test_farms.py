@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer.cli import main
+from reference_tracer.cli.main import main
 
 PROJECT = Path(__file__).resolve().parents[2]
 TEMPLATES = PROJECT / "docs" / "farms"

@@ -12,8 +12,8 @@ import time
 from functools import partial
 
 import pytest
-from reference_tracer.cli import main
-from reference_tracer.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import AGREE, DIFFERENCES, INPUT_ERROR, INTERRUPTED
 from reference_tracer.scene_files import save_scene
 from reference_tracer_grading import extremes
 from reference_tracer_grading.command import built_in
@@ -190,7 +190,7 @@ def test_ctrl_c_ends_the_student_too(tmp_path):
         f"pathlib.Path({str(tmp_path / 'pid')!r}).write_text(str(os.getpid()))\n"
         "while True:\n    pass\n"
     )
-    command = [sys.executable, "-m", "reference_tracer.cli", "judge", str(path), *SMALL]
+    command = [sys.executable, "-m", "reference_tracer.cli.main", "judge", str(path), *SMALL]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     pid = tmp_path / "pid"
     for _ in range(600):

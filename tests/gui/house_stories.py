@@ -64,7 +64,7 @@ def house():
     view.language = "es"
     yield 1
     noted["spanish"] = noted.pop("drawn")
-    noted["formatted"] = module("blender.panels").iface_("{} differ, {} open")
+    noted["formatted"] = module("blender.ui.panels").iface_("{} differ, {} open")
     view.language = before[1]
     bpy.app.translations.unregister("story")
     view.ui_scale = 2.0

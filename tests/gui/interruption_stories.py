@@ -79,7 +79,7 @@ def changed(before):
 def again(found):
     """A comparison after all that works as ever."""
     window().scene.render.resolution_percentage = 10
-    module("blender.results").forget()
+    module("blender.ui.results").forget()
     press_compare()
     yield from until(compared, 60)
     found["again"] = result().content.verdict
@@ -93,7 +93,7 @@ def started():
 
 def still_running():
     """What runs by Blender's list and by the add-on's own."""
-    own = module("blender.long_work").LongWork.running
+    own = module("blender.ui.long_work").LongWork.running
     return [*running(), *([own] if own else [])]
 
 

@@ -107,7 +107,7 @@ def module(name):
 
 def result(kind="COMPARISON"):
     """The latest result of a kind."""
-    results = module("blender.results")
+    results = module("blender.ui.results")
     return results.latest(results.Kind[kind], window().scene)
 
 

@@ -79,7 +79,7 @@ def study(name, kind, **options):
     noted["lines"] = list(result(kind).lines)
     page = Path(url2pathname(urlparse(result(kind).page).path))  # what the panel's button opens
     noted["plots"] = page.read_text(encoding="utf-8").count("<svg")
-    noted["in_add_on"] = Path(module("blender.results").__file__).parents[2] in page.parents
+    noted["in_add_on"] = Path(module("blender.ui.results").__file__).parents[2] in page.parents
     yield from show_study(name, name)
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 import numpy as np
-import reference_tracer.tracer.certified as certified
+import reference_tracer.certified as certified
 
 FOLDER = Path(certified.__file__).parent
 # Arguments of these are shapes, indices, counts and names of axes.

@@ -139,7 +139,7 @@ def test_the_tables_name_what_there_is():
 def test_a_new_number_is_found(known, old, new, said):
     source = (FOLDER / "bounds.py").read_text(encoding="utf-8")
     assert old in source
-    module = importlib.import_module("reference_tracer.tracer.certified.bounds")
+    module = importlib.import_module("reference_tracer.certified.bounds")
     found = list(unaccounted(of_module(module, "bounds", source.replace(old, new)), known))
     assert [number.text for number in found] == [said]
     assert str(found[0]).startswith("bounds.py, line ") and ast.parse(found[0].text)

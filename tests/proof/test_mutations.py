@@ -19,8 +19,8 @@ sys.argv = ["record_trees.py", "--check"]
 import record_trees
 record_trees.main()
 """
-BOUNDS = "tracer/certified/bounds.py"
-EDGES = "tracer/certified/sweep/edge_functions.py"
+BOUNDS = "certified/bounds.py"
+EDGES = "certified/sweep/edge_functions.py"
 TIMES = itertools.count(1_000_000_000, 10)
 # What is changed, in which file, and what the failure says of it.
 CHANGES = {
@@ -63,12 +63,12 @@ CHANGES = {
         ("plane_pixel_perspective_least, sweep.Sweep.enter_planes",),
     ),
     "sure at the error itself": (
-        "tracer/certified/sweep/rasterise.py",
+        "certified/sweep/rasterise.py",
         ("> gather(own.edge_error, row)", ">= gather(own.edge_error, row)"),
         ("block_sure, rasterise._block",),
     ),
     "an order that two floats may not have": (
-        "tracer/certified/order.py",
+        "certified/order.py",
         ("np.abs(value) > error", "np.abs(value) > 0"),
         ("order_from_point_known, order.order_of",),
     ),
@@ -78,7 +78,7 @@ CHANGES = {
         ("film_place_perspective_slope, film.Film.place",),
     ),
     "a digit less in the highest": (
-        "tracer/certified/quotient.py",
+        "certified/quotient.py",
         ("-1 << 27", "-1 << 28"),
         ("highest, quotient.highest", "Keep 25"),
     ),

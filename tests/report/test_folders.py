@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 import pytest
-from reference_tracer import cli
+from reference_tracer.cli.main import main
 from reference_tracer.report import folders
 
 NAMES = "a.txt", "b.png", "c.json"
@@ -147,7 +147,7 @@ def test_a_full_disk_ends_trace_in_one_line(suffix, tmp_path, full, capfd):
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     out = tmp_path / f"picture.{suffix}"
     size = ["--width", "300", "--height", "300", "--samples", "2"]
-    assert cli.main(["trace", str(path), "--out", str(out), *size]) == 4
+    assert main(["trace", str(path), "--out", str(out), *size]) == 4
     printed = capfd.readouterr()
     assert f"picture.{suffix}'" in printed.err and len(printed.err.splitlines()) == 1
     assert "write" in printed.err and not out.exists() and len(list(tmp_path.iterdir())) == 1

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.certainty import Certainty
 from reference_tracer.methods import Method
 from reference_tracer.study import extremes
 from reference_tracer.study.extremes import ExtremesRow, breaking_points, measure, written
 from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
 from reference_tracer.study.truth import sample, truth_of
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.certified.any_rays import decide
 from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
-from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 
 AT_ONCE = 1 << 20  # pairs looked at by the cull, some tens of MiB

@@ -14,8 +14,8 @@ from itertools import permutations
 
 import numpy as np
 import pytest
+from reference_tracer.certified.any_rays import decide
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
-from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 
 from ..rays import nearest_hits

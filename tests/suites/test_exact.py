@@ -10,8 +10,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from reference_tracer.certified.any_rays import decide
 from reference_tracer.study.oracle import EDGE, intersect_pairs
-from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 
 from ..rays import nearest_hits

@@ -16,9 +16,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.certified.any_rays import decide
 from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
-from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.vector import cross, dot
 

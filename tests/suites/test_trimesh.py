@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from reference_tracer.certified.any_rays import decide
 from reference_tracer.methods import Method
-from reference_tracer.tracer.any_rays import decide
 from reference_tracer.tracer.camera import Rays
 
 from ..rays import nearest_hits

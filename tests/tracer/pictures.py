@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from reference_tracer.certainty import Certainty
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.study.oracle import scene_sights
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings

@@ -1,6 +1,6 @@
 """A second tie rule: which pixels are ambiguous, found by really moving rays over an exact image.
 
-Written apart from `addon/tracer/certified`, of which it imports nothing, and in other terms. The
+Written apart from `addon/certified`, of which it imports nothing, and in other terms. The
 surfaces are seen in coordinates of the stored ray itself, where it is the point (0, 0) of an image.
 There every edge is a line, and t is a quotient: c + x gx + y gy each, in integers. A ray is moved
 to the side by a number that is small enough for nothing to change but what is zero; in the

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.tracer.any_rays import decide
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified.any_rays import decide
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.certainty import Certainty
 
 from ..rays import nearest_hits
 

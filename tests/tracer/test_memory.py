@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer import cli
+from reference_tracer.cli.main import main
 from reference_tracer.images import save_png, to_display
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer import memory
@@ -62,10 +62,10 @@ def test_the_least_of_machine_and_container_counts(monkeypatch):
 CHILD = """
 import resource, sys
 from pathlib import Path
-from reference_tracer import cli
+from reference_tracer.cli import main as cli
 
 kind, room, *argv = sys.argv[1:]
-cli.main([a.replace("large", "small") for a in argv])  # imports what the command needs
+main([a.replace("large", "small") for a in argv])  # imports what the command needs
 page, field = resource.getpagesize(), {"AS": 0, "DATA": 5}[kind]
 used = int(Path("/proc/self/statm").read_text().split()[field]) * page
 kind = getattr(resource, "RLIMIT_" + kind)
@@ -120,5 +120,5 @@ def test_the_largest_picture_that_blender_has_is_refused_at_once(tmp_path, comma
     own = ["--against", str(tmp_path / "other.png")] if command == "compare" else []
     out = str(tmp_path / ("out" if own else "out.png"))
     size = ["--width", "32767", "--height", "32767"]
-    assert cli.main([command, str(tmp_path / "box.ply"), *own, "--out", out, *size]) == 4
+    assert main([command, str(tmp_path / "box.ply"), *own, "--out", out, *size]) == 4
     assert re.match(REFUSED, capsys.readouterr().err.splitlines()[-1])

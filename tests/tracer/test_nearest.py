@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.certified.sweep import boxes, chunks, rasterise, sweep, verdict
 from reference_tracer.methods import Method
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import candidates, plane, render, world
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.certified.sweep import boxes, chunks, rasterise, sweep, verdict
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.settings import Settings

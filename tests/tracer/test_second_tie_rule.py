@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified import settle, ties
 from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.scene_files import load_scene
-from reference_tracer.tracer.certified import settle, ties
-from reference_tracer.tracer.certified.certainty import Certainty
 from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
@@ -18,7 +18,7 @@ from .hostile_scenes import hostile_scene
 from .pictures import mess
 from .second_tie_rule import compared
 
-EXERCISE = sorted((Path(__file__).parents[2] / "grading" / "scenes").glob("*.npz"))
+EXERCISE = sorted((Path(__file__).parents[2] / "packages" / "grading" / "scenes").glob("*.npz"))
 CAMERAS = pytest.mark.parametrize("orthographic", [False, True], ids=["persp", "ortho"])
 
 

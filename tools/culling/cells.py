@@ -6,10 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
+from reference_tracer.certified.sweep.rasterise import Boxes, cells
 from reference_tracer.projections import ORTHOGRAPHIC
 from reference_tracer.report import plots
-from reference_tracer.tracer.certified.sweep.depth_buffer import COARSE, FINE, DepthBuffer
-from reference_tracer.tracer.certified.sweep.rasterise import Boxes, cells
 
 from .panels import border, dots, image, outline, panel, rgb, shown
 from .scenes import ahead, mesh, scene, sheet, sphere

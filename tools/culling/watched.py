@@ -11,15 +11,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified.sweep import sweep
+from reference_tracer.certified.sweep.chunks import Expanded
+from reference_tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
+from reference_tracer.certified.sweep.edge_functions import EdgeFunctions
+from reference_tracer.certified.sweep.film import Film
+from reference_tracer.certified.sweep.rasterise import Boxes, Covered
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer import render
-from reference_tracer.tracer.certified.certainty import Certainty
-from reference_tracer.tracer.certified.sweep import sweep
-from reference_tracer.tracer.certified.sweep.chunks import Expanded
-from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
-from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
-from reference_tracer.tracer.certified.sweep.film import Film
-from reference_tracer.tracer.certified.sweep.rasterise import Boxes, Covered
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import quiet, result_of
 from reference_tracer.tracer.settings import Settings

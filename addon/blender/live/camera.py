@@ -15,7 +15,7 @@ import numpy as np
 from ...projections import ORTHOGRAPHIC, PERSPECTIVE
 from ...scene import Camera, Region, ViewWindow
 from ...tracer.camera import film_of
-from ..camera import border_region, projection_of
+from ..reading.camera import border_region, projection_of
 
 
 def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:

@@ -14,8 +14,8 @@ import bpy
 
 from ...manifest import Effect
 from ...scene import Camera, Scene, alike
-from ..export import assemble
-from ..visible import Read, read_mesh, types_left_out, visible
+from ..reading.export import assemble
+from ..reading.visible import Read, read_mesh, types_left_out, visible
 
 
 class KeptScene:

@@ -15,15 +15,15 @@ from ...compare.case import Case
 from ...compare.picture import Picture, Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
-from ..camera import certify_camera
-from ..camera_object import add_camera
-from ..export import NO_SURFACE, export
-from ..judges import JUDGES
-from ..planes import stand_ins
-from ..rasteriser import snapping_of
-from ..temporary import drawn, leave_out, temporary_scene
-from ..viewport import picture, prepare_scene
-from ..visible import in_view, types_left_out
+from ..drawing.camera_object import add_camera
+from ..drawing.judges import JUDGES
+from ..drawing.rasteriser import snapping_of
+from ..drawing.temporary import drawn, leave_out, temporary_scene
+from ..drawing.viewport import picture, prepare_scene
+from ..reading.camera import certify_camera
+from ..reading.export import NO_SURFACE, export
+from ..reading.planes import stand_ins
+from ..reading.visible import in_view, types_left_out
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
 _VIEWPORT = JUDGES["viewport"]

@@ -13,11 +13,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ...certainty import Certainty
 from ...compare.cause import Cause
 from ...compare.causes import explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
 from ...scene import Camera, Scene
-from ...tracer.certified.certainty import Certainty
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING

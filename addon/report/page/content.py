@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from ...certainty import Certainty
 from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import data_uri, to_display
-from ...tracer.certified.certainty import Certainty
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
 from .. import trade as trade_report

@@ -3,13 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+from reference_tracer.certified.bounds import Fractions, FromPoint, Parallel, plane_fractions
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.bounds import (
-    Fractions,
-    FromPoint,
-    Parallel,
-    plane_fractions,
-)
 
 from .record import Inputs, Kept, Record
 

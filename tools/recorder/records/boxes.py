@@ -7,10 +7,10 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
+from reference_tracer.certified.sweep import boxes, small_boxes
+from reference_tracer.certified.sweep.boxes import InstanceBoxes
+from reference_tracer.certified.sweep.film import Film
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
-from reference_tracer.tracer.certified.sweep import boxes, small_boxes
-from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
-from reference_tracer.tracer.certified.sweep.film import Film
 
 from . import film
 from .bounds import FIRST

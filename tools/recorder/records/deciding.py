@@ -6,8 +6,8 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
+from reference_tracer.certified import contest, order
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified import contest, order
 
 from .bounds import FIRST
 from .record import Inputs, Kept, Record, locals_of

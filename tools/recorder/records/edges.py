@@ -5,9 +5,9 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+from reference_tracer.certified.sweep import edge_functions
+from reference_tracer.certified.sweep.edge_functions import EdgeFunctions
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
-from reference_tracer.tracer.certified.sweep import edge_functions
-from reference_tracer.tracer.certified.sweep.edge_functions import EdgeFunctions
 
 from .record import Inputs, Kept, Record, locals_of
 

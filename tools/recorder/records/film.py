@@ -9,9 +9,9 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
+from reference_tracer.certified.sweep import film
+from reference_tracer.certified.sweep.film import Film, Vertices
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
-from reference_tracer.tracer.certified.sweep import film
-from reference_tracer.tracer.certified.sweep.film import Film, Vertices
 
 from ..arrays import holds, most
 from .record import BY_HAND, Inputs, Kept, Record, locals_of

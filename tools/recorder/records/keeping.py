@@ -7,15 +7,15 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
+from reference_tracer.certified import contest
+from reference_tracer.certified.contest import Contest
+from reference_tracer.certified.sweep.boxes import InstanceBoxes
+from reference_tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
+from reference_tracer.certified.sweep.rasterise import Covered
+from reference_tracer.certified.sweep.sweep import Sweep
 from reference_tracer.projections import PERSPECTIVE
 from reference_tracer.tracer import camera
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified import contest
-from reference_tracer.tracer.certified.contest import Contest
-from reference_tracer.tracer.certified.sweep.boxes import InstanceBoxes
-from reference_tracer.tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
-from reference_tracer.tracer.certified.sweep.rasterise import Covered
-from reference_tracer.tracer.certified.sweep.sweep import Sweep
 
 from . import film
 from .bounds import FIRST

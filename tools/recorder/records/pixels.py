@@ -9,12 +9,12 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
+from reference_tracer.certified.sweep import rasterise, small_boxes, sweep
+from reference_tracer.certified.sweep.depth_buffer import ClipRange, DepthBuffer
+from reference_tracer.certified.sweep.rasterise import Boxes
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from reference_tracer.scene import Region
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified.sweep import rasterise, small_boxes, sweep
-from reference_tracer.tracer.certified.sweep.depth_buffer import ClipRange, DepthBuffer
-from reference_tracer.tracer.certified.sweep.rasterise import Boxes
 
 from . import edges
 from .bounds import FIRST

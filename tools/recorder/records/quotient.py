@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from unittest import mock
 
+from reference_tracer.certified import quotient
+from reference_tracer.certified.quotient import Quotients
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.certified import quotient
-from reference_tracer.tracer.certified.quotient import Quotients
 
 from .bounds import CORNERS, FIRST
 from .record import Inputs, Kept, Record, locals_of

@@ -1,0 +1,158 @@
+"""Blender's camera -> `scene.Camera`: what `tracer/camera.py` reads.
+
+The rules are Blender's own (its view plane from lens, sensor, shift and pixel aspect; its float32
+rounding of the border), in float64 from the float32 settings. `Object.calc_matrix_camera` is what
+they are held to: of each export by its certificate. Nothing here needs bpy itself.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...compare.certificate import CameraCertificate, certify, known_points
+from ...projections import PROJECTIONS, Projection
+from ...scene import Camera, Region, SceneError, ViewWindow, check_size
+
+
+def border_region(
+    width: int, height: int, min_x: float, max_x: float, min_y: float, max_y: float
+) -> Region:
+    """Return the pixels inside a render border, which runs from 0 to 1.
+
+    Blender multiplies in float32 and cuts off: 0.3 of 250 pixels is 75, 0.7 of 10 is 6 or 7 as
+    the float32 product has it.
+    """
+
+    def cut(share: float, size: int) -> int:
+        return int(np.float32(share) * np.float32(size))
+
+    return Region(cut(min_x, width), cut(min_y, height), cut(max_x, width), cut(max_y, height))
+
+
+def resolution(render: Any) -> tuple[int, int]:
+    """Return the size in pixels of the whole picture of `bpy.types.RenderSettings`."""
+    percent = render.resolution_percentage
+    return render.resolution_x * percent // 100, render.resolution_y * percent // 100
+
+
+def pixel_height(render: Any) -> float:
+    """Return the height of a pixel of `bpy.types.RenderSettings`, in widths."""
+    return render.pixel_aspect_y / render.pixel_aspect_x
+
+
+def window_of(scene: Any) -> ViewWindow:
+    """Return what the camera of a `bpy.types.Scene` shows, at depth 1, or in metres."""
+    data, render = scene.camera.data, scene.render
+    width, height = resolution(render)
+    tall, vertical = pixel_height(render), data.sensor_fit == "VERTICAL"
+    sensor = data.sensor_height if vertical else data.sensor_width
+    if data.sensor_fit == "AUTO":
+        # The products are float32 in Blender: at nearly square pictures they decide the side.
+        across = np.float32(render.pixel_aspect_x) * np.float32(width)
+        vertical = across < np.float32(render.pixel_aspect_y) * np.float32(height)
+    fitted = tall * height if vertical else width  # length of that side, in pixel widths
+    extent = data.ortho_scale if data.type == "ORTHO" else sensor / data.lens
+    size = extent / fitted  # width of a pixel
+    x, y = data.shift_x * fitted, data.shift_y * fitted  # which are in lengths of that side
+    return ViewWindow(
+        left=(x - 0.5 * width) * size,
+        right=(x + 0.5 * width) * size,
+        bottom=(y - 0.5 * tall * height) * size,
+        top=(y + 0.5 * tall * height) * size,
+    )
+
+
+def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
+    """Return world_from_camera, (4, 4) float64, without the scale of the camera object.
+
+    Blender divides each axis by its length; what is mirrored or sheared stays so.
+    """
+    matrix = np.array(matrix_world, dtype=np.float64)
+    lengths = np.sqrt((matrix[:3, :3] ** 2).sum(axis=0))
+    if not np.isfinite(matrix).all() or not lengths.all():
+        raise SceneError(
+            f"Camera '{name}' has a scale of zero or a matrix that is not finite: clear its scale."
+        )
+    matrix[:3, :3] /= lengths
+    return matrix
+
+
+def projection_of(obj: Any, scene: Any) -> Projection:
+    """Return how an object projects that a `bpy.types.Scene` is seen through.
+
+    Raises
+    ------
+    SceneError
+        If it is no camera, or of a kind that the tracer does not model.
+    """
+    if obj.type != "CAMERA":
+        raise SceneError(
+            f"'{obj.name}', the active camera of scene '{scene.name}', is a {obj.type.lower()}: "
+            "make a camera object active."
+        )
+    projections = {p.blender: p for p in PROJECTIONS.values()}
+    if obj.data.type not in projections:
+        raise SceneError(
+            f"Camera '{obj.name}' is of type {obj.data.type.lower()}; Reference Tracer models "
+            f"{' and '.join(PROJECTIONS)} cameras."
+        )
+    return projections[obj.data.type]
+
+
+def export_camera(scene: Any) -> Camera:
+    """Return the active camera of an evaluated `bpy.types.Scene`.
+
+    Raises
+    ------
+    SceneError
+        If there is none, or it is of a kind that the tracer does not model.
+    """
+    obj = scene.camera
+    if obj is None:
+        raise SceneError(
+            f"Scene '{scene.name}' has no camera: add one that frames all (the panel's button, or "
+            "--frame-all), place one (--eye X Y Z), or make one active (--camera NAME)."
+        )
+    projection = projection_of(obj, scene)
+    data, render = obj.data, scene.render
+    width, height = resolution(render)
+    check_size(width, height)
+    region = None
+    if render.use_border:
+        names = ("border_min_x", "border_max_x", "border_min_y", "border_max_y")
+        region = border_region(width, height, *(getattr(render, name) for name in names))
+    return Camera(
+        world_from_camera=camera_axes(obj.matrix_world, obj.name),
+        window=window_of(scene),
+        width=width,
+        height=height,
+        projection=projection,
+        clip_start=data.clip_start,
+        clip_end=data.clip_end,
+        region=region,
+        name=obj.name,
+    )
+
+
+def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate:
+    """Return how far apart the camera exported of a scene and Blender's own see known points."""
+    points = known_points(camera)
+    return certify(camera, points, _film(scene, depsgraph, points))
+
+
+def _film(scene: Any, depsgraph: Any, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return where world points (3, n) appear, (2, n) pixels of the whole picture."""
+    obj, render = scene.camera.evaluated_get(depsgraph), scene.render
+    width, height = resolution(render)
+    projection = obj.calc_matrix_camera(
+        depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y
+    )
+    world = np.array(obj.matrix_world.normalized(), np.float64)  # as Blender's view matrix has it
+    at = np.linalg.solve(world[:3, :3], points - world[:3, 3:])
+    clip = np.array(projection, np.float64) @ np.vstack((at, np.ones(at.shape[1])))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        x, y = clip[:2] / clip[3]
+    return np.stack(((x + 1) / 2 * width, (y + 1) / 2 * height))

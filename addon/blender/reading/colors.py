@@ -1,0 +1,104 @@
+"""The constant colours of Blender's solid viewport, linear RGBA, from `View3DShading`.
+
+In come an evaluated object and the shading; out goes what each of its material slots shows.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scene import GREY
+from ..versions import OWN_BACKGROUND, WITHOUT_ATTRIBUTE
+
+_SATURATION, _VALUE = 0.5, 0.8  # of Blender's random colours
+
+
+def instance_colors(
+    obj: Any, holder: Any, color_type: str, single: Any, materials: list[Any]
+) -> NDArray[np.float32]:
+    """Return (k, 4) float32: the colour of each material slot, at least one.
+
+    The object is evaluated; of an instance, the holder is what instances it: its colour is shown.
+    Of `View3DShading.color_type`, 'VERTEX' means a mesh without a colour attribute; 'TEXTURE' is
+    not modelled, and shows the material's colour. `single` (3,) is the colour under 'SINGLE'; the
+    materials are by slot, None where it is empty.
+    """
+    if color_type == "SINGLE":
+        return np.array([(*single, 1.0)], np.float32)
+    if color_type == "RANDOM":
+        return np.array([random_color(obj.original)], np.float32)
+    if color_type == "VERTEX":
+        color_type = WITHOUT_ATTRIBUTE
+    if color_type == "OBJECT":
+        return np.array([holder.color], np.float32)
+    return np.array([m.diffuse_color if m else GREY for m in materials] or [GREY], np.float32)
+
+
+def slot_materials(obj: Any) -> list[Any]:
+    """Return the material of each slot, None where empty; a slot may be linked to the object."""
+    slots = obj.material_slots
+    return [
+        slots[i].material if i < len(slots) and slots[i].link == "OBJECT" else material
+        for i, material in enumerate(obj.data.materials)
+    ]
+
+
+def background(scene: Any) -> NDArray[np.float32]:
+    """Return what a pixel that sees nothing shows in a render of this scene, (4,) linear RGBA.
+
+    As Workbench has it: nothing with a transparent film or without a world; else the shading's own
+    colour where it is set to that and this Blender draws it, else the world's.
+    """
+    if scene.render.film_transparent:
+        return np.zeros(4, np.float32)
+    shading = scene.display.shading
+    if shading.background_type == "VIEWPORT" and OWN_BACKGROUND:
+        return np.array((*shading.background_color, 1.0), np.float32)
+    if scene.world is None:
+        return np.zeros(4, np.float32)
+    return np.array((*scene.world.color, 1.0), np.float32)
+
+
+def random_color(obj: Any) -> tuple[float, float, float, float]:
+    """Return the colour that Blender draws an object with under 'RANDOM'.
+
+    A hue from a hash of the object's name (MurmurHash2 over Blender's "OB" + name with its ending
+    zero, then Bob Jenkins' final mix), checked against Blender's pictures.
+    """
+    mixed = _murmur2(b"OB" + obj.name.encode() + b"\0")
+    if obj.library:
+        mixed = (mixed * 13 & 0xFFFFFFFF) ^ _murmur2(obj.library.filepath.encode() + b"\0")
+    hue = _jenkins(mixed) / 0xFFFFFFFF
+    red, green, blue = (
+        (min(max(c, 0.0), 1.0) - 1.0) * _SATURATION + 1.0
+        for c in (abs(hue * 6 - 3) - 1, 2 - abs(hue * 6 - 2), 2 - abs(hue * 6 - 4))
+    )
+    return red * _VALUE, green * _VALUE, blue * _VALUE, 1.0
+
+
+def _murmur2(data: bytes) -> int:
+    """MurmurHash2 by Austin Appleby, 32 bits, seed 0."""
+    m, mask = 0x5BD1E995, 0xFFFFFFFF
+    h, tail = len(data), len(data) % 4
+    for i in range(0, len(data) - tail, 4):
+        k = int.from_bytes(data[i : i + 4], "little") * m & mask
+        h = (h * m & mask) ^ ((k ^ k >> 24) * m & mask)
+    if tail:
+        h = (h ^ int.from_bytes(data[-tail:], "little")) * m & mask
+    h = (h ^ h >> 13) * m & mask
+    return h ^ h >> 15
+
+
+def _jenkins(key: int) -> int:
+    """Bob Jenkins' lookup3 final mix of one 32-bit key."""
+    mask = 0xFFFFFFFF
+    start = 0xDEADBEEF + (2 << 2) + 13 & mask
+    words = [start + key & mask, start, start]  # a, b, c
+    for n, bits in enumerate((14, 11, 25, 16, 4, 14, 24)):
+        target, value = (n + 2) % 3, words[(n + 1) % 3]
+        rotated = (value << bits | value >> 32 - bits) & mask
+        words[target] = (words[target] ^ value) - rotated & mask
+    return words[2]

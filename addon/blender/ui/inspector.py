@@ -1,0 +1,80 @@
+"""The pixel inspector: click on a pixel, read its maths.
+
+`picking.py` finds the pixel under the mouse; `reference_tracer.explain` does the work, with a step
+of undo for each click.
+"""
+
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+import bpy
+
+from .long_work import is_blocked, named
+
+_HINT = (
+    "Pixel Inspector: click a pixel in the render, in an image of the comparison, or in the "
+    "camera's view  (Esc: end)"
+)
+
+
+@named
+class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
+    running: ClassVar[bool] = False
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow one at a time, where there is a camera, and none beside long work."""
+        if cls.running:
+            cls.poll_message_set("The inspector is on: click a pixel, or end it with Esc")
+        return not (cls.running or is_blocked(cls, context, needs_camera=True))
+
+    def execute(self, context: Any) -> set[str]:
+        """Refuse a script's call: it has no mouse."""
+        self.report({"ERROR"}, "There is no mouse to click with: use reference_tracer.explain")
+        return {"CANCELLED"}
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        if bpy.app.background:
+            return self.execute(context)
+        type(self).running = True
+        context.window.cursor_modal_set("EYEDROPPER")
+        context.workspace.status_text_set(_HINT)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Any, event: Any) -> set[str]:
+        """Explain the pixel under a click; leave all else to the interface."""
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            return {"FINISHED"}
+        if event.type != "LEFTMOUSE" or event.value != "PRESS":
+            return {"PASS_THROUGH"}
+        from ...cli.arguments import words
+        from ...scene import SceneError
+        from .picking import pick
+
+        try:
+            found = pick(context, event.mouse_x, event.mouse_y)
+            if found is None:
+                return {"PASS_THROUGH"}
+            draw_ray = context.window_manager.reference_tracer.draw_ray
+            # As a button does it: with a step of undo of its own.
+            bpy.ops.reference_tracer.explain(
+                "EXEC_DEFAULT", True, **found._asdict(), draw_ray=draw_ray
+            )
+        except (SceneError, RuntimeError) as error:  # what an operator reports is one, too
+            said = words(error).removeprefix("Error: ")
+            self.report({"WARNING"}, said)
+            context.workspace.status_text_set(f"{said}  (Esc: end)")
+        else:
+            context.workspace.status_text_set(_HINT)
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context: Any) -> None:
+        """End, also when Blender itself ends it, as at quitting or loading a file."""
+        type(self).running = False
+        if context.window:
+            context.window.cursor_modal_restore()
+        if context.workspace:
+            context.workspace.status_text_set(None)

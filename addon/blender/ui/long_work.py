@@ -1,0 +1,198 @@
+"""What every operator shares; those with long work, progress, time left, Esc, one at a time, too.
+
+An operator says in `begin` what the work is, a generator that yields the share that is done, and in
+`finish` what becomes of its result. A script's call runs through; a button's goes on in small
+steps, while the interface stays alive.
+"""
+
+from __future__ import annotations
+
+import time
+import traceback
+from pathlib import Path
+from typing import Any, ClassVar
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.props import StringProperty
+
+from ...tracer.progress import Work, result_of
+from ..versions import RELATIVE
+from .preferences import default_folder
+from .properties import SAID
+from .results import redraw
+
+SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
+PAUSE = 0.005  # seconds that the interface gets in between
+SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may cost more than a step
+
+OPERATORS: list[type] = []  # to be registered
+
+
+def named(operator: type) -> type:
+    """Give an operator its identifier, texts and reports of errors; have it registered."""
+    name, execute = operator.__name__.rpartition("_OT_")[2], operator.execute
+
+    def guarded(self: Any, context: Any) -> set[str]:
+        try:
+            return execute(self, context)
+        except Exception as error:
+            return failed(self, error)
+
+    operator.bl_idname, operator.execute = f"reference_tracer.{name}", guarded
+    operator.bl_label, operator.bl_description = (SAID[name][t] for t in ("label", "description"))
+    OPERATORS.append(operator)
+    return operator
+
+
+class LongWork:
+    """Mixed into an operator: the class gives its names, its `begin` and its `finish`."""
+
+    bl_options = {"UNDO"}  # what it leaves is one step
+
+    running: ClassVar[str] = ""  # the label of the one that is, in whichever window
+    _work: ClassVar[Work[Any]]  # of that one
+    _timer: ClassVar[Any]
+    needs_camera: ClassVar[bool] = False
+    alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
+    left: str = "nothing was changed"  # at Esc
+
+    directory: StringProperty(options={"SKIP_SAVE"} | RELATIVE, **SAID["work"]["directory"])  # type: ignore[valid-type]
+
+    def folder(self) -> Path | None:
+        """Make the folder, and return it; None where nothing is to be written."""
+        from ..compare import made_folder
+
+        directory = self.directory or default_folder(self.bl_idname.rpartition("_OT_")[2])
+        if directory and not self.directory:
+            say(f"Results go to {directory}")
+        return made_folder(directory) if directory else None
+
+    def begin(self, context: Any) -> Work[Any]:
+        """Return the work; what has to be done in one go is done here."""
+        raise NotImplementedError
+
+    def finish(self, context: Any, result: Any) -> tuple[str, str]:
+        """Show the result of the work; return what to report: 'INFO' or 'WARNING', and a text."""
+        raise NotImplementedError
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow one at a time, with a camera if it needs one."""
+        return not is_blocked(cls, context, cls.needs_camera)
+
+    def execute(self, context: Any) -> set[str]:
+        """Run through, as a script wants it."""
+        return self._end(context, result_of(self.begin(context)))
+
+    def invoke(self, context: Any, event: Any) -> set[str]:
+        """Begin, and go on while the interface stays alive."""
+        if bpy.app.background:
+            return self.execute(context)
+        try:
+            LongWork._work = self.begin(context)
+        except Exception as error:
+            return failed(self, error)
+        manager = context.window_manager
+        LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
+        manager.progress_begin(0, 100)
+        manager.modal_handler_add(self)
+        self._began = self._shown = time.monotonic()
+        LongWork.running = self.bl_label
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: Any, event: Any) -> set[str]:
+        """Work for one step, or stop at Esc."""
+        if event.type == "ESC" and event.value == "PRESS":
+            self.cancel(context)
+            said = rpt_("{} was cancelled; {}").format(rpt_(self.bl_label), rpt_(self.left))
+            self.report({"WARNING"}, said)
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL" if self.alone else "PASS_THROUGH"}
+        until = time.monotonic() + SECONDS_A_STEP
+        try:
+            while time.monotonic() < until:
+                share = next(self._work)
+        except StopIteration as stop:
+            self.cancel(context)
+            try:
+                return self._end(context, stop.value)
+            except Exception as error:
+                return failed(self, error)
+        except Exception as error:
+            self.cancel(context)
+            return failed(self, error)
+        self._show_progress(context, share)
+        return {"PASS_THROUGH"}  # the timers of others are theirs
+
+    def _show_progress(self, context: Any, share: float) -> None:
+        now = time.monotonic()
+        if now - self._shown < SHOWN_EVERY:
+            return
+        self._shown, past = now, now - self._began
+        context.window_manager.progress_update(int(100 * share))
+        left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
+        said = rpt_("{}: {} %{}  (Esc: cancel)").format(rpt_(self.bl_label), int(100 * share), left)
+        context.workspace.status_text_set(said)
+
+    @staticmethod
+    def stop() -> None:
+        """Stop whatever is running: Blender tells no operator that its add-on is switched off."""
+        if LongWork.running:
+            window = bpy.context.window or bpy.context.window_manager.windows[0]
+            with bpy.context.temp_override(window=window):  # a script may have none
+                LongWork.cancel(LongWork, bpy.context)
+
+    def cancel(self, context: Any) -> None:
+        """Stop; Blender itself asks for it, too, as at quitting or loading a file."""
+        LongWork.running = ""
+        LongWork._work.close()
+        context.window_manager.event_timer_remove(LongWork._timer)
+        context.window_manager.progress_end()
+        if context.workspace:
+            context.workspace.status_text_set(None)
+
+    def _end(self, context: Any, result: Any) -> set[str]:
+        level, text = self.finish(context, result)
+        redraw(context)
+        self.report({level}, text)
+        return {"FINISHED"}
+
+
+def failed(operator: Any, error: Exception) -> set[str]:
+    """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
+    from ...cli.arguments import EXPECTED, words
+
+    if not isinstance(error, EXPECTED):
+        traceback.print_exception(error)
+    operator.report({"ERROR"}, words(error))
+    return {"CANCELLED"}
+
+
+def with_ending(filepath: str, *endings: str) -> Path:
+    """Return the path of a file that is to have one of these endings; // is beside the .blend."""
+    from ...scene import SceneError
+
+    path = Path(bpy.path.abspath(filepath))
+    if path.suffix.lower() not in endings:
+        raise SceneError(f"'{filepath}' must end in {' or '.join(endings)}")
+    return path
+
+
+def is_blocked(operator: Any, context: Any, needs_camera: bool) -> bool:
+    """Return whether long work or a missing camera is in the way; an operator's button says so."""
+    why, name = "", context.scene.name
+    if LongWork.running:
+        why = rpt_("{} is running: Esc cancels it").format(rpt_(LongWork.running))
+    elif needs_camera and context.scene.camera is None:
+        why = rpt_("Scene '{}' has no camera: add one, or make one active").format(name)
+    if why:
+        operator.poll_message_set(why)
+    return bool(why)
+
+
+def say(*lines: str) -> None:
+    """Print lines under the add-on's name."""
+    for line in lines:
+        print(f"Reference Tracer: {line}")

@@ -1,0 +1,187 @@
+"""The latest of each kind of result, for the panels; the images and texts that show it.
+
+What the panels show is not stored in the .blend: it speaks of one moment.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ...methods import Method
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ...compare.comparison import Comparison
+    from ...study.extremes import BreakingPoint, ExtremesRow
+    from ...study.trade import Trade
+
+# What results are of. To name a kind, the class of its contents need not be imported.
+Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES BREAKING_POINTS")
+TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
+MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """What a panel shows; computed once, since panels are drawn many times a second."""
+
+    file: str
+    content: Any  # of the kind that it is kept as
+    lines: tuple[str, ...]  # what to say, the first of them first
+    scene: str | None = None  # None: of no scene
+    page: str = ""  # the address of its plots
+
+
+_latest: dict[Kind, Result] = {}
+
+
+def keep_comparison(context: Any, comparison: Comparison) -> Result:
+    """Remember a comparison, and put its three pictures into images of Blender's."""
+    from ...report.comparison import difference_picture
+
+    show(TRACED, comparison.frame.color)
+    show(BLENDER, comparison.picture)
+    shown = show(DIFFERENCE, difference_picture(comparison))
+    show_in_editor(context, shown)
+    return keep(Kind.COMPARISON, comparison, comparison.lines(), comparison.manifest.scene)
+
+
+def keep_trade(trade: Trade) -> Result:
+    """Remember a trade, and write its plot for the browser."""
+    from ...report import trade as trade_report
+
+    page = _page("trade", trade_report.pictures(trade))
+    return keep(Kind.TRADE, trade, [trade.advice], trade.scene, page)
+
+
+def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
+    """Remember where each method breaks, and write the plots of it for the browser."""
+    from ...report import extremes as extremes_report
+    from ...study.extremes import breaking_points
+
+    page, points = _page("extremes", extremes_report.pictures(rows)), tuple(breaking_points(rows))
+    lines = [_extremes_sentence(rows, points)]
+    keep(Kind.EXTREMES, tuple(rows), lines)
+    return keep(Kind.BREAKING_POINTS, points, lines, page=page)
+
+
+def _page(name: str, pictures: dict[str, str]) -> str:
+    from ...report import folders, plots
+
+    path = session_folder() / f"{name}.html"
+    folders.write_text(path, plots.page(f"Reference Tracer {name}", pictures.values()))
+    return path.as_uri()
+
+
+@cache
+def session_folder() -> Path:
+    """Return a folder that outlives this Blender, so that the browser can load a page again."""
+    return Path(tempfile.mkdtemp(prefix="reference-tracer-"))
+
+
+def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoint]) -> str:
+    """Return in one sentence whether the certified method holds, and which other holds longest."""
+    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
+    points = [p for p in points if Method(p.method).is_plain]
+    holds = Counter({(p.method, p.precision): 0 for p in points})
+    holds.update((p.method, p.precision) for p in points if p.never)
+    if holds:
+        [((method, precision), count)] = holds.most_common(1)
+        total = len({p.scenario for p in points})
+        sentence += (
+            f"; of the other methods, {Method(method).words} in {precision} holds in the most "
+            f"sweeps: {count} of {total}"
+            if count
+            else f"; every other method breaks in each of {total} sweeps"
+        )
+    return sentence + "."
+
+
+def keep(
+    kind: Kind, content: Any, lines: Iterable[str], scene: str | None = None, page: str = ""
+) -> Result:
+    """Remember a result of a kind, for :func:`latest`."""
+    _latest[kind] = Result(bpy.data.filepath, content, tuple(lines), scene, page)
+    return _latest[kind]
+
+
+def latest(kind: Kind, scene: Any) -> Result | None:
+    """Return the latest result of a kind, if it is of this scene in the file that is open."""
+    found = _latest.get(kind)
+    if found and found.file == bpy.data.filepath and found.scene in (None, scene.name):
+        return found
+    return None
+
+
+def forget() -> None:
+    """Drop all results, as when another file is opened."""
+    _latest.clear()
+
+
+def show(name: str, color: NDArray) -> Any:
+    """Put linear RGBA (h, w, 4) into our image of this name, made where it is not there."""
+    import numpy as np
+
+    height, width = color.shape[:2]
+    image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
+    if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
+        del image[MARK]
+        image = None
+    if image is None:
+        image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
+        image[MARK] = name
+    elif tuple(image.size) != (width, height):
+        image.scale(width, height)
+    image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
+    image.update()
+    return image
+
+
+def show_in_editor(context: Any, image: Any) -> None:
+    """Show an image in the window's first image editor, if there is one."""
+    spaces = (area.spaces.active for area in areas(context, "IMAGE_EDITOR"))
+    if space := next((s for s in spaces if s.mode == "VIEW"), None):
+        space.image = image
+
+
+def show_text(context: Any, name: str, content: str) -> Any:
+    """Put a text into ours of this name, made where it is not there, and show it if it can be.
+
+    One that the user has saved to a file is theirs, and is left as it is.
+    """
+    text = next((t for t in bpy.data.texts if t.get(MARK) == name), None)
+    if text and text.filepath:
+        del text[MARK]
+        text = None
+    if text is None:
+        text = bpy.data.texts.new(name)
+        text[MARK] = name
+    text.from_string(content)
+    if area := next(areas(context, "TEXT_EDITOR"), None):
+        area.spaces.active.text = text
+        area.spaces.active.top = 0
+    return text
+
+
+def areas(context: Any, kind: str) -> Iterator[Any]:
+    """Yield the areas of a type that the context's window shows; without a window, none."""
+    for area in context.window.screen.areas if context.window else ():
+        if area.type == kind:
+            yield area
+
+
+def redraw(context: Any) -> None:
+    """Have the context's window drawn again, where there is one."""
+    for area in context.window.screen.areas if context.window else ():
+        area.tag_redraw()

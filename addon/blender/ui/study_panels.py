@@ -1,0 +1,224 @@
+"""The panels that look closer: at a pixel's maths, at what tracing costs, at where methods break.
+
+The pixel inspector's is in the sidebar of images, too.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+from bpy.app.translations import pgettext_iface as iface_
+
+from ...methods import MEASURED, PLAIN, Method
+from . import explain, results, studies
+from .inspector import REFERENCE_TRACER_OT_inspect
+from .panels import NARROW, both, draw_table, short_name, wrapped
+from .results import Kind
+
+_KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
+_DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
+_COLUMNS = 3  # of buttons
+
+
+class _Inspector:
+    bl_label = "Pixel Inspector"
+
+    def draw(self, context: Any) -> None:
+        """Draw the buttons, and the latest pixel's key numbers."""
+        layout = self.layout
+        on = REFERENCE_TRACER_OT_inspect.running
+        layout.operator(
+            REFERENCE_TRACER_OT_inspect.bl_idname,
+            icon="EYEDROPPER",
+            text="Click a Pixel (Esc: End)" if on else None,
+            depress=on,
+        )
+        layout.prop(context.window_manager.reference_tracer, "draw_ray")
+        row = layout.row(align=True)
+        row.operator(explain.REFERENCE_TRACER_OT_draw_ray.bl_idname, text="Draw", icon="LIGHT_SPOT")
+        row.operator(explain.REFERENCE_TRACER_OT_remove_ray.bl_idname, text="Remove", icon="TRASH")
+        row.operator(
+            explain.REFERENCE_TRACER_OT_save_pixel.bl_idname, text="Save", icon="FILE_TICK"
+        )
+        found = results.latest(Kind.PIXEL, context.scene)
+        if found:
+            _draw(layout, context, found.content, found.lines[0])
+
+
+def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
+    from ...explain.document import CERTAINTY_SENTENCES
+    from ...explain.textbook import Arithmetic
+
+    pixel = derivation.pixel
+    box = layout.box()
+    box.label(text=f"{iface_('Pixel')} ({pixel.x}, {pixel.y})", icon="IMAGE_DATA")
+    wrapped(box, context, said)
+    wrapped(box, context, f"This is {CERTAINTY_SENTENCES[derivation.certified.certainty]}.")
+    if derivation.seen_test:
+        _numbers(layout.box(), derivation.seen_test)
+    box = layout.box()
+    tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
+    box.label(text=tested)
+    for number, test in enumerate(derivation.tests, 1):
+        judged = test.verdicts[Arithmetic.EXACT]
+        icon = "CHECKMARK" if judged.accepted else "X"
+        box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
+        for reason in judged.reasons[:1]:
+            wrapped(box, context, reason.sentence, "BLANK1")
+    wrapped(layout, context, f"{iface_('All of it is in the text')} '{explain.TEXT}'.", "TEXT")
+
+
+def _t(test: Any) -> str:
+    from ...explain.textbook import Arithmetic
+
+    t = next((q.values[Arithmetic.EXACT] for q in test.quantities if q.key == "t"), ())
+    return f", t = {float(t[0]):.6g}" if t else ""
+
+
+def _numbers(layout: Any, test: Any) -> None:
+    """Draw the key numbers of what is seen; wrong digits are in brackets."""
+    from ...explain.digits import exact_text, marked, off_text, ulps
+    from ...explain.textbook import Arithmetic
+
+    quantities = {q.key: q for q in test.quantities}
+    for quantity in (quantities[key] for key in _KEYS if key in quantities):
+        column = layout.column(align=True)
+        column.scale_y = 0.8
+        _number(column, quantity.formula.label, "", "ulp")
+        exact = quantity.exact(0)
+        for name, kind in (("f32", Arithmetic.FLOAT32), ("f64", Arithmetic.FLOAT64)):
+            value = quantity.values[kind][0]
+            shown = marked(value, exact).with_wrong("[{}]")
+            _number(column, name, shown, off_text(ulps(value, exact)))
+        _number(column, "exact", "undefined" if exact is None else exact_text(exact, _DIGITS), "")
+
+
+def _number(layout: Any, name: str, value: str, off: str) -> None:
+    """Draw a number with its error; an exact one may be longer than there is room."""
+    split = layout.split(factor=0.17 if value else 0.83)  # without a value: a head
+    split.label(text=name)
+    if value and off:
+        split = split.split(factor=0.78)
+    if value:
+        split.label(text=value)
+    if off:
+        split.label(text=off)
+
+
+class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
+    bl_space_type, bl_region_type, bl_category = "IMAGE_EDITOR", "UI", "Reference Tracer"
+
+
+class _Trade:
+    bl_label = "Trade"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Draw the button, and what was measured: the methods, then what no other row beats."""
+        layout = self.layout
+        layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
+        found = results.latest(Kind.TRADE, context.scene)
+        if not found:
+            return
+        trade = found.content
+        wrapped(layout, context, found.lines[0], "INFO")
+        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
+        box, rows = layout.box(), trade.whole
+        box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
+        draw_table(box, [("", "s", "Wrong", "MiB"), *(_method(r) for r in rows)], NARROW)
+        box = layout.box()
+        box.label(text=f"Nearest to {trade.converged} × {trade.converged} rays a pixel")
+        best = sorted((r for r in trade.rows if r.best_coverage), key=lambda r: r.seconds)
+        draw_table(box, [("", "Size", "s", "RMS"), *(_coverage(r) for r in best)], NARROW)
+        wrapped(layout, context, "* no other is faster with as few wrong pixels")
+
+
+def _method(row: Any) -> tuple[str, ...]:
+    star = " *" if row.best_pixels else ""
+    memory = f"{row.peak_bytes / 2**20:.1f}"
+    return short_name(row), f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
+
+
+def _coverage(row: Any) -> tuple[str, ...]:
+    size = f"{row.width}, {row.samples}²"
+    return short_name(row), size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"
+
+
+class _Extremes:
+    bl_label = "Extremes"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context: Any) -> None:
+        """Draw the button, the breaking points, and the way to each scene."""
+        from ...study.extremes import written
+        from ...study.scenarios.sweeps import BY_NAME
+        from ..drawing.scenario_scene import CHANGED
+
+        layout, shown = self.layout, context.window_manager.reference_tracer
+        layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
+        found = results.latest(Kind.BREAKING_POINTS, context.scene)
+        if found:
+            wrapped(layout, context, found.lines[0], "INFO")
+            layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
+        if found and found.content:
+            wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
+            layout.row().prop(shown, "precision", expand=True)
+            _breaking_points(layout.box(), found.content, shown.precision)
+        box = layout.box()
+        box.prop(shown, "scenario", text="")
+        scenario = BY_NAME[shown.scenario]
+        wrapped(box, context, scenario.explanation)
+        box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
+        operator = studies.REFERENCE_TRACER_OT_extreme_scene
+        grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
+        for scale in scenario.scales:
+            button = grid.operator(operator.bl_idname, text=written(scale))
+            button.scenario, button.scale = scenario.name, repr(float(scale))
+        if changed := context.scene.get(CHANGED):
+            wrapped(layout, context, "This scene is one of the study's, stored in float32:", "INFO")
+            for line in changed.split("\n"):
+                wrapped(layout, context, line)
+
+
+def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
+    """Draw a table: below each scenario's title a value for each method in a precision.
+
+    What is certified is so in float64; it has a column where it breaks, which it should not.
+    """
+    from ...study.scenarios.sweeps import BY_NAME
+
+    proven = {p.scenario: p for p in points if p.method == Method.CERTIFIED}
+    holds = all(p.never for p in proven.values())
+    _cells(layout, [m.head for m in (PLAIN if holds else MEASURED)])
+    for name in proven:
+        of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
+        cells = [_point(of[m]) for m in PLAIN] + ([] if holds else [_point(proven[name])])
+        scenario = BY_NAME[name]
+        column = layout.column(align=True)
+        column.scale_y = 0.75
+        column.label(text=f"{scenario.title}, {scenario.scale_name}")
+        _cells(column, cells)
+
+
+def _cells(layout: Any, texts: list[str]) -> None:
+    row = layout.row()
+    for text in texts:
+        row.label(text=text)
+
+
+def _point(point: Any) -> str:
+    from ...study.extremes import written
+
+    if point.never:
+        return "never"
+    return written(point.lost) + " +" * (point.doubled is not None)
+
+
+CLASSES = (
+    *both(_Inspector, "_inspector", bl_options={"DEFAULT_CLOSED"}),
+    IMAGE_PT_reference_tracer_inspector,
+    *both(_Trade, "_trade"),
+    *both(_Extremes, "_extremes"),
+)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -1,0 +1,93 @@
+"""Rays that are not a camera's: each is tested with each triangle, or pair by pair.
+
+They share nothing that could say which triangles they come near, so nothing is culled.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene import Scene
+from ..tracer.camera import Rays
+from ..tracer.candidates import PAIRS, Pairs
+from ..tracer.hits import Hits, Statistics
+from ..tracer.nearest import test_pairs, test_planes
+from ..tracer.progress import Work
+from ..tracer.settings import Settings
+from ..tracer.world import batches, world_triangles
+from . import exact
+from .bounds import FromPoint
+from .contest import Contest, in_range, sides
+from .surfaces import SURE
+
+
+def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
+    """Find the nearest hits of n rays with t in the camera's clip range, in small steps.
+
+    Parameters are as of `render.trace`, the settings' method a method.
+    """
+    dtype = settings.precision.dtype
+    rays = Rays(rays.origins.astype(dtype), rays.directions.astype(dtype))
+    count = max(rays.origins.shape[1], rays.directions.shape[1])
+    hits, contest = Hits.none(count), None
+    if settings.method.is_plain:
+        test_planes(scene, rays, hits)
+    else:
+        contest = Contest.of(scene, rays)
+    for batch in batches(scene):
+        triangles = world_triangles(scene, batch, dtype)
+        triangles = triangles.take(np.flatnonzero(triangles.finite))
+        total = count * len(triangles)
+        for start in range(0, total, PAIRS):  # each ray with each triangle
+            every = np.arange(start, min(start + PAIRS, total))
+            some = Pairs(*np.divmod(every, len(triangles)), triangles)
+            statistics.pairs_tested += len(every)
+            if contest:
+                contest.enter(some)
+            else:
+                test_pairs(scene, settings, rays, some, hits)
+            yield 0.0
+    return (yield from contest.hits(statistics)) if contest else hits
+
+
+@dataclass(frozen=True, eq=False)
+class Decision:
+    """What n rays make of n triangles, pair by pair: (n,) bool each."""
+
+    hit: NDArray[np.bool_]  # the ray, moved infinitesimally by the rule, meets it in the clip range
+    edge: NDArray[np.bool_]  # the ray as it is meets its edge or corner exactly
+    exact: NDArray[np.bool_]  # integers decided
+
+
+def decide(
+    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
+) -> Decision:
+    """Decide pairs of a ray and a triangle, each by itself.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays, finite, float64.
+    corners : (3, 3, n) float64
+        Corner, component, triangle; finite, in world space.
+    start, end : float
+        As of a `Contest`.
+    """
+    hit, edge, undecided = (np.zeros(corners.shape[2], bool) for _ in range(3))
+    every = np.arange(corners.shape[2])
+    with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
+        prepared = FromPoint(rays.origins, np.abs(rays.directions), corners)
+        sure, possible = sides(prepared, every, rays)
+        fractions = prepared.fractions(possible, rays.take(possible))
+        _, _, outside, doubt = in_range(fractions, sure, start, end)
+    hit[possible] = ~outside & (doubt == SURE)
+    undecided[possible] = ~outside & (doubt != SURE)
+    for part in np.split(np.flatnonzero(undecided), range(4096, len(every), 4096)):
+        batch = exact.IntegerBatch(rays.take(part), corners.take(part, axis=2), (), start, end)
+        for k, pair in enumerate(part.tolist()):
+            if found := batch.hit(k, k):
+                hit[pair], edge[pair] = found.is_hit(), found.on_edge
+    return Decision(hit, edge, undecided)

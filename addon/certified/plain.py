@@ -1,0 +1,69 @@
+"""The certified picture by its definition: each ray meets every triangle that it may come near.
+
+In come a scene and a region of its camera's pixels; out go `Hits`, proven. Read from here
+downwards: `candidates` proposes pairs of a pixel and a triangle, and leaves out none that is hit.
+A `Contest` decides them: by error bounds (`bounds`) where these leave no doubt, else in integers
+(`exact`, `ties`, `order`; `settle` puts them together). `sweep/` finds the same sooner.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..tracer.camera import camera_rays, corner_rays, film_positions
+from ..tracer.candidates import candidates, cull
+from ..tracer.hits import Hits, Statistics
+from ..tracer.progress import Work
+from .contest import Contest
+
+if TYPE_CHECKING:
+    from ..scene import Region, Scene
+
+_ROWS = 8  # of a tile
+
+
+def plain(
+    scene: Scene,
+    region: Region,
+    memory: int,
+    dx: float = 0.0,
+    dy: float = 0.0,
+    statistics: Statistics | None = None,
+) -> Work[Hits]:
+    """Find the nearest hits of a region's rays, with proof, in small steps.
+
+    Parameters
+    ----------
+    region
+        Of n pixels, within the camera's.
+    memory : int
+        Bytes that the pairs may take, about.
+    dx, dy : float
+        Where each ray passes its pixel's centre, in pixels; at most half a pixel.
+    statistics
+        To count in, if any.
+
+    Returns
+    -------
+    Hits
+        Of the n rays, row by row from the lowest.
+    """
+    statistics = statistics or Statistics()
+    plan = yield from cull(scene, np.dtype(np.float64), memory, max(abs(dx), abs(dy)))
+    around = corner_rays(scene.camera, dx, dy)
+    found = []
+    for y in range(region.y0, region.y1, _ROWS):
+        tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
+        rays = camera_rays(scene.camera, *film_positions(tile, dx, dy))
+        contest = Contest.of(scene, rays, around)
+        statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
+        for share, pairs in candidates(plan, tile):
+            if pairs is not None:
+                statistics.pairs_tested += len(pairs.pixel)
+                contest.enter(pairs)
+            yield share
+        found.append((yield from contest.hits(statistics)))
+    return Hits.joined(found)

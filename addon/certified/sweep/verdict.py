@@ -1,0 +1,128 @@
+"""What every pixel of a region sees, of all its fragments.
+
+In come the winners and their rivals that a sweep has found; out go `Hits`. A pixel whose winner has
+no rival is decided. The rays of all others, and all that they may see, go to a `Contest`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...certainty import Certainty
+from ...scene import Scene
+from ...tracer.camera import camera_rays, corner_rays, film_positions
+from ...tracer.candidates import Pairs
+from ...tracer.hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
+from ...tracer.progress import Steps, mapped
+from ...tracer.vector import Index, gather, grouped, groups, parts
+from ...tracer.world import WorldTriangles, world_corners
+from ..contest import Contest
+from ..measures import PIXELS, measured
+from .chunks import Numbering
+from .depth_buffer import DepthBuffer, Fragments
+from .film import Film
+
+_PAIRS = 1 << 15  # that a contest tests at a time
+_FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
+_RAYS, _CANDIDATES = 1 << 14, 1 << 15  # of a contest, at most
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """The end of a sweep: its depth buffer, and how it numbers surfaces."""
+
+    scene: Scene
+    film: Film
+    depths: DepthBuffer
+    numbers: Numbering
+    statistics: Statistics
+
+    def steps(self, fragments: list[Fragments]) -> Steps[Hits]:
+        """Decide every pixel by its fragments, which it empties, in small steps with names."""
+        region = self.depths.region
+        count = region.width * region.height
+        instance, triangle = np.full((2, count), NOTHING, np.int32)
+        certainty = np.full(count, Certainty.BOUND, np.uint8)
+        yield "verdict"
+        open_, pairs = np.zeros(count, bool), []
+        # Each is let go of as soon as it is looked at.
+        every = (fragments.pop(0) for _ in range(len(fragments)))
+        for some in Fragments.together(every, _FRAGMENTS):
+            some = some.take(self.depths.not_hidden(some))
+            pixel = self.depths.pixels(some.pixel)
+            open_[pixel] = True
+            pairs.append((pixel, some.surface))
+            yield "verdict"
+        winners = self.depths.winners
+        for part in parts(count, PIXELS):
+            own, is_open = winners[part], open_[part]
+            decided = np.flatnonzero((own != NOTHING) & ~is_open)
+            names = self.numbers.names_of(gather(own, decided))
+            instance[part.start + decided], triangle[part.start + decided] = names
+            beside = np.flatnonzero((own != NOTHING) & is_open)
+            pairs.append((part.start + beside, gather(own, beside)))
+            yield "verdict"
+        out = LazyHits(instance, triangle, certainty)
+        yield from self._enter_open(out, open_, pairs)
+        given = self.scene, region, (instance, triangle), out.known
+        out.measure = partial(measured, *given, dx=self.film.dx, dy=self.film.dy)
+        return out
+
+    def _enter_open(
+        self, hits: LazyHits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
+    ) -> Steps[None]:
+        """Enter the pixels that may see several surfaces, or none for sure: some at a time.
+
+        `pairs` are these pixels and their surfaces; they are used up.
+        """
+        every = np.flatnonzero(open_)
+        self.statistics.culling["left"] += len(every)
+        amount = np.zeros(len(open_), np.int32)
+        for pixel, _ in pairs:
+            np.add.at(amount, pixel, 1)
+            yield "contest"
+        ends = list(groups(amount[every] + _CANDIDATES // _RAYS, _CANDIDATES))
+        starts = every[[first for first, _ in ends]]
+        contests: list[list[tuple[Index, Index]]] = [[] for _ in ends]
+        while pairs and ends:
+            pixel, surface = pairs.pop()
+            group = (np.searchsorted(starts, pixel, side="right") - 1).astype(np.uint16)
+            for members, own in zip(contests, grouped(group, len(ends)), strict=True):
+                if len(own):
+                    members.append((pixel[own], surface[own]))
+            yield "contest"
+        ties, known = [], [Measured.none()]
+        for (first, last), members in zip(ends, contests, strict=True):
+            which = every[first:last]
+            pixel, surface = map(np.concatenate, zip(*members, strict=True))
+            members.clear()
+            ray = np.searchsorted(which, pixel)
+            found = yield from self._contest(which, ray, surface)
+            hits.enter(which, found)
+            ties.append(found.ties.numbered(which))
+            known.append(Measured(which, np.vstack((found.t, found.s))))
+        hits.ties, hits.known = Ties.joined(ties), Measured.joined(known)
+
+    def _contest(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
+        """Decide the rays of pixels, each with all surfaces that it may see: pairs of the two."""
+        scene, film = self.scene, self.film
+        at = film_positions(self.depths.region, film.dx, film.dy, pixel)
+        on_mesh = np.flatnonzero(surface >= len(scene.planes))  # it has the planes already
+        ray, surface = ray[on_mesh], surface[on_mesh]
+        surface, row = np.unique(surface, return_inverse=True)
+        around = corner_rays(film.camera, film.dx, film.dy)
+        contest = Contest.of(scene, camera_rays(film.camera, *at), around)
+        names = self.numbers.names_of(surface)
+        triangles = WorldTriangles(world_corners(scene, *names), *names)
+        # Ray by ray, and once each: a triangle of unknown orientation has two set-ups.
+        key = np.sort(ray * len(surface) + row)  # faster than `np.unique`
+        key = key[np.flatnonzero(np.diff(key, prepend=-1))]
+        ray, row = np.divmod(key, max(1, len(surface)))
+        for part in parts(len(ray), _PAIRS):
+            contest.enter(Pairs(ray[part], row[part], triangles))
+            yield "contest"
+        return (yield from mapped(contest.hits(self.statistics), lambda _: "contest"))

@@ -1,0 +1,1 @@
+"""The command line: `reftrace`, and what `blender --command` shares with it."""

@@ -1,0 +1,121 @@
+"""A file that the user names, and a camera for meshes -> the scene in it.
+
+A .blend is opened with the `bpy` module, in the one function here that imports it; scenes and
+meshes from other files need no Blender.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from ..framing import ANGLE, Choice
+from ..scene import Scene, SceneError, check_size
+from ..scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
+from ..tracer.settings import Settings
+from . import running
+
+_AS_SAVED = Choice()
+SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
+
+
+def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
+    """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
+
+    Meshes are framed where no camera is chosen.
+
+    Raises
+    ------
+    SceneError, OSError
+        If there is no such scene, or it cannot be read.
+    """
+    suffix = path.suffix.lower()
+    if suffix == ".blend":
+        with open_blend(path, choice) as blender:
+            from ..blender.compare import export_open_file
+
+            scene, manifest, settings = export_open_file(blender.context)
+        print(*manifest.lines(), sep="\n")
+        return scene, settings
+    check_is_file(path)
+    if suffix == ".npz":
+        return load_scene(path), Settings()
+    if suffix in MESH_SUFFIXES:
+        default = choice.default_size
+        size = choice.width or default[0], choice.height or default[1]
+        check_size(*size)  # before a large file is read
+        camera = choice.placed(*size) if choice.eye else None
+        import_trimesh()
+        meshes = load_meshes(path, choice.up)
+        try:
+            return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
+        except SceneError as error:
+            raise SceneError(f"'{path}': {error}") from error
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+
+
+def import_trimesh() -> None:
+    """Import trimesh without libraries that take half a second, for nothing that is asked here."""
+    hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
+    sys.modules.update(dict.fromkeys(hidden))
+    try:
+        import trimesh  # noqa: F401
+    finally:
+        for name in hidden:
+            del sys.modules[name]
+
+
+@contextmanager
+def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
+    """Open a .blend in this process, with the add-on registered, at what is chosen; gives bpy.
+
+    One that is open in Blender already is taken as it is.
+
+    Raises
+    ------
+    SceneError
+        If there is no such file, it cannot be opened, it does not have what is chosen, or Blender
+        is not there as a module.
+    """
+    if not choice.opened:
+        check_is_file(path)
+    with running.held():
+        try:
+            import bpy
+        except ImportError as error:
+            raise SceneError(
+                "a .blend needs Blender as a module: pip install 'reference_tracer[blender]' "
+                f"({error})"
+            ) from error
+        from ..blender import registration
+        from ..blender.reading.choice import chosen
+
+        if not choice.opened:
+            registration.register()
+    try:
+        if not choice.opened:
+            _open(bpy, path)
+        elif not bpy.data.filepath:
+            say = "no file is open (is its name right?): name a .blend before --command"
+            raise SceneError(say)
+        with chosen(choice):
+            yield bpy
+    finally:
+        if not choice.opened:
+            registration.unregister()
+
+
+def _open(bpy: Any, path: Path) -> None:
+    with running.held():
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+        except RuntimeError as error:
+            reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
+            raise SceneError(f"'{path}' cannot be opened: {reason}") from error
+    saved, own = (".".join(map(str, v[:2])) for v in (bpy.data.version, bpy.app.version_file))
+    if bpy.data.version[:2] > bpy.app.version_file[:2]:
+        do = f"this is {own}: open it with {saved} or newer"
+        raise SceneError(f"'{path}' was saved by Blender {saved}; {do}")

@@ -1,0 +1,147 @@
+"""The meshes of the benchmark, each a small function of numbers: seeded, and the same everywhere.
+
+Out come vertices, (v, 3) float32 in metres, and triangles, (n, 3) int32. Float32 is what Blender
+and Embree store, so that all who are measured see the very same triangles.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+Triangles = tuple[NDArray[np.float32], NDArray[np.int32]]
+SEED = 20
+SUZANNE = 566_784  # triangles: what `blender_child.py` makes of Blender's monkey
+_GOLDEN = (1 + 5**0.5) / 2
+
+
+class MissingMeshError(RuntimeError):
+    """A mesh that Blender has to make is not there; the message says what to do."""
+
+
+def cube() -> Triangles:
+    """Return the cube from -1 to 1, 12 triangles."""
+    corners = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], np.float32)
+    # Each side's corners in a circle, seen from outside; corner i is (i & 1, i & 2, i & 4).
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return corners, _int32([t for a, b, c, d in sides for t in ((a, b, c), (a, c, d))])
+
+
+def icosphere(level: int) -> Triangles:
+    """Return a unit sphere of 20 * 4 ** `level` triangles that share their vertices."""
+    g = _GOLDEN
+    corners = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g)]
+    corners += [(0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11)]
+    faces += [(1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8)]
+    faces += [(3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9)]
+    faces += [(4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
+    vertices, triangles = _unit(np.array(corners, float)), np.array(faces)
+    for _ in range(level):
+        vertices, triangles = _split(vertices, triangles)
+    return vertices.astype(np.float32), triangles.astype(np.int32)
+
+
+def _split(vertices: NDArray, triangles: NDArray) -> Triangles:
+    """Split each triangle in four, its new corners on the sphere above the middles of its sides."""
+    a, b, c = triangles.T
+    ends = np.sort(np.stack(((a, b), (b, c), (c, a))), axis=1)  # (side, end, triangle)
+    keys = ends[:, 0] * len(vertices) + ends[:, 1]  # of an edge: the same from both its triangles
+    edges, index = np.unique(keys, return_inverse=True)
+    middle = _unit(vertices[edges // len(vertices)] + vertices[edges % len(vertices)])
+    ab, bc, ca = index.reshape(3, -1) + len(vertices)
+    new = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return np.concatenate((vertices, middle)), np.stack(new).transpose(2, 0, 1).reshape(-1, 3)
+
+
+def nested_spheres(count: int, level: int) -> Triangles:
+    """Return icospheres within one another, radii 0.2 to 1, the smallest first."""
+    vertices, triangles = icosphere(level)
+    radii = np.linspace(0.2, 1.0, count, dtype=np.float32)
+    starts = len(vertices) * np.arange(count)
+    return (
+        (radii[:, None, None] * vertices).reshape(-1, 3),
+        _int32((starts[:, None, None] + triangles).reshape(-1, 3)),
+    )
+
+
+def heightfield(cells: int) -> Triangles:
+    """Return hills over the square from -1 to 1, `cells` x `cells` squares of 2 triangles."""
+    at = np.linspace(-1, 1, cells + 1)
+    x, y = np.meshgrid(at, at)
+    z = sum(
+        0.06 / k * np.sin(k * (5.1 * x + 1.3 * k)) * np.cos(k * (4.3 * y - 0.7 * k))
+        for k in (1, 2, 4, 8)
+    )
+    corner = np.arange(cells * (cells + 1)).reshape(cells, cells + 1)[:, :-1].ravel()
+    a, b, c, d = corner, corner + 1, corner + cells + 2, corner + cells + 1
+    triangles = np.stack(((a, b, c), (a, c, d))).transpose(2, 0, 1).reshape(-1, 3)
+    return np.stack((x, y, z), axis=-1).reshape(-1, 3).astype(np.float32), _int32(triangles)
+
+
+def soup(count: int, size: float) -> Triangles:
+    """Return triangles that share nothing: corners spread by `size` around points of the cube."""
+    rng = np.random.default_rng(SEED)
+    middles = rng.uniform(-1, 1, (count, 1, 3))
+    return _loose(middles + rng.normal(0, size, (count, 3, 3)))
+
+
+def foliage(count: int, size: float) -> Triangles:
+    """Return square leaves of this side, of 2 triangles each: anywhere in the unit ball."""
+    rng = np.random.default_rng(SEED)
+    middle, across, other = rng.normal(size=(3, count, 3))
+    middle = _unit(middle) * rng.uniform(0, 1, (count, 1)) ** (1 / 3)
+    across = _unit(across) * (size / 2)
+    along = _unit(np.cross(across, other)) * (size / 2)
+    corners = [middle + i * across + j * along for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    a, b, c, d = 4 * np.arange(count) + np.arange(4)[:, None]
+    triangles = np.stack(((a, b, c), (a, c, d))).transpose(2, 0, 1).reshape(-1, 3)
+    return np.stack(corners, axis=1).reshape(-1, 3).astype(np.float32), _int32(triangles)
+
+
+def large_triangles(count: int) -> Triangles:
+    """Return triangles between any three points of the cube from -1 to 1."""
+    return _loose(np.random.default_rng(SEED).uniform(-1, 1, (count, 3, 3)))
+
+
+def slivers(count: int) -> Triangles:
+    """Return needles through the whole cube, a thousandth as wide as it.
+
+    Their boxes are all the scene: what sorts triangles by boxes has nothing to hold on to.
+    """
+    rng = np.random.default_rng(SEED)
+    ends = rng.uniform(-1, 1, (count, 2, 3))
+    third = ends[:, :1] + rng.normal(0, 1e-3, (count, 1, 3))
+    return _loose(np.concatenate((ends, third), axis=1))
+
+
+def stored(path: Path) -> Triangles:
+    """Return a mesh that `packages/benchmarks/blender_child.py` has saved.
+
+    Raises
+    ------
+    MissingMeshError
+        If there is no such file.
+    """
+    if not path.is_file():
+        raise MissingMeshError(
+            f"there is no '{path}': Blender makes it: pip install 'reference_tracer[blender]'"
+        )
+    with np.load(path, allow_pickle=False) as data:
+        return data["vertices"].astype(np.float32), data["triangles"].astype(np.int32)
+
+
+def _loose(corners: NDArray[np.float64]) -> Triangles:
+    return corners.reshape(-1, 3).astype(np.float32), _int32(
+        np.arange(3 * len(corners)).reshape(-1, 3)
+    )
+
+
+def _unit(v: NDArray[np.float64]) -> NDArray[np.float64]:
+    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+
+
+def _int32(values: object) -> NDArray[np.int32]:
+    return np.asarray(values, dtype=np.int32)

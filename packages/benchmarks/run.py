@@ -1,0 +1,71 @@
+"""The options of `reftrace bench` -> a `Bench`, written to its folder row by row."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
+
+from reference_tracer.cli import running
+from reference_tracer.tracer.progress import Work, result_of, scaled
+
+from .commands import measure_commands
+from .measure import METHODS, measure
+from .plan import Plan, plan
+from .report import load, write_json
+from .rows import Bench, machine
+from .spread import measure_spread
+
+SCENES = 0.8  # their share of the time, about
+
+
+def run(
+    options: argparse.Namespace, progress: Callable[[float], None]
+) -> tuple[Bench, Bench | None]:
+    """Measure; Ctrl-C ends it, and what was measured until then is what there is.
+
+    Returns
+    -------
+    bench : Bench
+    baseline : Bench or None
+        The one to compare with, if the options name one.
+
+    Raises
+    ------
+    SceneError
+        If the options name a scene that is not there, or a baseline that is none.
+    OSError
+        If a file cannot be read, or the folder not written.
+    """
+    wanted = plan(options.scenes, options.quick, options.repeats)
+    baseline = load(options.baseline) if options.baseline else None
+    directory = Path(options.out)
+    bench = Bench(machine(hasattr(os, "sched_setaffinity")), wanted.quick)
+    written = -1
+
+    def show(share: float) -> None:
+        nonlocal written
+        progress(share)
+        if len(bench.rows) > written:  # so that even a crash leaves what was measured
+            write_json(directory, bench)
+            written = len(bench.rows)
+
+    try:
+        with closing(_all(wanted, bench, directory)) as work:
+            result_of(work, show)
+    except KeyboardInterrupt:
+        bench.interrupted, word = running.ended()
+        running.answered()
+        done = f"{len(bench.rows) // len(METHODS)} of {len(wanted.cases)} pictures"
+        print(f"\nreftrace: {word}: {done} were measured", file=sys.stderr)
+    return bench, baseline
+
+
+def _all(wanted: Plan, bench: Bench, directory: Path) -> Work[None]:
+    share = SCENES if wanted.commands else 1.0
+    yield from scaled(measure(wanted, bench, directory), 0.0, share)
+    yield from scaled(measure_commands(wanted, bench, directory), share, (1 - share) / 2)
+    yield from scaled(measure_spread(wanted, bench, directory), (1 + share) / 2, (1 - share) / 2)

@@ -1,0 +1,216 @@
+"""A student's file as a function: run in a process of its own, with limits.
+
+In go rays and triangles; out come the answers, or a `StudentError` which says what the student's
+code did wrong. Nothing that it does ends or stops this process. That is no sandbox: the code may
+read and write whatever its user may.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+from reference_tracer.cli.arguments import printable
+
+from .student_error import StudentError, parsed
+
+SECONDS = 60.0  # of a scene, by default
+MEMORY = 2 << 30  # bytes of address space, numpy's own libraries included
+KEPT = 4000  # bytes of what it prints
+_LONGEST = 1 << 20  # bytes of a line that answers
+
+_CHILD = Path(__file__).with_name("child.py")
+_ADVICE = {  # what numpy says of it -> what a student needs to know
+    "read-only": "the arrays that intersect is given must not be changed: write a = a - b, "
+    "not a -= b, or copy them first",
+}
+
+
+@dataclass
+class Limits:
+    """What the student's code may take: seconds a scene, bytes."""
+
+    seconds: float = SECONDS
+    memory: int = MEMORY
+
+
+class Student:
+    """A student's file, running; to be used in a `with` block."""
+
+    def __init__(self, path: Path, limits: Limits | None = None) -> None:
+        self.path, self.limits = Path(path).resolve(), limits or Limits()
+        self.seconds = 0.0  # that intersect itself has taken
+        self.printed = 0  # bytes
+        self._said = b""
+        self._left = self.limits.seconds
+        self._process: subprocess.Popen | None = None
+
+    def __enter__(self) -> Student:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.end()
+
+    @property
+    def said(self) -> str:
+        """The first of what the student's code has printed; what steers a terminal is spelt out."""
+        return printable(self._said.decode("utf-8", "replace"))
+
+    def new_scene(self) -> None:
+        """Let the time limit begin anew."""
+        self._left = self.limits.seconds
+
+    def ask(
+        self, origins: NDArray, directions: NDArray, triangles: NDArray
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return what the student's function makes of n pairs: t (n,), barycentrics (n, 3).
+
+        Raises
+        ------
+        StudentError
+            If it fails, takes too long, or answers something else.
+        """
+        count = len(origins)
+        if not count:
+            return np.zeros(0), np.zeros((0, 3))
+        if self._process is None:
+            self._start()
+        arrays = [np.ascontiguousarray(a, np.float64) for a in (origins, directions, triangles)]
+        with self._watched() as (to, back):
+            head = {"count": count, "seconds": self._left}
+            to.write(json.dumps(head).encode() + b"\n")
+            for array in arrays:
+                to.write(memoryview(array).cast("B"))
+            to.flush()
+            seconds = self._answer(back)
+            t = np.frombuffer(_read(back, 8 * count))
+            s = np.frombuffer(_read(back, 24 * count)).reshape(count, 3)
+        self.seconds += seconds
+        return t, s
+
+    def end(self) -> None:
+        """End the process, and what it has started, but for what has a session of its own."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        _kill(process)
+        process.wait()
+        for stream in (process.stdin, process.stdout):
+            with suppress(OSError):
+                stream.close()
+        self._reader.join(1.0)
+        if not self._reader.is_alive():  # else what lives on has it open, and closing would wait
+            with suppress(OSError):
+                process.stderr.close()
+
+    def _start(self) -> None:
+        own = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
+        own |= {"PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8", "PYTHONDONTWRITEBYTECODE": "1"}
+        self._process = subprocess.Popen(
+            [sys.executable, "-P", str(_CHILD), str(self.path), str(self.limits.memory)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            cwd=self.path.parent,
+            env=os.environ | own,
+            start_new_session=True,  # Ctrl-C is for this process, which ends that one
+        )
+        self._reader = threading.Thread(target=self._listen, args=(self._process.stderr,))
+        self._reader.daemon = True
+        self._reader.start()
+        with self._watched() as (_, back):
+            self._answer(back)
+
+    def _listen(self, stream: BinaryIO) -> None:
+        """Read all that is printed, so that nobody waits for it, and keep the first of it."""
+        with suppress(OSError, ValueError):
+            while part := os.read(stream.fileno(), 1 << 16):
+                self.printed += len(part)
+                self._said += part[: KEPT - len(self._said)]
+
+    @contextmanager
+    def _watched(self) -> Iterator[tuple[BinaryIO, BinaryIO]]:
+        """Give the two ends for one exchange, which ends with the time limit."""
+        process, late = self._process, threading.Event()
+
+        def stop() -> None:
+            late.set()
+            _kill(process)
+
+        watch = threading.Timer(min(max(self._left, 0.0), threading.TIMEOUT_MAX), stop)
+        watch.daemon = True
+        began, well = time.monotonic(), False
+        watch.start()
+        try:
+            yield process.stdin, process.stdout
+            well = True
+        except (EOFError, OSError) as error:
+            code = process.wait()
+            if late.is_set():
+                text = f"took longer than the time limit of {self.limits.seconds:g} s for one scene"
+                text += " (does it ever end? If it is only slow, raise it with --time-limit)"
+                raise StudentError("time", text) from error
+            raise StudentError("ended", _how(code)) from error
+        finally:
+            watch.cancel()
+            self._left -= time.monotonic() - began
+            if not well:
+                self.end()
+
+    def _answer(self, back: BinaryIO) -> float:
+        """Return the seconds that an answer has taken, or raise the error that it is."""
+        line = back.readline(_LONGEST)
+        if not line.endswith(b"\n") and len(line) < _LONGEST:
+            raise EOFError
+        try:
+            answer = parsed(line)
+        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+            text = "its process answered something that is no answer: does the file write to other"
+            text += " streams than the standard ones, or change numpy or json?"
+            raise StudentError("ended", text) from error
+        if isinstance(answer, float):
+            return answer
+        kind, message, trace = answer
+        for sign, advice in _ADVICE.items():
+            if sign in message:
+                message += f" ({advice})"
+        if kind == "memory":
+            message += f" (the limit is {self.limits.memory / 2**30:.3g} GiB)"
+        if kind == "exit":
+            message += " (the file must not call sys.exit or quit)"
+        raise StudentError(kind, message, trace)
+
+
+def _read(stream: BinaryIO, size: int) -> bytes:
+    data = stream.read(size)
+    if len(data) < size:
+        raise EOFError
+    return data
+
+
+def _kill(process: subprocess.Popen) -> None:
+    with suppress(OSError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+
+
+def _how(code: int) -> str:
+    """Say how the process ended, in the middle of its work."""
+    if code < 0:
+        name = signal.Signals(-code).name
+        return f"the process was ended by {name} (a fault in a library, or memory has run out?)"
+    return f"the process ended itself, with exit code {code}, before it had answered"

@@ -1,0 +1,184 @@
+"""A scene to be judged on: some pixels, the pairs that their rays need, and the truth of them all.
+
+In comes a scene; out goes a `Subject`, which any number of students' functions can be held against.
+Where float64 may see either of two surfaces, by its rounding, the pixel is on the *boundary*; all
+others are the *interior*, and there a sound function has no excuse.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified.bounds import U, plane_fractions
+from reference_tracer.methods import Method
+from reference_tracer.scene import Scene, SceneError
+from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
+from reference_tracer.tracer.candidates import Pairs
+from reference_tracer.tracer.frame import Frame
+from reference_tracer.tracer.hits import NOTHING, Hits
+from reference_tracer.tracer.nearest import candidates, plan, test_planes
+from reference_tracer.tracer.progress import Work
+from reference_tracer.tracer.render import steps
+from reference_tracer.tracer.settings import Settings
+
+from .known import Known, known
+
+PIXELS = 20_000  # of a scene, by default: a function that loops over the rays takes some seconds
+_ALIKE = 64 * U  # relative: planes' own depths, which the tracer computes, are better than this
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What students' functions are held against.
+
+    Arrays of pixels are those of the chosen ones, (h, w): every `stride`-th of the camera's region,
+    from `first` on, or flat (n,), row by row from the lowest.
+    """
+
+    name: str
+    source: str  # what the user named, for a command that explains a pixel
+    scene: Scene
+    stride: int
+    first: int
+    shape: tuple[int, int]
+    rays: Rays  # (3, n) or (3, 1)
+    pairs: list[tuple[Pairs, Known]]  # `pixel` numbers the n pixels
+    planes: Hits  # the nearest infinite plane of each ray
+    color: NDArray[np.float32]  # (h, w, 4) certified
+    t: NDArray[np.float64]  # (n,) certified; inf: no hit
+    instance: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+    ties: dict[int, frozenset[tuple[int, int]]]
+    ambiguous: NDArray[np.bool_]  # (n,) the ray meets an edge or two surfaces exactly
+    near_edge: NDArray[np.bool_]  # (n,) it passes within float64's reach of an edge
+    near_tie: NDArray[np.bool_]  # (n,) two surfaces are within float64's reach of one another
+    camera_options: tuple[str, ...] = ()  # those of the command line that placed its camera
+
+    @property
+    def boundary(self) -> NDArray[np.bool_]:
+        """Which pixels sound float64 may have otherwise, (n,)."""
+        return self.ambiguous | self.near_edge | self.near_tie
+
+    def position(self, pixel: int) -> tuple[int, int]:
+        """Return x and y of one of the n pixels in the camera's region, from its lower left."""
+        y, x = divmod(pixel, self.shape[1])
+        return self.first + x * self.stride, self.first + y * self.stride
+
+    def questions(self) -> Iterator[tuple[Pairs, Known, NDArray, NDArray, NDArray]]:
+        """Yield pairs with origins (p, 3), directions (p, 3) and triangles (p, 3, 3)."""
+        for some, truth in self.pairs:
+            yield some, truth, *arrays(self.rays, some.pixel, some.corners)
+
+
+def arrays(rays: Rays, pixel: NDArray, corners: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Return origins, directions and triangles (corner, component, pair) as students have them."""
+    own = rays.take(pixel)
+    o, d = (np.broadcast_to(v, (3, len(pixel))).T for v in (own.origins, own.directions))
+    return o, d, corners.transpose(2, 0, 1)
+
+
+def prepare(
+    name: str,
+    scene: Scene,
+    source: str = "",
+    pixels: int | None = PIXELS,
+    camera_options: tuple[str, ...] = (),
+) -> Work[Subject]:
+    """Trace a scene, certified, and find the truth of some of its pixels.
+
+    Parameters
+    ----------
+    name, source : str
+    scene : Scene
+    pixels : int, optional
+        About so many: every second, third and so on in both directions. None for all.
+    camera_options : tuple of str, optional
+        Those of the command line without which `source` has another camera.
+
+    Raises
+    ------
+    SceneError
+        If the camera shows what is behind its rays' origins: students' functions only have t > 0.
+    """
+    region = scene.camera.region
+    if scene.camera.clip_start < 0:
+        raise SceneError(
+            f"{name}: the camera '{scene.camera.name}' shows what is behind it (its clip start is "
+            f"{scene.camera.clip_start:g} m), where t < 0 is no hit: raise its clip start to 0."
+        )
+    frame = Frame.empty(scene)
+    for share in steps(scene, Settings(Method.CERTIFIED), frame):
+        yield 0.5 * share
+    total = region.width * region.height
+    stride = 1 if pixels is None else max(1, int(np.ceil(np.sqrt(total / pixels))))
+    stride = min(stride, region.width, region.height)
+    first = stride // 2
+    grid = np.arange(total).reshape(region.height, region.width)[first::stride, first::stride]
+    chosen = grid.ravel()
+    rays = camera_rays(scene.camera, *film_positions(region, pixel=chosen))
+    planes = Hits.none(len(chosen))
+    test_planes(scene, rays, planes)
+    subject = Subject(
+        name,
+        source or name,
+        scene,
+        stride,
+        first,
+        grid.shape,
+        rays,
+        [],
+        planes,
+        frame.color.reshape(-1, 4)[chosen].reshape(*grid.shape, 4),
+        frame.t.ravel()[chosen],
+        frame.instance_index.ravel()[chosen],
+        frame.triangle_index.ravel()[chosen],
+        {k: frame.ties[p] for k, p in enumerate(chosen.tolist()) if p in frame.ties},
+        frame.certainty.ravel()[chosen] == Certainty.AMBIGUOUS,
+        np.zeros(len(chosen), bool),
+        _near_planes(scene, rays, frame.t.ravel()[chosen], planes),
+        camera_options,
+    )
+    yield from _find_pairs(subject, chosen)
+    return subject
+
+
+def _find_pairs(subject: Subject, chosen: NDArray) -> Work[None]:
+    scene = subject.scene
+    region = scene.camera.region
+    wanted = np.zeros(region.width * region.height, bool)
+    wanted[chosen] = True
+    made = yield from plan(scene, Settings(Method.CERTIFIED), reach=0.0)
+    for share, own in candidates(made, region, wanted):
+        if own is not None and len(own.pixel):
+            clip = scene.camera.clip_start, scene.camera.clip_end
+            truth = known(*arrays(subject.rays, own.pixel, own.corners), *clip)
+            subject.pairs.append((own, truth))
+            _mark_boundary(subject, own, truth)
+        yield 0.5 + 0.5 * share
+
+
+def _mark_boundary(subject: Subject, some: Pairs, truth: Known) -> None:
+    """Enter which pixels are near an edge or a tie, by these pairs."""
+    seen = subject.t[some.pixel]
+    with np.errstate(invalid="ignore"):
+        hidden = truth.t - truth.t_allowed > seen
+        near = np.abs(truth.t - seen) <= 2 * truth.t_allowed
+    subject.near_edge[some.pixel[truth.doubt & ~hidden]] = True
+    other = (some.instance != subject.instance[some.pixel]) | (
+        some.triangle != subject.triangle[some.pixel]
+    )
+    subject.near_tie[some.pixel[truth.hit & near & other]] = True
+
+
+def _near_planes(scene: Scene, rays: Rays, seen: NDArray, planes: Hits) -> NDArray[np.bool_]:
+    """Return where an infinite plane is as near as what is seen, within rounding."""
+    near = np.zeros(len(seen), bool)
+    for p in scene.planes:
+        with np.errstate(all="ignore"):
+            low, high = plane_fractions(rays, p.point[:, None], p.normal[:, None]).interval()
+            near |= (low <= seen * (1 + _ALIKE)) & (high >= seen * (1 - _ALIKE))
+    return near & (planes.instance != NOTHING) & (seen != planes.t)

@@ -1,0 +1,266 @@
+"""The sweep sees what a contest of every ray with every triangle does, however it is divided."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified import contest, measures, surfaces
+from reference_tracer.certified.sweep import (
+    boxes,
+    chunks,
+    depth_buffer,
+    rasterise,
+    small_boxes,
+    sweep,
+    verdict,
+)
+from reference_tracer.certified.sweep.edge_functions import set_up
+from reference_tracer.scene import Mesh, Region, Scene
+from reference_tracer.study.oracle import scene_sights
+from reference_tracer.tracer import render
+from reference_tracer.tracer.hits import NOTHING, Hits
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.settings import Settings
+
+from ...moved import may, touched
+from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
+from ...tracer.rational import t_of_pixels
+
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings("error")]
+SEEDS = 500  # in a part
+PARTS = [0, *(pytest.param(part, marks=pytest.mark.torture) for part in range(1, 8))]
+SAMPLE = 120  # seeds that the oracle decides
+DIVIDED = 20
+ARRAYS = ("t", "instance", "triangle", "s", "certainty")
+
+
+def swept(scene, region=None, beside=(0.0, 0.0), memory=1 << 30) -> Hits:
+    return result_of(sweep.sweep(scene, region or scene.camera.region, memory, *beside))
+
+
+def assert_same(found: Hits, expected: Hits, what) -> None:
+    for name in ARRAYS:
+        assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), (what, name)
+    assert found.ties == expected.ties, what
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("end", [np.inf, 1e300, 1000.0])
+def test_the_clip_range_begins_where_it_does_not_end(make, orthographic, end):
+    ramp = Mesh([(-8, -8, -1), (8, -8, -1), (8, 8, -9), (-8, 8, -9)], [[0, 1, 2], [0, 2, 3]])
+    half = 8 if orthographic else 1.5
+    options = dict(orthographic=orthographic, half=half, clip_start=5.0, clip_end=end)
+    found = swept(make.scene(make.camera(**options), ramp))
+    seen = found.t[np.isfinite(found.t)]
+    assert len(seen) and seen.min() >= 5
+    assert_same(found, swept(make.scene(make.camera(**(options | dict(clip_end=500))), ramp)), end)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_as_a_contest_of_every_ray_with_every_triangle(make, part):
+    """Ids, t and ties; and it is never more in doubt."""
+    count = Counter()
+    for seed in range(part * SEEDS, (part + 1) * SEEDS):
+        rng = np.random.default_rng(seed)
+        scale_too = seed % 8 < 2
+        scene, beside = hostile_scene(make, rng, finite=scale_too), offsets(rng)
+        if scale_too:
+            scene = scaled(scene, 2.0 ** rng.choice([-330, -300, -150, 150, 300, 330]))
+        camera, region = scene.camera, scene.camera.region
+        found, expected = swept(scene, beside=beside), brute_force(scene, region, *beside)
+        for name in ("t", "instance", "triangle"):
+            assert getattr(found, name).tobytes() == getattr(expected, name).tobytes(), (seed, name)
+        assert found.ties == expected.ties, seed
+        ambiguous = found.certainty == Certainty.AMBIGUOUS
+        assert np.array_equal(ambiguous, expected.certainty == Certainty.AMBIGUOUS), seed
+        assert sorted(found.ties) == np.flatnonzero(ambiguous).tolist(), seed
+        assert (found.certainty <= expected.certainty).all(), seed
+        on_mesh = found.triangle != NOTHING
+        assert not found.s[:, ~on_mesh].any(), seed
+        count["pixels"] += len(found.t)
+        count["on meshes"] += on_mesh.sum()
+        count["on planes"] += ((found.instance != NOTHING) & ~on_mesh).sum()
+        count["nothing"] += (found.instance == NOTHING).sum()
+        for certainty in Certainty:
+            count[certainty.name] += (found.certainty == certainty).sum()
+        count["orthographic"] += camera.projection.is_parallel
+        count["borders"] += (region.width, region.height) != (camera.width, camera.height)
+        count["beside"] += beside != (0, 0)
+        count["mirrored"] += (np.linalg.slogdet(scene.instance_matrices[:3, :3].T)[0] < 0).any()
+    assert count.pop("NOT_CERTIFIED") == 0
+    assert min(count[k] for k in ("orthographic", "borders", "beside", "mirrored")) > 100, count
+    assert min(count.values()) > 100 and count["BOUND"] > 0.4 * count["pixels"], count
+
+
+def test_as_the_oracle_has_it(make):
+    """In integers, by a rule written apart; every pixel of every scene."""
+    ambiguous, hits = 0, 0
+    for seed in range(10_000, 10_000 + SAMPLE):
+        rng = np.random.default_rng(seed)
+        scene = hostile_scene(make, rng, finite=True)
+        found, truth = swept(scene), scene_sights(scene)
+        names = list(zip(found.instance.tolist(), found.triangle.tolist(), strict=True))
+        assert names == [s.seen for s in truth], seed
+        assert np.array_equal(found.t, t_of_pixels(scene, names)), seed
+        assert sorted(found.ties) == [k for k, s in enumerate(truth) if len(touched(s)) > 1], seed
+        for k, ties in found.ties.items():
+            assert names[k] in ties and may(truth[k]) <= ties <= touched(truth[k]), seed
+        ambiguous, hits = ambiguous + len(found.ties), hits + (found.triangle != NOTHING).sum()
+    assert ambiguous > 600 and hits > 1800
+
+
+def sizes(fine, coarse):
+    return [(depth_buffer, "FINE", fine), (depth_buffer, "COARSE", coarse),
+            (rasterise, "FINE", fine), (rasterise, "COARSE", coarse)]  # fmt: skip
+
+
+DIVISIONS = {
+    "triangles by ones": [(sweep, "_TRIANGLES", 1)],
+    "boxes by twos": [(boxes, "_TOGETHER", 2)],
+    "triangles by threes": [(sweep, "_TRIANGLES", 3)],
+    "one depth bin": [(boxes, "BINS", 2)],
+    "few depth bins": [(boxes, "BINS", 5)],
+    "pairs by ones": [(verdict, "_PAIRS", 1), (rasterise, "_BOXES", 1)],
+    "pairs by sevens": [(verdict, "_PAIRS", 7), (rasterise, "_BOXES", 7)],
+    "cells by ones": [(rasterise, "_CELLS", 1)],
+    "no padding": [(small_boxes, "_PADDED", np.arange(1, 17, dtype=np.uint16))],
+    "much padding": [(small_boxes, "_PADDED", np.full(16, 16, np.uint16))],
+    "small triangles by ones": [(small_boxes, "_TRIANGLES", 1)],
+    "cells of 4 and 16": sizes(4, 16),
+    "cells of 2 and 64": sizes(2, 64),
+    "cells of 1 and 1": sizes(1, 1),
+    "vertices by twos": [(chunks, "_CHUNK", 2)],
+    "hits by ones": [(surfaces, "TOGETHER", 1)],
+    "integers by ones": [(contest, "BY_INTEGERS", 1)],
+    "orders by ones": [(contest, "BY_ORDER", 1)],
+    "pixels by ones": [(m, "PIXELS", 1) for m in (verdict, measures)],
+    "rays by ones": [(verdict, "_RAYS", 1)],
+    "fragments by threes": [(verdict, "_FRAGMENTS", 3), (sweep, "_PAIRS", 3)],
+    "chunks of a triangle": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 40)],
+    "chunks of four triangles": [(sweep, "_BYTES_PER_TRIANGLE", 1 << 28)],
+    "all small": [
+        (sweep, "_TRIANGLES", 2), (boxes, "BINS", 3), (verdict, "_PAIRS", 5),
+        (rasterise, "_CELLS", 2),
+        (rasterise, "_BOXES", 2), (chunks, "_CHUNK", 3), (sweep, "_BYTES_PER_TRIANGLE", 1 << 29),
+        *sizes(2, 4),
+    ],
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def undivided(make):
+    """Return scenes, where their rays pass the pixels' centres, and what they see."""
+    out = []
+    for seed in range(20_000, 20_000 + DIVIDED):
+        rng = np.random.default_rng(seed)
+        scene, beside = hostile_scene(make, rng), offsets(rng)
+        out.append((seed, scene, beside, swept(scene, beside=beside)))
+    assert sum(len(hits.ties) for *_, hits in out) > 80
+    assert sum((hits.certainty == Certainty.EXACT).sum() for *_, hits in out) > 50
+    return out
+
+
+@pytest.mark.parametrize("division", DIVISIONS)
+def test_the_division_does_not_matter(undivided, division, monkeypatch):
+    for module, name, value in DIVISIONS[division]:
+        assert hasattr(module, name)
+        monkeypatch.setattr(module, name, value)
+    for seed, scene, beside, expected in undivided:
+        assert_same(swept(scene, beside=beside), expected, seed)
+
+
+@pytest.mark.parametrize("memory", [1, 700, 3000])
+def test_the_memory_does_not_matter(undivided, memory):
+    for seed, scene, beside, expected in undivided:
+        assert_same(swept(scene, beside=beside, memory=memory), expected, seed)
+
+
+@pytest.mark.parametrize("rows", [1, 3])
+def test_bands_do_not_matter(undivided, rows):
+    for seed, scene, beside, expected in undivided:
+        r = scene.camera.region
+        bands = [Region(r.x0, y, r.x1, min(y + rows, r.y1)) for y in range(r.y0, r.y1, rows)]
+        parts = [swept(scene, band, beside) for band in bands]
+        assert_same(Hits.joined(parts), expected, seed)
+
+
+def test_a_border_is_a_crop(undivided):
+    for seed, scene, beside, _ in undivided:
+        rng = np.random.default_rng(seed)
+        camera = scene.camera
+        width, height = camera.width, camera.height
+        whole = swept(bordered(scene, Region(0, 0, width, height)), beside=beside)
+        for _ in range(2):
+            x0, y0 = int(rng.integers(width)), int(rng.integers(height))
+            x1, y1 = int(rng.integers(x0, width)) + 1, int(rng.integers(y0, height)) + 1
+            found = swept(bordered(scene, Region(x0, y0, x1, y1)), beside=beside)
+            index = (np.arange(y0, y1)[:, None] * width + np.arange(x0, x1)).ravel()
+            crop = whole.take(index)
+            crop.ties = {k: whole.ties[i] for k, i in enumerate(index.tolist()) if i in whole.ties}
+            assert_same(found, crop, seed)
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_border_changes_no_edge_function(make, rng, orthographic, monkeypatch):
+    """Not even of a triangle that passes the eye: it counts from the same pixel, as far."""
+    asked = []
+    monkeypatch.setattr(
+        sweep, "set_up", lambda *a: asked.append((*a[-2].ravel(), *a[-1])) or set_up(*a)
+    )
+    camera = make.camera(orthographic=orthographic)
+    for _ in range(20):
+        mesh = Mesh(rng.normal(size=(3, 3)) * 3, [[0, 1, 2]])
+        whole = make.scene(camera, mesh)
+        asked.clear()
+        for region in (camera.region, Region(3, 4, 20, 15), Region(9, 9, 10, 10)):
+            swept(bordered(whole, region))
+        assert len(set(asked)) <= 1
+
+
+def bordered(scene: Scene, region: Region) -> Scene:
+    return replace(scene, camera=replace(scene.camera, region=region))
+
+
+def test_the_order_of_instances_only_names(undivided):
+    """What is seen is the same; of what lies in one plane the lowest instance and triangle."""
+    renamed = 0
+    for seed, scene, beside, expected in undivided:
+        order = np.random.default_rng(seed).permutation(len(scene.instances))
+        other = replace(scene, instances=[scene.instances[k] for k in order])
+        found = swept(other, beside=beside)
+        old = np.r_[order, len(order) + np.arange(len(scene.planes)), NOTHING]
+        new = np.argsort(old[:-1])
+        assert np.array_equal(found.t, expected.t), seed
+        assert np.array_equal(found.certainty, expected.certainty), seed
+        assert found.ties.keys() == expected.ties.keys(), seed
+        same = old[found.instance] == expected.instance
+        same &= found.triangle == expected.triangle
+        for k in np.flatnonzero(~same):  # one of several, and by its own names each is the lowest
+            now, then = ((int(h.instance[k]), int(h.triangle[k])) for h in (found, expected))
+            assert now in found.ties[k] and then in expected.ties[k], seed
+            assert now < (new[then[0]], then[1]) and then < (old[now[0]], now[1]), seed
+            renamed += 1
+        assert found.s[:, same].tobytes() == expected.s[:, same].tobytes(), seed
+    assert renamed > 20
+
+
+def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
+    """A whole frame with samples, as memory divides it."""
+    for seed, scene, *_ in undivided[:6]:
+        settings = Settings("certified", samples=2)
+        monkeypatch.setattr(render, "BYTES_PER_PIXEL", 224)
+        whole = render.render(scene, settings)
+        for rows in (1, 4):
+            width = scene.camera.region.width
+            monkeypatch.setattr(render, "BYTES_PER_PIXEL", settings.memory // (rows * width))
+            assert len(render.bands(scene.camera, settings)) == -(
+                -scene.camera.region.height // rows
+            )
+            found = render.render(scene, settings)
+            for name, values in found.passes().items():
+                assert values.tobytes() == whole.passes()[name].tobytes(), (seed, name)
+            assert found.ties == whole.ties, seed

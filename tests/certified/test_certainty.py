@@ -1,0 +1,144 @@
+"""The self-test finds what breaks the proof, and what is asked for then happens.
+
+Rounding and subnormals are switched for a whole thread: each case is a process of its own.
+"""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from reference_tracer import certainty
+from reference_tracer.certainty import (
+    AssumptionError,
+    Certainty,
+    broken_assumptions,
+    check_assumptions,
+)
+from reference_tracer.tracer import render
+from reference_tracer.tracer.settings import Settings
+
+GLIBC_X86 = platform.machine() in ("x86_64", "AMD64") and platform.libc_ver()[0] == "glibc"
+ON_X86 = pytest.mark.skipif(not GLIBC_X86, reason="sets the control word of x86-64 through glibc")
+UP, DOWN, TO_ZERO = 0x800, 0x400, 0xC00  # of fesetround, on x86
+
+SWITCH = """
+import ctypes
+import numpy as np
+from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
+from reference_tracer.certainty import AssumptionError, broken_assumptions
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+libm = ctypes.CDLL("libm.so.6")
+triangle = Mesh([(-9.0, -9, -2), (9, -9, -2), (0, 9, -2)], [[0, 1, 2]])
+camera = Camera(np.eye(4), ViewWindow(-0.5, 0.5, -0.5, 0.5), 3, 2)
+scene = Scene(camera, (triangle,), (Instance(0, 0, np.eye(4)),), objects=("A",))
+assert broken_assumptions() == []
+
+def set_rounding(mode):
+    assert libm.fesetround(mode) == 0
+
+def set_mxcsr(bits):  # 0x8000 flushes results to zero, 0x40 takes subnormal operands for zero
+    environment = (ctypes.c_uint32 * 8)()
+    libm.fegetenv(environment)
+    environment[7] |= bits
+    libm.fesetenv(environment)
+
+SWITCH
+print("|".join(broken_assumptions()))
+try:
+    render(scene, Settings("certified"))
+except AssumptionError as error:
+    print(error)
+frame = render(scene, Settings("auto"))
+print(frame.statistics.method, int(frame.certainty.max()), (frame.instance_index == 0).all())
+print(" ".join(frame.statistics.required()))
+"""
+
+
+def switched(how: str) -> list[str]:
+    """Return what a process says that switches its arithmetic so: four lines."""
+    result = subprocess.run(
+        [sys.executable, "-c", SWITCH.replace("SWITCH\n", how + "\n")],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert result.returncode == 0, result.stderr
+    return result.stdout.splitlines()
+
+
+@ON_X86
+@pytest.mark.parametrize(
+    "how, lacks",
+    [
+        (f"set_rounding({UP})", {"rounding to nearest"}),
+        (f"set_rounding({DOWN})", {"rounding to nearest"}),
+        (f"set_rounding({TO_ZERO})", {"rounding to nearest"}),
+        ("set_mxcsr(0x8000)", {"subnormal results"}),
+        ("set_mxcsr(0x40)", {"subnormal operands"}),
+        ("set_mxcsr(0x8040)", {"subnormal results", "subnormal operands"}),
+    ],
+)
+def test_a_changed_arithmetic_is_found(how, lacks):
+    found, refusal, auto, said = switched(how)
+    assert lacks <= set(found.split("|"))
+    assert ("rounding" in found) == ("rounding" in how)
+    assert "nothing can be certified" in refusal and all(words in refusal for words in lacks)
+    assert auto == f"watertight {int(Certainty.NOT_CERTIFIED)} True"
+    assert "traced by watertight in float64" in said and refusal in said
+
+
+@ON_X86
+def test_an_arithmetic_that_is_as_it_should_be():
+    found, auto, said = switched("set_rounding(0)")
+    assert found == "" and auto.startswith("certified") and "error bound" in said
+
+
+def test_here_it_is_as_it_should_be():
+    assert broken_assumptions() == []
+    check_assumptions()
+
+
+@pytest.fixture
+def broken(monkeypatch):
+    """An arithmetic that rounds 1 + 2^-53 up; no process needs to be changed for that."""
+
+    def add(x, y):
+        return np.nextafter(np.add(x, y), np.inf)
+
+    checks = tuple((w, add if o is np.add else o, *n) for w, o, *n in certainty._CHECKS)
+    monkeypatch.setattr(certainty, "_CHECKS", checks)
+
+
+def test_certified_refuses_and_auto_falls_back(make, broken):
+    scene = make.scene(make.camera(5, 4), make.quad(-9, 9, -9, 9.3, -2))
+    with pytest.raises(AssumptionError, match=r"rounding to nearest.*choose another method"):
+        render.render(scene, Settings("certified"))
+    frame = render.render(scene, Settings("auto"))
+    plain = render.render(scene, Settings("watertight"))
+    assert frame.statistics.method == plain.statistics.method == "watertight"
+    assert (frame.certainty == Certainty.NOT_CERTIFIED).all() and not frame.ties
+    assert np.array_equal(frame.t, plain.t) and frame.color.tobytes() == plain.color.tobytes()
+    assert len(frame.statistics.notes) == 1 and "watertight" in frame.statistics.notes[0]
+    assert frame.statistics.required() == frame.statistics.notes
+    assert not plain.statistics.notes
+
+
+def test_plain_methods_do_not_ask(make, broken):
+    scene = make.scene(make.camera(5, 4), make.quad(-9, 9, -9, 9.3, -2))
+    for method in ("textbook_literal", "textbook", "moller_trumbore", "watertight"):
+        assert not render.render(scene, Settings(method)).statistics.notes
+
+
+def test_auto_is_certified_here(make):
+    scene = make.scene(make.camera(5, 4), make.quad(-9, 9, -9, 9.3, -2))
+    frame, certified = (render.render(scene, Settings(m)) for m in ("auto", "certified"))
+    assert frame.statistics.method == "certified" and not frame.statistics.notes
+    for name, values in frame.passes().items():
+        assert values.tobytes() == certified.passes()[name].tobytes(), name

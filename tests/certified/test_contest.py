@@ -1,0 +1,252 @@
+"""The nearest hit, proven: as exact arithmetic has it, ray by ray and pair by pair.
+
+The oracle is written apart (`study/oracle.py`): all rays with all triangles, in integers, and
+the ray of the rule truly moved.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified.any_rays import decide
+from reference_tracer.certified.contest import Contest
+from reference_tracer.certified.reasons import Reason
+from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
+from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.candidates import Pairs
+from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
+from reference_tracer.tracer.progress import result_of
+from reference_tracer.tracer.world import WorldTriangles
+
+from ..moved import may, touched
+from ..rays import nearest_hits
+from ..tracer.rational import t_of
+
+pytestmark = pytest.mark.filterwarnings("error")
+RAYS, TRIANGLES = 60, 30
+
+
+def ordinary(rng):
+    return (
+        rng.normal(size=(3, RAYS)),
+        rng.normal(size=(3, RAYS)),
+        rng.normal(size=(3, 3, TRIANGLES)),
+    )
+
+
+def whole(rng):
+    """Small integers: edges, corners, ties, triangles without area, rays in their planes."""
+    o, d = rng.integers(-3, 4, (3, RAYS)), rng.integers(-2, 3, (3, RAYS))
+    d[:, ~d.any(axis=0)] = 1
+    return o * 1.0, d * 1.0, rng.integers(-3, 4, (3, 3, TRIANGLES)) * 1.0
+
+
+def nearly_coplanar(rng):
+    """Each triangle again, turned within its plane, but for rounding."""
+    o, d, c = ordinary(rng)
+    half = TRIANGLES // 2
+    c[..., half:] = c[..., :half]
+    c[2, :, half:] += rng.uniform(-0.3, 0.3, half) * (c[1] - c[0])[:, half:]
+    return o, d, c
+
+
+def through_corners(rng):
+    """Rays at corners and points of edges, as near as float64 gets, far from the world's origin."""
+    o, _, c = ordinary(rng)
+    c += 1e6 * rng.normal(size=(3, 1))
+    o += c[0].mean(axis=1, keepdims=True)
+    rows = rng.integers(0, TRIANGLES, RAYS)
+    share = rng.choice([0, 0.5, rng.random()], RAYS)
+    target = c[0][:, rows] + share * (c[1] - c[0])[:, rows]
+    return o, target - o, c
+
+
+def uneven(rng):
+    return tuple(v * 2.0 ** rng.integers(-40, 40, v.shape) for v in ordinary(rng))
+
+
+FAMILIES = (ordinary, whole, nearly_coplanar, through_corners, uneven)
+EVERY_FAMILY = pytest.mark.parametrize("family", FAMILIES, ids=lambda f: f.__name__)
+
+
+def share(o, d, what):
+    return Rays(o[:, :1] if what == "origin" else o, d[:, :1] if what == "direction" else d)
+
+
+def check(rays, corners, start=0.0, end=np.inf) -> Hits:
+    """Assert that all is as the oracle says."""
+    hits = nearest_hits(rays, corners, start, end)
+    origins, directions = (
+        np.broadcast_to(v, (3, len(hits.t))) for v in (rays.origins, rays.directions)
+    )
+    for k, truth in enumerate(sights(origins, directions, corners, start=start, end=end)):
+        name = int(hits.instance[k]), int(hits.triangle[k])
+        assert name == truth.seen
+        column = origins[:, k], directions[:, k], corners[..., name[1]]
+        assert hits.t[k] == (np.inf if name == NOWHERE else t_of(*column))
+        ambiguous = hits.certainty[k] == Certainty.AMBIGUOUS
+        assert ambiguous == (len(touched(truth)) > 1) == (k in hits.ties)
+        assert ambiguous or hits.certainty[k] in (Certainty.BOUND, Certainty.EXACT)
+        ties = hits.ties.get(k, {name})
+        assert name in ties and may(truth) <= ties <= touched(truth)
+    return hits
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["nothing", "origin", "direction", "both"])
+@EVERY_FAMILY
+def test_nearest(rng, family, what):
+    seen = Counter()
+    for _ in range(3):
+        o, d, c = family(rng)
+        rays = share(o, d, what) if what != "both" else Rays(o[:, :1], d[:, :1])
+        hits = check(rays, c)
+        seen.update(hits.certainty.tolist())
+    if what != "both":
+        assert seen[Certainty.BOUND] + seen[Certainty.EXACT] > 30
+        assert seen[Certainty.AMBIGUOUS] > 10 or family is not whole
+
+
+@pytest.mark.parametrize("what", ["nothing", "origin", "direction"])
+@pytest.mark.parametrize("scale", [-1000, -350, -330, 330, 1000])
+@pytest.mark.parametrize("family", [ordinary, whole, nearly_coplanar], ids=lambda f: f.__name__)
+def test_the_scale_does_not_matter(rng, family, scale, what):
+    """Powers of two: the very same picture, also where every product under- or overflows."""
+    o, d, c = family(rng)
+    plain = nearest_hits(share(o, d, what), c)
+    hits = nearest_hits(share(o * 2.0**scale, d, what), c * 2.0**scale)
+    assert np.array_equal(hits.triangle, plain.triangle) and hits.ties == plain.ties
+    assert np.array_equal(hits.t, plain.t * 2.0**scale)
+    assert np.allclose(hits.s, plain.s, rtol=0, atol=1e-9)
+    ambiguous = (h.certainty == Certainty.AMBIGUOUS for h in (hits, plain))
+    assert np.array_equal(*ambiguous)
+
+
+@pytest.mark.parametrize("shared", ["nothing", "origin", "direction"])
+def test_rays_where_surfaces_cross(rng, shared):
+    """Both are surely hit, at t that differ by less than a rounding error, or not at all."""
+    exact, seen = 0, Counter()
+    for place in (0.0, 1e4) * 3:
+        middle, along, *ways = rng.normal(size=(4, 3))
+        angles = np.array([0.3, 2.4, 4.5])[:, None]
+        fans = [4 * (np.cos(angles) * along + np.sin(angles) * way) for way in ways]
+        c = np.stack([middle + fan for fan in fans], axis=-1) + place
+        target = middle[:, None] + along[:, None] * rng.uniform(-1, 1, RAYS) + place
+        o, d = rng.normal(size=(3, RAYS)) + place, rng.normal(size=(3, RAYS))
+        if shared == "direction":
+            rays = Rays(target - d[:, :1], d[:, :1])
+        else:
+            o = o[:, :1] if shared == "origin" else o
+            rays = Rays(o, target - o)
+        hits = check(rays, c)
+        seen.update(hits.triangle.tolist())
+        exact += (hits.certainty == Certainty.EXACT).sum()
+    assert exact > 3 * RAYS and min(seen[0], seen[1]) > RAYS and set(seen) == {0, 1}
+
+
+def test_subnormal_scenes(rng):
+    """Integers times the smallest float there is."""
+    o, d, c = whole(rng)
+    hits = check(Rays(o * 5e-324, d), c * 5e-324)
+    assert np.isfinite(hits.t).sum() > 10
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["nothing", "origin", "direction"])
+@pytest.mark.parametrize("clip", [(1, 2), (0.5, 1), (0, 1), (1, np.inf)])
+def test_the_clip_range(rng, clip, what):
+    """Surfaces exactly on its ends, within it; and t = 0 where it starts at 0."""
+    met = []
+    for _ in range(5):
+        o, d, c = whole(rng)
+        met.append(check(share(o, d, what), c, *clip).t)
+    assert np.isin(np.concatenate(met), clip).sum() > 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", ["nothing", "direction"])
+@pytest.mark.parametrize("clip", [(-2, 0.5), (-1, 0), (-2, -1), (-np.inf, np.inf)])
+def test_what_is_behind_may_be_seen(rng, clip, what):
+    """An orthographic camera may start behind itself."""
+    behind = 0
+    for family in (whole, ordinary) * 2:
+        o, d, c = family(rng)
+        behind += (check(share(o, d, what), c, *clip).t < 0).sum()
+    assert behind > 20
+
+
+def test_a_single_ray_that_starts_behind_itself(rng):
+    """Two triangles a rounding error before and behind the one origin."""
+    for _ in range(20):
+        turn = [np.linalg.qr(rng.normal(size=(3, 3)))[0] for _ in range(2)]
+        flat = np.array([[1.0, 0, 1e-17], [-0.5, 0.9, 1e-17], [-0.5, -0.9, 1e-17]])
+        c = np.stack([flat @ turn[0], (flat * (1, 1, -1)) @ turn[1]], axis=-1)
+        check(Rays(np.zeros((3, 1)), rng.normal(size=(3, 1))), c, -1.0, 1.0)
+
+
+@pytest.mark.slow
+def test_ties_lack_nobody_and_name_nobody_else(rng):
+    """All that rays see that are moved by any means, and no more than the closed triangles have."""
+    several = 0
+    for what in ("nothing", "origin", "direction") * 5:
+        o, d, c = whole(rng)
+        several += sum(len(names) > 2 for names in check(share(o, d, what), c).ties.values())
+    assert several > 20
+
+
+@pytest.mark.parametrize("shared", [False, True])
+@EVERY_FAMILY
+def test_decide(rng, family, shared):
+    counts = np.zeros(3, int)
+    for start, end in ((0.0, np.inf), (1.0, 2.0), (-1.0, 1.0)):
+        if family is whole:
+            o, d, c = (rng.integers(-1, 2, (*k, 400)) * 1.0 for k in ((3,), (3,), (3, 3)))
+        else:
+            o, d, c = family(rng)
+            c = c[..., rng.integers(0, TRIANGLES, RAYS)]
+        o = o[:, :1] if shared else o
+        found = decide(Rays(o, d), c, start, end)
+        truth = intersect_pairs(np.broadcast_to(o, d.shape), d, c)
+        within = truth.within(start, end)
+        assert np.array_equal(found.hit, truth.hit & within)
+        assert np.array_equal(found.edge, (truth.side == EDGE) & within)
+        assert not (found.edge & ~found.exact).any()
+        counts += [found.hit.sum(), found.edge.sum(), found.exact.sum()]
+    assert counts[0] > 1 and (counts.min() > 5 or family is not whole)
+
+
+@pytest.mark.parametrize("what", ["nothing", "origin", "direction"])
+@pytest.mark.parametrize("together", [1, 7, 100])
+def test_batches_and_their_parts_do_not_matter(rng, together, what):
+    """Two batches, each in parts, the second first: as all triangles at once."""
+    o, d, c = whole(rng)
+    rays = share(o, d, what)
+    expected = nearest_hits(rays, c)
+    names = np.arange(TRIANGLES, dtype=np.int32)
+    every = WorldTriangles(c, np.zeros_like(names), names)
+    ray, row = (v.ravel() for v in np.meshgrid(np.arange(RAYS), np.arange(11), indexing="ij"))
+    contest = Contest(rays)
+    for some in (every.take(names[19:]), every.take(names[8:19]), every.take(names[:8])):
+        inside = np.flatnonzero(row < len(some.instance))
+        for at in range(0, len(inside), together * RAYS):
+            part = inside[at : at + together * RAYS]
+            contest.enter(Pairs(ray[part], row[part], some))
+    statistics = Statistics()
+    hits = result_of(contest.hits(statistics))
+    for name in ("t", "instance", "triangle", "s"):
+        assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
+    assert hits.ties == expected.ties
+    again = nearest_hits(rays, c, together=together)
+    assert np.array_equal(again.t, expected.t) and again.ties == expected.ties
+    assert statistics.pairs_exact == sum(statistics.reasons.values()) > 0
+    assert statistics.reasons[Reason.EDGE] > 0
+
+
+def test_no_triangles_and_no_rays():
+    some = Rays(np.zeros((3, 1)), np.ones((3, 4)))
+    hits = nearest_hits(some, np.zeros((3, 3, 0)))
+    assert np.isinf(hits.t).all() and (hits.certainty == Certainty.BOUND).all()
+    assert len(decide(Rays(np.zeros((3, 1)), np.ones((3, 0))), np.zeros((3, 3, 0))).hit) == 0

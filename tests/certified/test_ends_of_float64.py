@@ -1,0 +1,135 @@
+"""At the ends of float64 every pixel is right, or the scene is refused in words."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, ViewWindow
+from reference_tracer.study.oracle import scene_sights
+from reference_tracer.tracer.camera import camera_rays, film_positions
+from reference_tracer.tracer.render import render
+from reference_tracer.tracer.settings import Settings
+
+from ..tracer.rational import functions, rational, t_of_pixels, world_corners
+
+pytestmark = pytest.mark.filterwarnings("error")
+ENDS = (1020, 1015, 1000, 900, 700, 600, 540, 512, 500)
+U = Fraction(1, 2**53)
+
+
+@np.errstate(all="ignore")
+def scene_at(make, rng, lengths: int, window: int, orthographic: bool) -> Scene:
+    """Return a camera and some triangles in its view, of lengths about 2^`lengths`.
+
+    `window` is the exponent of a perspective view window.
+    """
+    width, height = (int(n) for n in rng.integers(3, 8, 2))
+    unit = 2.0**lengths
+    half = rng.uniform(0.3, 2) * (unit if orthographic else 2.0**window)
+    axes = np.linalg.qr(rng.normal(size=(3, 3)))[0] if rng.integers(2) else np.eye(3)
+    eye = unit * rng.normal(size=3) * rng.integers(2)
+    camera = make.camera(
+        width,
+        height,
+        half=half,
+        eye=eye,
+        axes=axes,
+        orthographic=orthographic,
+        clip_start=max(0.01 * unit, 5e-324),
+        clip_end=min(1000 * unit, 1e308),
+    )
+    depth = rng.uniform(0.5, 8, (3, 4)) * unit
+    x, y = 1.5 * half * rng.normal(size=(2, 3, 4)) * (1 if orthographic else depth)
+    corners = np.stack((x, y, -depth))
+    world = eye[:, None, None] + sum(axes[:, k, None, None] * corners[k] for k in range(3))
+    mesh = Mesh(world.transpose(2, 1, 0).reshape(-1, 3), np.arange(12).reshape(4, 3))
+    planes = [Plane(0, world[:, 0, 0], rng.normal(size=3))] if rng.integers(2) else []
+    return Scene(camera, (mesh,), (Instance(0, 0, np.eye(4)),), planes, objects=("A",))
+
+
+def check(scene: Scene) -> int:
+    """Hold every pixel against exact arithmetic; returns how many see a triangle."""
+    frame = render(scene, Settings("certified"))
+    names = list(
+        zip(
+            frame.instance_index.ravel().tolist(),
+            frame.triangle_index.ravel().tolist(),
+            strict=True,
+        )
+    )
+    assert names == [sight.seen for sight in scene_sights(scene)]
+    assert np.array_equal(frame.t.ravel(), t_of_pixels(scene, names))
+    on_mesh = [k for k, name in enumerate(names) if name[0] == 0]
+    if on_mesh:
+        rays = camera_rays(scene.camera, *film_positions(scene.camera.region, 0.0, 0.0))
+        shape = 3, len(names)
+        rays = [np.broadcast_to(v, shape)[:, on_mesh] for v in (rays.origins, rays.directions)]
+        corners = np.stack([world_corners(scene, names[k]) for k in on_mesh], axis=-1)
+        found = frame.barycentrics.reshape(-1, 3)[on_mesh].T
+        assert np.isfinite(found).all()
+        apart, allowed = error_of(found, *rays, corners)
+        assert (apart <= allowed).all(), max(apart.ravel() / allowed.ravel())
+    return len(on_mesh)
+
+
+def error_of(found, origins, directions, corners):
+    """Return how far barycentrics (3, n) are off, and how far the edge functions' bounds allow."""
+    (ab, bc, ca), _, total = functions(origins, directions, corners)
+    apart = np.abs(rational(found) - np.stack((bc, ca, ab)) / total)
+    o, d, c = rational(origins), rational(directions), rational(corners)
+    sums = []
+    for k in range(3):
+        (ax, ay, az), (bx, by, bz) = np.abs(c[k] - o), np.abs(c[k - 2] - c[k])
+        terms = ay * bz + az * by, az * bx + ax * bz, ax * by + ay * bx
+        sums.append(sum(np.abs(d) * np.stack(terms)))
+    return apart, 5 * 12 * U * np.max(sums, axis=0) / np.abs(total) + U
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_every_pixel_is_right_or_the_scene_is_refused(make, orthographic, sign):
+    seen = refused = 0
+    for seed, end in enumerate(ENDS * 2):
+        rng = np.random.default_rng(seed)
+        of_window = seed >= len(ENDS) and not orthographic  # else of the lengths
+        lengths, window = (0, sign * end) if of_window else (sign * end, 0)
+        try:
+            seen += check(scene_at(make, rng, lengths, window, orthographic))
+        except SceneError as error:
+            assert end >= 1015 and "\n" not in str(error), error
+            refused += 1
+    assert seen > 150 and refused <= 6
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+def test_a_scene_far_larger_than_its_view(make, rng, orthographic):
+    """The camera is an ordinary one; corners are not."""
+    seen = 0
+    for _ in range(12):
+        ends = rng.choice([1.0, 2.0**300, 2.0**600, 2.0**1000], (12, 1))
+        mesh = Mesh(rng.normal(size=(12, 3)) * ends - (0, 0, 3), np.arange(12).reshape(4, 3))
+        seen += check(
+            make.scene(make.camera(6, 5, orthographic=orthographic, clip_end=1e308), mesh)
+        )
+    assert seen > 60
+
+
+@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("half", [5e-324, 2.0**-1060, 2.0**-1022])
+def test_a_window_too_small_to_divide_is_refused(make, orthographic, half):
+    with pytest.raises(SceneError, match=r"Camera 'Camera' has pixels of .*: enlarge its sensor"):
+        make.camera(window=ViewWindow(-half, half, -half, half), orthographic=orthographic)
+
+
+@pytest.mark.parametrize("size, wrong", [(1e200, "are too long"), (1e-200, "lie in a plane")])
+def test_axes_that_have_no_inverse_are_refused(make, size, wrong):
+    with pytest.raises(SceneError, match=f"The axes of camera 'Camera' {wrong}: clear its scale"):
+        make.camera(axes=np.eye(3) * size)
+
+
+@pytest.mark.parametrize("size", [1e60, 1e-19, 1e20])
+def test_axes_of_any_other_length(make, size):
+    axes = np.diag((1.0, size, 1))
+    assert check(make.scene(make.camera(6, 5, axes=axes), make.quad(-9, 2, -9, size, -3)))

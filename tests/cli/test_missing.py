@@ -1,0 +1,42 @@
+"""The commands of packages that stand beside the add-on, where the add-on is alone."""
+
+from __future__ import annotations
+
+import pytest
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import INPUT_ERROR
+
+
+@pytest.fixture
+def alone(monkeypatch):
+    """No package but the add-on is installed."""
+    monkeypatch.setattr("importlib.metadata.entry_points", lambda group: ())
+
+
+@pytest.mark.parametrize("name", ["judge", "bench"])
+@pytest.mark.parametrize(
+    "options",
+    [[], ["a.py", "--out", "there"], ["--quick"], ["--help"], ["-h"], ["--", "--x=1", "a"]],
+    ids=" ".join,
+)
+def test_a_sentence_says_how_to_get_it(name, options, alone, capsys):
+    assert main([name, *options]) == INPUT_ERROR
+    printed = capsys.readouterr()
+    assert printed.out == "" and len(printed.err.splitlines()) == 1
+    assert f"the command {name} is not part of the add-on" in printed.err
+    assert "pip install --editable ." in printed.err
+
+
+def test_the_help_names_it_all_the_same(alone, capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["--help"])
+    assert end.value.code == 0
+    text = capsys.readouterr().out
+    assert text.count("(not installed here)") == 2 and "judge" in text and "bench" in text
+
+
+@pytest.mark.parametrize("name", ["judge", "bench"])
+def test_installed_it_has_its_own_help(name, capsys):
+    with pytest.raises(SystemExit) as end:
+        main([name, "--help"])
+    assert end.value.code == 0 and f"reftrace {name}" in capsys.readouterr().out

@@ -1,0 +1,160 @@
+"""What the options refuse, and what the help says."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+
+import pytest
+from reference_tracer import __version__
+from reference_tracer.cli.arguments import settings_from
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import INPUT_ERROR
+from reference_tracer.scene import SceneError
+from reference_tracer.scene_files import save_scene
+from reference_tracer.tracer.settings import Settings
+
+from .parts import SMALL
+
+BAD = {
+    "no file": (["none.ply"], "none.ply"),
+    "other suffix": (["words.txt"], "words.txt"),
+    "empty mesh": (["empty.obj"], "empty.obj"),
+    "no scene": (["empty.npz"], "empty.npz"),
+    "same point": (["ball.ply", "--eye", "1", "2", "3", "--target", "1", "2", "3"], "--target"),
+    "angle 180": (["ball.ply", "--eye", "0", "0", "5", "--angle", "180"], "--angle"),
+    "angle not a number": (["ball.ply", "--eye", "0", "0", "5", "--angle", "nan"], "--angle"),
+    "no eye": (["ball.ply", "--eye", "nan", "0", "5"], "--eye"),
+    "angle of an orthographic camera": (
+        ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "2", "--angle", "40"],
+        "--angle is not for",
+    ),
+    "two places": (["none.blend", "--frame-all", "--eye", "0", "0", "5"], "--eye is not for"),
+    "two cameras": (["none.blend", "--camera", "A", "--frame-all"], "--frame-all is for a camera"),
+    "scale of all": (["none.blend", "--frame-all", "--ortho-scale", "2"], "--ortho-scale is not"),
+    "target alone": (["none.blend", "--target", "0", "0", "5"], "--target is for a camera that"),
+    "angle alone": (["none.blend", "--angle", "30"], "--angle is for a camera that --eye or --fr"),
+    "axis up of a .blend": (["none.blend", "--up", "y"], "--up is for meshes"),
+    "frame of a mesh": (["ball.ply", "--frame", "0"], "--frame is for a .blend: 'ball.ply'"),
+    "scene of a mesh": (["ball.ply", "--scene", "A"], "--scene is for a .blend: 'ball.ply'"),
+    "camera of a scene": (["empty.npz", "--camera", "A"], "'empty.npz' has its own camera"),
+    "frame too far": (["none.blend", "--frame", "9999999"], "--frame is 9999999; it must be from"),
+    "ortho scale 0": (["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "0"], "--ortho-scale"),
+    "ortho scale below 0": (
+        ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"],
+        "orthographic scale",
+    ),
+    "width 0": (["ball.ply", "--width", "0"], "--width is 0; it must be at least 1"),
+    "height below 0": (["ball.ply", "--height", "-5"], "--height is -5; it must be at least 1"),
+    "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
+    "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
+    "float32 of auto": (["none.ply", "--precision", "float32"], "reftrace: name a --method with"),
+    "float32 of certified, whatever is stored": (
+        ["none.blend", "--precision", "float32", "--method", "certified"],
+        "reftrace: leave out --precision float32, or name another --method",
+    ),
+    "unknown method": (["ball.ply", "--method", "magic"], "--method"),
+    "not a number": (["ball.ply", "--width", "many"], "--width"),
+    "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
+    "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
+    "out is a folder, EXR": (["ball.ply", "--out", "folder.exr"], "folder.exr"),
+    "out under a file": (["none.ply", "--out", "words.txt/x.png"], "to the folder 'words.txt'"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_is_named_and_nothing_is_written(case, ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("empty.obj", "empty.npz", "words.txt"):
+        (tmp_path / name).touch()
+    for name in ("folder.png", "folder.exr"):
+        (tmp_path / name).mkdir()
+    before = sorted(tmp_path.rglob("*"))
+    options, words = BAD[case]
+    try:
+        code = main(["trace", "--out", "x.png", *SMALL, *options])
+    except SystemExit as stop:
+        code = stop.code
+    assert code == INPUT_ERROR
+    assert words in capsys.readouterr().err
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize("command", ["compare", "export"])
+def test_only_a_blend_is_compared_or_exported(command, ball, tmp_path, capsys, monkeypatch):
+    """A comparison that fails says so in its folder, too."""
+    monkeypatch.chdir(tmp_path)
+    assert main([command, "ball.ply", "--out", "out.npz"]) == INPUT_ERROR
+    assert "ball.ply" in capsys.readouterr().err
+    written = [p for p in tmp_path.rglob("*") if p.is_file() and p != ball]
+    assert [p.name for p in written] == (["comparison.json"] if command == "compare" else [])
+    for path in written:
+        held = json.loads(path.read_text(encoding="utf-8"))
+        assert held["verdict"] == "failed" and "ball.ply" in held["error"]["message"]
+
+
+@pytest.mark.parametrize(
+    "options, word",
+    [
+        (["--width", "40"], "--width"),
+        (["--eye", "0", "0", "9"], "--eye"),
+        (["--angle", "9"], "--angle"),
+    ],
+)
+def test_options_that_would_not_be_heard_are_refused(options, word, make, tmp_path, capsys):
+    """A scene has a camera of its own."""
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
+    trace = ["trace", str(tmp_path / "s.npz"), "--out", str(tmp_path / "s.png"), *options]
+    assert main(trace) == INPUT_ERROR
+    assert word in capsys.readouterr().err and not (tmp_path / "s.png").exists()
+
+
+@pytest.mark.parametrize(
+    "command", ["", "compare", "trace", "explain", "trade", "extremes", "export"]
+)
+def test_help_names_the_exit_codes(command, capsys):
+    with pytest.raises(SystemExit) as stop:
+        main([*command.split(), "--help"])
+    text = capsys.readouterr().out
+    assert stop.value.code == 0
+    for words in ("0  ", "4  the input is wrong", "130  interrupted by Ctrl-C"):
+        assert words in text
+    of_pictures = command in ("", "compare")  # others compare none
+    for words in ("0  the pictures agree", "1  warnings", "2  differences", "3  the sizes"):
+        assert (words in text) == of_pictures
+    assert ("example:" in text) == bool(command)
+
+
+def test_version_and_no_command(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["--version"])
+    assert stop.value.code == 0 and __version__ in capsys.readouterr().out
+    with pytest.raises(SystemExit) as stop:
+        main([])
+    assert stop.value.code == INPUT_ERROR and "--help" in capsys.readouterr().err
+
+
+def test_a_proven_method_takes_float64_whatever_is_stored():
+    stored = Settings("textbook", "float32")
+    for method in ("certified", "auto"):
+        found = settings_from(argparse.Namespace(method=method), stored)
+        assert (found.method, found.precision) == (method, "float64")
+        with pytest.raises(SceneError, match="float32"):
+            settings_from(argparse.Namespace(method=method, precision="float32"), Settings())
+
+
+@pytest.mark.parametrize("option", ["--help", "--version"])
+def test_what_is_short_imports_no_numpy(option):
+    """It is what one types first: 0.5 s, were all commands imported for it."""
+    code = f"""if True:
+        import sys
+        from reference_tracer.cli import main as cli
+        try:
+            cli.main(['{option}'])
+        except SystemExit:
+            print(sorted({{'numpy', 'reference_tracer.cli.arguments'}} & sys.modules.keys()))
+    """
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "[]"

@@ -1,0 +1,80 @@
+"""`reftrace trade` on files that need no Blender."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from reference_tracer.cli.main import main
+from reference_tracer.cli.parser import AGREE, INPUT_ERROR
+from reference_tracer.scene_files import save_scene
+
+pytestmark = pytest.mark.slow
+
+TRADE = ["--width", "12", "--height", "8", "--samples", "2"]
+
+
+def test_trade(small_ball, tmp_path, capsys):
+    assert main(["trade", small_ball, *TRADE, "--out", str(tmp_path / "new" / "out")]) == AGREE
+    said = capsys.readouterr().out
+    lines = said.splitlines()
+    assert "wrong pixels" in lines[0] and "12 x 8 pixels, 2 x 2 rays each" in lines
+    assert "certified, proven to have none" in said and lines[-1].startswith("written to")
+    written = sorted(p.name for p in (tmp_path / "new" / "out").iterdir())
+    assert written == ["tradeoff.json", "tradeoff.svg", "tradeoff.txt"]
+    held = json.loads((tmp_path / "new" / "out" / "tradeoff.json").read_text(encoding="utf-8"))
+    assert held["scene"] == "small.ply" and max(r["samples"] for r in held["rows"]) == 2
+    assert held["advice"] in said
+
+
+def test_trade_without_out_only_prints(small_ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    assert main(["trade", small_ball, *TRADE]) == AGREE
+    assert "wrong pixels" in capsys.readouterr().out
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize(
+    "options, word",
+    [
+        (["--samples", "0"], "samples is 0"),
+        (["--samples", "65"], "samples is 65"),
+        (["--width", "0"], "--width is 0; it must be at least 1"),
+        (["--out", "small.ply"], "cannot write to the folder 'small.ply': it is a file"),
+    ],
+)
+def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    argv = ["trade", small_ball, *TRADE, *options]
+    assert main(argv) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert word in said and "Traceback" not in said
+
+
+def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
+    """A scene has its own camera, but how wide its picture is can be chosen."""
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6), make.quad(-9, 0, -9, 9, -2)))
+    assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1"]) == AGREE
+    assert "10 x 6 pixels, one ray each" in capsys.readouterr().out
+    assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--width", "20"]) == AGREE
+    assert "20 x 12 pixels, one ray each" in capsys.readouterr().out
+    assert main(["trade", str(tmp_path / "s.npz"), "--height", "9"]) == INPUT_ERROR
+    said = capsys.readouterr().err
+    assert "--height is for meshes" in said and "--width sets the size of its picture" in said
+
+
+def test_trade_help_says_whose_the_width_is(capsys):
+    with pytest.raises(SystemExit):
+        main(["trade", "--help"])
+    before, after = capsys.readouterr().out.split("the camera and its picture")
+    assert "width of the largest picture" in before and "--width" not in after
+
+
+def test_trade_of_nothing(make, tmp_path, capsys):
+    save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6)))
+    out = ["--samples", "1", "--out", str(tmp_path / "out")]
+    assert main(["trade", str(tmp_path / "s.npz"), *out]) == AGREE
+    assert "Nothing is seen" in capsys.readouterr().out
+    held = json.loads((tmp_path / "out" / "tradeoff.json").read_text(encoding="utf-8"))
+    assert {r["largest_t_error"] for r in held["rows"]} == {None}
