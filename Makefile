@@ -73,8 +73,10 @@ docs: extension demo ## refresh the documents: run their commands, compute their
 		$(PYTHON_IN_VENV) tools/make_docs.py; \
 	fi
 
-lint: .venv/.stamp ## check the style of all code
+lint: .venv/.stamp ## check the style of all code, its format, and the types of the add-on's
 	$(PYTHON_IN_VENV) -m ruff check .
+	$(PYTHON_IN_VENV) -m ruff format --check .
+	$(PYTHON_IN_VENV) -m mypy
 
 extension: .venv/.stamp ## build and validate dist/reference_tracer-<version>.zip
 	$(PYTHON_IN_VENV) tools/build_extension.py
