@@ -79,6 +79,25 @@ def keys(scene: Scene, pixel: NDArray, instance: NDArray, triangle: NDArray) -> 
     return pixel.astype(np.int64) * max(1, scene.triangle_count) + first + triangle
 
 
+def largest_t_error(frame: Frame, certified: Frame, in_ulp: bool = False) -> float | None:
+    """Return the largest error of t where both frames see the same surface; None where none do.
+
+    In metres along the view axis; or, with `in_ulp`, in units in the last place of the certified t
+    as a float64.
+    """
+    same = (
+        (frame.instance_index == certified.instance_index)
+        & (frame.triangle_index == certified.triangle_index)
+        & np.isfinite(certified.t)
+    )
+    if not same.any():
+        return None
+    t, exact = frame.t[same], certified.t[same]
+    unit = np.spacing(exact) if in_ulp else 1.0
+    with np.errstate(over="ignore"):  # a plain t may be off by more ulp than there are doubles
+        return float(np.abs(t / unit - exact / unit).max())  # a difference of t may overflow, too
+
+
 def sample(frame: Frame, count: int) -> NDArray[np.intp]:
     """Return pixels to ask about: half of them anywhere, half where integers had to decide."""
     rng = np.random.default_rng(count)
