@@ -157,7 +157,9 @@ def _against(
     out += plots.line(sorted(axes.at(r.seconds, y[r]) for r in best), plots.INK, 4)
     others = [r for r in rows if r not in best]
     out += plots.chart(axes, [_mark(r, y[r], r in best) for r in others + best])
-    return out + plots.named(axes, {n: axes.at(r.seconds, y[r]) for n, r in names.items() if r in y})
+    return out + plots.named(
+        axes, {n: axes.at(r.seconds, y[r]) for n, r in names.items() if r in y}
+    )
 
 
 def _mark(r: TradeRow, y: float, best: bool) -> plots.Series:

@@ -6,7 +6,8 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from ...certainty import Certainty
 from ...compare.cause import Cause
 from ...compare.comparison import Comparison
 from ...explain import html
+from ...explain.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
@@ -54,15 +56,17 @@ def content(
             for c in Certainty
         },
         "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
+        "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
+        "errata": ERRATA,
         "pictures": _pictures(comparison, extras.literal),
         "pixels": pixels,
         "derivations": [
             {"pixel": list(pixel), "html": html.fragment(derivation)}
             for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(trade_report, extras.trade),
+        "trade": _study(trade_report, extras.trade, trade_report.page_table),
         # Without its thousands of rows, which the plots show.
-        "extremes": _study(extremes_report, extras.extremes, without="rows"),
+        "extremes": _study(extremes_report, extras.extremes),
         "left_out": [*extras.left_out, *missing],
     }
 
@@ -147,9 +151,12 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     return found, missing
 
 
-def _study(report: Any, found: Any, without: str = "") -> Any:
-    """Return a study as its module of `report` has it, with its plots."""
+def _study(report: ModuleType, found: Any, table: Callable[[Any], Any] | None = None) -> Any:
+    """Return a study as its module of `report` has it, with its plots, and its table as text."""
     if found is None:
         return None
+    held = {k: v for k, v in report.to_dict(found).items() if k != "rows"}
+    if table:
+        held["table"] = table(found)
     plots = [{"name": name, "svg": svg} for name, svg in report.pictures(found).items()]
-    return {k: v for k, v in report.to_dict(found).items() if k != without} | {"plots": plots}
+    return held | {"plots": plots}
