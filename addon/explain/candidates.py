@@ -21,7 +21,7 @@ from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.world import WorldTriangles, refused
-from .pixel import Candidate, Pixel, certified_hits, check_pixel, plain_answer
+from .pixel import Candidate, Pixel, answer, check_pixel
 
 LIMIT = 8  # candidates that one still reads
 
@@ -73,7 +73,7 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     )
     order = _order(pixel, triangles)
     count = _enough(pixel, triangles, order, limit)
-    seen = {plain_answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
+    seen = {answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
     more = (k for k in order[count:] if (triangles.instance[k], triangles.triangle[k]) in seen)
     kept = [*order[:count], *more]
     return replace(
@@ -138,14 +138,14 @@ def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], li
 
     At least `limit`: what is tied with the first comes with it, and what raised a doubt of it.
     """
-    whole = certified_hits(pixel, triangles)
-    names = whole.ties.get(0, frozenset()) | {(int(whole.instance[0]), int(whole.triangle[0]))}
+    whole = answer(pixel, triangles)
+    names = whole.ties | {whole.seen}
     ordered = zip(triangles.instance[order], triangles.triangle[order], strict=True)
     last = max((k for k, name in enumerate(ordered, start=1) if name in names), default=0)
     count = max(limit, last)
     while count < len(order):
-        hits = certified_hits(pixel, triangles.take(order[:count]))
-        if hits.certainty[0] == whole.certainty[0] and hits.ties == whole.ties:
+        some = answer(pixel, triangles.take(order[:count]))
+        if (some.certainty, some.ties) == (whole.certainty, whole.ties):
             break
         count *= 2
     return min(count, len(order))
