@@ -1,7 +1,6 @@
-"""A derivation as a lecture: headings, sentences and tables, for Markdown and HTML alike.
+"""Turns a derivation into a lecture: headings, sentences and tables, for Markdown and HTML alike.
 
-In comes a `Derivation`; out goes a list of blocks, which hold text and no markup. The sentences are
-in `document.toml`.
+The blocks hold text and no markup. The sentences are in `document.toml`.
 """
 
 from __future__ import annotations
@@ -9,6 +8,8 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ..certainty import Certainty
 from ..images import to_display
@@ -183,9 +184,10 @@ def _color(derivation: Derivation) -> list[Block]:
         why = "color_of_plane" if seen.is_plane else "color_of_slot"
     steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
     rgba = ", ".join(digits_text(v) for v in derivation.color)
-    srgb = "#" + "".join(f"{v:02x}" for v in to_display([[derivation.color]])[0, 0, :3])
-    shown = Paragraph(_text("rgba", rgba=rgba, srgb=srgb), "", srgb)
-    return [Heading(2, "4. Its colour", "4"), _said(why, seen=seen), *steps, shown]
+    shown = to_display(np.array([[derivation.color]]))[0, 0, :3]
+    srgb = "#" + "".join(f"{v:02x}" for v in shown)
+    value = Paragraph(_text("rgba", rgba=rgba, srgb=srgb), "", srgb)
+    return [Heading(2, "4. Its colour", "4"), _said(why, seen=seen), *steps, value]
 
 
 def _certain(derivation: Derivation) -> list[Block]:

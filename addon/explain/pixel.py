@@ -190,6 +190,6 @@ def answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings | None = 
         names[int(hits.instance[0]), int(hits.triangle[0])],
         float(hits.t[0]),
         hits.s[:, 0].astype(np.float64),
-        Certainty(int(hits.certainty[0])),  # type: ignore[call-arg]  # mypy takes it for a record
+        Certainty(int(hits.certainty[0])),
         frozenset(names[name] for name in hits.ties.get(0, ())),
     )

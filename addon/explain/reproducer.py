@@ -1,7 +1,7 @@
-"""One pixel as a small file that stands alone: `reftrace explain pixel.json` derives it again.
+"""Writes and reads a pixel as a small file: `reftrace explain pixel.json` derives it again.
 
-It is JSON: camera, ray, candidates, every number such that reading gives it back to the bit. It
-holds nothing that runs, and is checked when it is read, as it may come from anywhere.
+It is JSON: camera, ray and candidates. Reading gives every number back to the bit. The file holds
+nothing that runs, and is checked when it is read, as it may come from anywhere.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ def read(path: str | Path) -> Pixel:
     Raises
     ------
     SceneError
-        If there is no such file, it is none of ours, or something in it is wrong, which is named.
+        If there is no such file, it is no pixel's, or something in it is wrong, which is named.
     """
     path = Path(path)
     check_is_file(path)
@@ -95,7 +95,7 @@ def _pixel(content: Any) -> Pixel:
     return pixel
 
 
-def _check_ray(pixel: Pixel, ray: dict) -> None:
+def _check_ray(pixel: Pixel, ray: dict[str, Any]) -> None:
     """Raise a SceneError if the file's ray is not its camera's: one of them was changed."""
     for name, own in (("origin", pixel.origin), ("direction", pixel.direction)):
         if not np.array_equal(numbers(ray, name, "ray.", (3,)), own):

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from ..methods import Method
 from ..rendering import render
 from ..tracer.camera import Rays
-from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.world import Pairs
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
 from .truth import CERTIFIED, Truth, crossings, keys, largest_t_error, pixel_rays, sample, truth_of
@@ -175,8 +175,11 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     scene, camera = truth.frame.scene, truth.frame.scene.camera
     frame = render(scene, settings)
 
+    function = Method(settings.method).function
+    assert function  # the method is a plain one
+
     def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
-        hit, t, _ = settings.method.function(rays, *pairs.corners)
+        hit, t, _ = function(rays, *pairs.corners)
         return hit & within_clip(camera, t)
 
     _, count = result_of(crossings(scene, settings, test))

@@ -151,7 +151,8 @@ def at_width(scene: Scene, width: int) -> Scene:
     """Return the scene through the whole of its camera, so many pixels wide."""
     camera = scene.camera
     height = max(1, round(camera.height * width / camera.width))
-    return replace(scene, camera=replace(camera, width=width, height=height, region=None))
+    whole = Region(0, 0, width, height)
+    return replace(scene, camera=replace(camera, width=width, height=height, region=whole))
 
 
 def levels(samples: int) -> list[int]:
@@ -167,12 +168,14 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
     with `Settings.samples`, in a fraction of the time.
     """
     width, height = scene.camera.width, scene.camera.height
-    large = replace(scene.camera, width=samples * width, height=samples * height, region=None)
     out = np.empty((height, width, 4))
     rows = max(1, BAND // (samples * samples * width))
     for y in range(0, height, rows):
         end = min(y + rows, height)
-        band = replace(large, region=Region(0, samples * y, large.width, samples * end))
+        region = Region(0, samples * y, samples * width, samples * end)
+        band = replace(
+            scene.camera, width=samples * width, height=samples * height, region=region
+        )
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
         for share in steps(part, Settings(Method.WATERTIGHT), frame):

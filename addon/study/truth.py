@@ -1,4 +1,4 @@
-"""The truth of a scene: its certified picture, and all that each certified ray crosses.
+"""Finds a scene's certified picture, and every triangle that each certified ray crosses.
 
 The oracle, which has no part in either, is asked about a sample of the rays.
 """
@@ -16,12 +16,14 @@ from ..certified.any_rays import decide
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Camera, Scene
-from ..tracer.camera import Rays, camera_rays
-from ..tracer.candidates import Pairs
+from ..tracer.camera import Rays, camera_rays, film_positions
+from ..tracer.candidates import candidates
 from ..tracer.frame import Frame
-from ..tracer.nearest import candidates, film_positions, plan
+from ..tracer.nearest import plan
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Precision, Settings
+from ..tracer.vector import Index
+from ..tracer.world import Pairs
 
 CERTIFIED = Settings(Method.CERTIFIED)
 
@@ -31,8 +33,8 @@ class Truth:
     """A scene's certified picture, and every triangle that a certified ray crosses."""
 
     frame: Frame
-    crossed: NDArray[np.int64]  # (k,) the `keys` of the pairs
-    count: NDArray[np.int64]  # (n,) of each ray
+    crossed: Index  # (k,) the `keys` of the pairs
+    count: Index  # (n,) of each ray
 
 
 def truth_of(scene: Scene) -> Work[Truth]:
@@ -47,15 +49,16 @@ def truth_of(scene: Scene) -> Work[Truth]:
 
 def crossings(
     scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], NDArray[np.bool_]]
-) -> Work[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+) -> Work[tuple[Index, Index]]:
     """Find all that the camera's n rays cross, whether it is the nearest or not.
 
     `test` takes p rays and p pairs, and returns which are crossed within the clip range, (p,) bool.
     Returns the `keys` of what is crossed, (k,), and its count for each ray, (n,).
     """
     region = scene.camera.region
-    rays = pixel_rays(scene.camera, settings.precision)
-    pixel, found = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    rays = pixel_rays(scene.camera, Precision(settings.precision))
+    pixel: list[Index] = [np.zeros(0, np.int64)]
+    found: list[Index] = [np.zeros(0, np.int64)]
     made = yield from plan(scene, settings, reach=0.0)
     for share, some in candidates(made, region):
         yield share
@@ -72,7 +75,7 @@ def pixel_rays(camera: Camera, precision: Precision) -> Rays:
     return camera_rays(camera, *film_positions(camera.region, 0.0, 0.0), precision.dtype)
 
 
-def keys(scene: Scene, pixel: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.int64]:
+def keys(scene: Scene, pixel: Index, instance: Index, triangle: Index) -> Index:
     """Return one number for each pair of a pixel and a triangle of an instance."""
     counts = [len(scene.meshes[i.mesh].triangles) for i in scene.instances]
     first = np.concatenate(([0], np.cumsum(counts)))[instance]

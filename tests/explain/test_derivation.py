@@ -12,7 +12,7 @@ from reference_tracer.certainty import Certainty
 from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.formulas import Rejection
-from reference_tracer.explain.textbook import Arithmetic
+from reference_tracer.explain.textbook import FLOATS, Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
@@ -235,8 +235,21 @@ def test_a_miss_of_float32_is_said(make):
     from .conftest import ball
 
     scene = ball(make, far=1e6)
-    told = [document.document_markdown(derive(scene, x, 9)) for x in range(8, 16)]
-    assert any("Float32 rejects what is truly hit" in t or "Float32 accepts" in t for t in told)
+    told = {"accepts": 0, "rejects": 0}
+    for x in range(8, 16):
+        found = derive(scene, x, 9)
+        text = document.document_markdown(found)
+        for kind in FLOATS:
+            wrong = {
+                "accepts" if test.verdicts[kind].accepted else "rejects"
+                for test in found.tests
+                if test.verdicts[kind].accepted != test.verdicts[Arithmetic.EXACT].accepted
+            }
+            for word, truly in (("accepts", "missed"), ("rejects", "hit")):
+                said = f"{kind.capitalize()} {word} what is truly {truly}." in text
+                assert said == (word in wrong), (x, kind)
+                told[word] += said
+    assert told["rejects"] >= 4  # and so the test sees something
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
