@@ -35,7 +35,9 @@ UNSEEN = "#dddddd"  # where rounding has left nothing to see
 _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 _RAMP = (255, 248, 190), (253, 190, 84), (226, 48, 34), (126, 0, 38)  # from few to all, in sRGB
 # Of lines that cover one another, each shows inside the one before: width, radius of its marks.
-_THIN = {method: (10 * 0.6**k, 9 * 0.75**k) for k, method in enumerate(SWEPT)}
+_THIN: dict[Method, tuple[float, float]] = {
+    method: (10 * 0.6**k, 9 * 0.75**k) for k, method in enumerate(SWEPT)
+}
 
 
 def breaking_picture(rows: Sequence[ExtremesRow]) -> str:

@@ -173,9 +173,7 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
     for y in range(0, height, rows):
         end = min(y + rows, height)
         region = Region(0, samples * y, samples * width, samples * end)
-        band = replace(
-            scene.camera, width=samples * width, height=samples * height, region=region
-        )
+        band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
         for share in steps(part, Settings(Method.WATERTIGHT), frame):

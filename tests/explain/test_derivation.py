@@ -249,7 +249,7 @@ def test_a_miss_of_float32_is_said(make):
                 said = f"{kind.capitalize()} {word} what is truly {truly}." in text
                 assert said == (word in wrong), (x, kind)
                 told[word] += said
-    assert told["rejects"] >= 4  # and so the test sees something
+    assert told["rejects"] > 0  # or the test has seen nothing
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

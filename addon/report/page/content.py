@@ -1,4 +1,4 @@
-"""A `Comparison`, and what else was measured -> all that a page shows, for JSON.
+"""Gathers all that a page shows, for JSON: a comparison, and what else was measured.
 
 `page.schema.json` describes each entry. Pictures are PNG images; the numbers behind them are packed
 arrays. The least useful arrays are left out where the page would grow beyond MOST_CHARACTERS.
@@ -34,7 +34,7 @@ def content(
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
-    `extras` is what else was found out; `limit`, how many characters the packed arrays may take.
+    `extras` is what else was found out. The packed arrays take at most `limit` characters.
     """
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
@@ -72,7 +72,7 @@ def content(
 
 
 def _causes(comparison: Comparison) -> list[dict[str, Any]]:
-    """Return what there is to say of each cause, in the order of their numbers."""
+    """Return the text, the colour and the count of each cause, in the order of their numbers."""
     pixels = comparison.pixels
     count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
     return [

@@ -1,13 +1,14 @@
-"""What a page shows beside the comparison, and the work of finding it out.
+"""Finds what a page shows beside the comparison.
 
 These are the literal textbook's picture, the derivations of the examples, and the studies that were
-asked for. What would take too long is left out, and a sentence says so.
+asked for. If one would take too long, it is left out, and a sentence says so.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +57,9 @@ def extras(
         works["trade"] = measuring, 6.0
     if measure_extremes:
         works["extremes"] = extremes.measure(), 12.0
-    total, done, found = sum(share for _, share in works.values()), 0.0, {}
+    total = sum(share for _, share in works.values())
+    done = 0.0
+    found: dict[str, Any] = {}
     for name, (work, share) in works.items():
         found[name] = yield from scaled(work, done / total, share / total)
         done += share
@@ -77,7 +80,7 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.flo
     if textbook is None:
         textbook = Frame.empty(scene)
         yield from steps(scene, replace(settings, method=Method.TEXTBOOK), textbook)
-    # What it sees is a part of what the textbook sees: only where that is lost, it sees another.
+    # It loses some of the textbook's hits: only there it sees another surface.
     s1, s2, s3 = np.moveaxis(textbook.barycentrics, -1, 0)
     lost = (s1 + s2 + s3 != 1) & (textbook.triangle_index != NOTHING)
     color = np.empty((*lost.shape, 4), np.float32)
@@ -98,7 +101,8 @@ def _derivations(
     comparison: Comparison, left_out: list[str]
 ) -> Work[dict[tuple[int, int], Derivation]]:
     """Derive the first examples of each cause, exactly too."""
-    scene, found = comparison.scene, {}
+    scene = comparison.scene
+    found: dict[tuple[int, int], Derivation] = {}
     if scene.triangle_count > DERIVED_TRIANGLES:
         left_out.append(
             f"The exact derivations of examples: the scene has {scene.triangle_count:,} triangles. "
