@@ -7,23 +7,19 @@ asked for. If one would take too long, it is left out, and a sentence says so.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...compare.checks.probe import BLOCK, Probe, blocks, parts_of
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
 from ...methods import Method
 from ...rendering import steps
 from ...study import extremes, tradeoff
 from ...study.trade import Trade
-from ...tracer import shading
 from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING
-from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 
@@ -75,26 +71,10 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.flo
             f"it would take as long again (more than {LITERAL_SECONDS:.0f} s)."
         )
         return None
-    scene, textbook = comparison.scene, comparison.textbook
+    frame = Frame.empty(comparison.scene)
     settings = Settings(Method.TEXTBOOK_LITERAL, Precision.FLOAT64)
-    if textbook is None:
-        textbook = Frame.empty(scene)
-        yield from steps(scene, replace(settings, method=Method.TEXTBOOK), textbook)
-    # It loses some of the textbook's hits: only there it sees another surface.
-    s1, s2, s3 = np.moveaxis(textbook.barycentrics, -1, 0)
-    lost = (s1 + s2 + s3 != 1) & (textbook.triangle_index != NOTHING)
-    color = np.empty((*lost.shape, 4), np.float32)
-    for rows in blocks(lost.shape):
-        color[rows] = shading.colors(scene, textbook.hits(rows)).reshape(-1, *color.shape[1:])
-        yield 0.0
-    made = yield from plan(scene, settings, 0.0)
-    parts = parts_of(scene, lost, BLOCK)
-    for number, (tile, rows, wanted) in enumerate(parts):
-        done, share = number / len(parts), 1 / len(parts)
-        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, share)
-        hits = yield from scaled(probe.trace(), done + share, 0.0)
-        color[rows][wanted] = shading.colors(scene, hits)
-    return color
+    yield from steps(comparison.scene, settings, frame)
+    return frame.color
 
 
 def _derivations(
