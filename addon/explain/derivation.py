@@ -58,7 +58,7 @@ class Test:
 
     candidate: Candidate
     quantities: tuple[Quantity, ...]
-    verdicts: Mapping[Arithmetic, Judgement]
+    judgements: Mapping[Arithmetic, Judgement]
 
     def number(self, key: str, kind: Arithmetic) -> Any:
         """Return a step's value; for a vector, its first component."""
@@ -151,7 +151,7 @@ def _test(pixel: Pixel, ray: Columns, candidate: Candidate) -> Test:
     return Test(
         candidate,
         _quantities(columns, formulas),
-        {kind: textbook.verdict(found, pixel.camera) for kind, found in columns.items()},
+        {kind: textbook.judge(found, pixel.camera) for kind, found in columns.items()},
     )
 
 
@@ -160,7 +160,7 @@ def _nearest(tests: tuple[Test, ...], kind: Arithmetic) -> int | None:
     accepted = [
         (test.number("t", kind), test.candidate.name, k)
         for k, test in enumerate(tests)
-        if test.verdicts[kind].accepted
+        if test.judgements[kind].accepted
     ]
     return min(accepted)[2] if accepted else None
 

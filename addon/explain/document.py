@@ -117,7 +117,7 @@ def _candidates(derivation: Derivation) -> list[Block]:
 
 def _summary(number: int, test: Test) -> tuple[str, ...]:
     values = {q.key: digits_text(q.values[Arithmetic.FLOAT64][0]) for q in test.quantities}
-    said = [test.verdicts[kind].accepted for kind in Arithmetic]
+    said = [test.judgements[kind].accepted for kind in Arithmetic]
     cells = (values.get(key, "") for key in ("t", "s1", "s2", "s3"))
     return f"2.{number}", test.candidate.title, *cells, *("hit" if s else "no" for s in said)
 
@@ -125,26 +125,26 @@ def _summary(number: int, test: Test) -> tuple[str, ...]:
 def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
     c = test.candidate
     mesh = "" if c.is_plane else f" (mesh “{c.mesh}”, instance {c.instance}, slot {c.slot})"
-    rows = tuple(_verdict(kind, test.verdicts[kind]) for kind in Arithmetic)
+    rows = tuple(_judgement(kind, test.judgements[kind]) for kind in Arithmetic)
     out: list[Block] = [
         Heading(3, f"2.{number} {c.title}{mesh}", f"2-{number}", not is_seen),
         numbers(test.quantities),
         Table(("", "verdict", "why", "as printed"), rows),
     ]
-    truth = test.verdicts[Arithmetic.EXACT].accepted
+    truth = test.judgements[Arithmetic.EXACT].accepted
     for kind in FLOATS:
-        said = test.verdicts[kind].accepted
+        said = test.judgements[kind].accepted
         if said != truth:
             out.append(_said("accepts" if said else "rejects", "warning", kind=kind.capitalize()))
     return out
 
 
-def _verdict(kind: Arithmetic, verdict: Judgement) -> tuple[str, ...]:
-    why = "; ".join(r.sentence for r in verdict.reasons) or "all conditions hold"
-    printed = {None: "–", True: "hit", False: "no"}[verdict.literal]
-    if verdict.accepted and verdict.literal is False:
+def _judgement(kind: Arithmetic, said: Judgement) -> tuple[str, ...]:
+    why = "; ".join(r.sentence for r in said.reasons) or "all conditions hold"
+    printed = {None: "–", True: "hit", False: "no"}[said.literal]
+    if said.accepted and said.literal is False:
         printed = "lost: the sum is not 1"
-    return kind.value, "accepted" if verdict.accepted else "rejected", why, printed
+    return kind.value, "accepted" if said.accepted else "rejected", why, printed
 
 
 def _nearest(derivation: Derivation) -> list[Block]:

@@ -98,7 +98,7 @@ def _normal(test: Test) -> Floats:
 
 
 def _color(test: Test) -> Rgba:
-    return ACCEPTED if test.verdicts[Arithmetic.EXACT].accepted else REJECTED
+    return ACCEPTED if test.judgements[Arithmetic.EXACT].accepted else REJECTED
 
 
 def _weights(derivation: Derivation, test: Test, t: float) -> list[Shape]:

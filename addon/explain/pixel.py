@@ -35,7 +35,7 @@ class Candidate:
     points: Floats
     colors: NDArray[np.float32]  # linear RGBA: (1, 4), or (3, 4) with one at each corner
     mesh: str = ""
-    slot: int = 0  # of the material whose colour it is
+    slot: int = 0  # of the material that gives the colour
 
     @property
     def is_plane(self) -> bool:
@@ -81,12 +81,12 @@ class Pixel:
 
     @property
     def column(self) -> int:
-        """Of the whole picture, of which the region is a part."""
+        """The pixel's column in the whole picture."""
         return self.camera.region.x0 + self.x
 
     @property
     def row(self) -> int:
-        """Of the whole picture, from the bottom."""
+        """The pixel's row in the whole picture, from the bottom."""
         return self.camera.region.y0 + self.y
 
     def rays(self, precision: Precision = Precision.FLOAT64) -> Rays:

@@ -158,7 +158,7 @@ class Judgement(NamedTuple):
     literal: bool | None = None
 
 
-def verdict(found: Values, camera: Camera) -> Judgement:
+def judge(found: Values, camera: Camera) -> Judgement:
     """Judge the steps of a plane or a triangle by the textbook's conditions and the clip range."""
     undefined = _undefined(found)
     if undefined:

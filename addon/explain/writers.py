@@ -112,7 +112,7 @@ def _test(test: Test) -> dict[str, Any]:
                 "as_printed": j.literal,
                 "reasons": [{"code": r.value, "sentence": r.sentence} for r in j.reasons],
             }
-            for kind, j in test.verdicts.items()
+            for kind, j in test.judgements.items()
         },
     }
 

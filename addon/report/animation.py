@@ -28,7 +28,7 @@ def folder_of(directory: str | Path, frame: int) -> Path:
 
 
 def mark_whole(directory: Path, frame: int, made_by: Any) -> None:
-    """Say what a frame was made by, whose files are whole now."""
+    """Note what a frame was made by, once its files are complete."""
     folder = folder_of(directory, frame)
     text = json.dumps({"made_by": made_by, "bytes": _sizes(folder)}, indent=2)
     write_text(folder / _MADE_BY, text + "\n")

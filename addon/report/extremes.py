@@ -70,7 +70,7 @@ def _text(
     least: Sequence[int],
     left: Sequence[int] = (),
 ) -> str:
-    """Return a table whose last columns are the methods'; `least` and `left` are of the others."""
+    """Return a table that ends with the methods' columns; `least`, `left` are for the others."""
     empty = [""] * len(least)
     names = [*empty, *(_SHORT.get(method, method) for method, _ in methods)]
     head = names, [*empty, *(precision for _, precision in methods)]

@@ -65,7 +65,7 @@ def width_of(words: str, size: float) -> float:
 def text(
     at: Place, words: str, size: float, color: str = INK, anchor: str = "start", **more: str
 ) -> str:
-    """Return lines of words whose middle is at a place, and which start there (or end)."""
+    """Return lines of words with their middle at a place, where they start (or end)."""
     lines = words.split("\n")
     x, middle = at
     foot = middle + size * (0.35 - _LINE * (len(lines) - 1) / 2)  # of the first line's letters

@@ -155,7 +155,7 @@ def scene_sights(scene: Scene, pixels: Index | None = None) -> list[Sight]:
     numbered = enumerate(scene.planes, len(scene.instances))
     planes = [((k, NOTHING), plane.point, plane.normal) for k, plane in numbered]
     clip = camera.clip_start, camera.clip_end
-    return sights(o, d, np.concatenate(corners, axis=2), names, planes, *clip)
+    return sights(o, d, np.concatenate(corners, axis=2), names, planes, clip)
 
 
 def sights(
@@ -164,8 +164,7 @@ def sights(
     corners: Vectors,
     names: Sequence[Name] | None = None,
     planes: Sequence[tuple[Name, Vector, Vector]] = (),
-    start: float = 0.0,
-    end: float = np.inf,
+    clip: tuple[float, float] = (0.0, np.inf),
 ) -> list[Sight]:
     """Return what n rays see of m triangles and of infinite planes, all with all.
 
@@ -177,8 +176,8 @@ def sights(
         Of the triangles; without them (0, index).
     planes : sequence
         The name, a point and the normal of each.
-    start, end : float
-        The clip range, both inclusive: as t, so in lengths of the direction.
+    clip : (2,) float
+        The least and the largest t, both inclusive, in lengths of the direction.
     """
     count, n = corners.shape[2], origins.shape[1]
     names = names or [(0, k) for k in range(count)]
@@ -188,7 +187,7 @@ def sights(
         ray = np.repeat(np.arange(at, min(at + step, n)), count)
         triangle = np.tile(np.arange(count), len(ray) // count)
         result = intersect_pairs(origins[:, ray], directions[:, ray], corners[:, :, triangle])
-        for k in np.flatnonzero(result.within(start, end)).tolist():
+        for k in np.flatnonzero(result.within(*clip)).tolist():
             surface = Surface(names[triangle[k]], list(corners[:, :, triangle[k]]))
             crossing = Crossing(result.t(k), result.side[k] == EDGE, bool(result.hit[k]), surface)
             found[ray[k]].append(crossing)
@@ -196,7 +195,7 @@ def sights(
         o, d = ([Fraction(float(x)) for x in v[:, ray_number]] for v in (origins, directions))
         for name, point, normal in planes:
             p, w = ([Fraction(float(x)) for x in v] for v in (point, normal))
-            if dot(d, w) and _within(t := (dot(p, w) - dot(o, w)) / dot(d, w), start, end):
+            if dot(d, w) and _within(t := (dot(p, w) - dot(o, w)) / dot(d, w), *clip):
                 crossings.append(Crossing(t, False, True, Surface(name, [p], w)))
     return [_sight(origins[:, k], directions[:, k], m) for k, m in enumerate(found)]
 

@@ -61,7 +61,7 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
     box.label(text=tested)
     for number, test in enumerate(derivation.tests, 1):
-        judged = test.verdicts[Arithmetic.EXACT]
+        judged = test.judgements[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:

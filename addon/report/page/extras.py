@@ -24,7 +24,7 @@ from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
-DERIVED = 3  # examples of each cause whose derivation is written out
+DERIVED = 3  # examples of each cause that are derived
 DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
 
 

@@ -42,7 +42,7 @@ function cameraRay(x, y, precision) {
   return { film, size, u, v, origin, direction };
 }
 
-/** A surface by its number (1 is the first): whose it is, and its corners in the world. */
+/** A surface by its number (1 is the first): its object, and its corners in the world. */
 function surfaceOf(number) {
   const s = pixels.surfaces;
   if (!s || !number) return null;

@@ -18,7 +18,7 @@ ORIGIN = np.zeros(3)
 UNMOVED = np.eye(4)
 Corners = NDArray[np.int32]  # (n, 3): the numbers of n triangles' corners
 
-# No axis of the world is one of these: an ordinary view, all of whose numbers have to be rounded.
+# An ordinary view: none of its axes is one of the world, so that all numbers have to be rounded.
 # Columns are right, up, backward. Times 39 they are integers: what lies in one plane across
 # this view can do so exactly.
 TURNED_39 = np.array([[13.0, -34.0, -14.0], [26.0, 19.0, -22.0], [26.0, -2.0, 29.0]])

@@ -106,7 +106,7 @@ def integer_cube_ortho(cells: float, width: int, height: int) -> Scene:
 
 
 def _cube(cells: int, least: Floats, side: float) -> Mesh:
-    """Return a cube whose six sides are lattices with corners of their own."""
+    """Return a cube of six lattices, each with corners of its own."""
     points: list[Floats] = []
     triangles: list[parts.Corners] = []
     rng = generator()
@@ -193,7 +193,7 @@ def narrow_view(angle: float, width: int, height: int) -> Scene:
 
 
 def wide_view(rest: float, width: int, height: int) -> Scene:
-    """Return a rough surface through a camera whose angle of view is 180 less `rest`, degrees."""
+    """Return a rough surface through a camera with an angle of view of 180 - `rest`, degrees."""
     view = camera(width, height, 1 / np.tan(np.radians(0.5 * rest)), eye=EYE)
     return scene(view, sheet(view, 4, beside=BESIDE))
 
@@ -223,7 +223,7 @@ def sheared(factor: float, width: int, height: int) -> Scene:
 
 
 def stored_float32(offset: float, width: int, height: int) -> Scene:
-    """Return a sphere whose corners are stored in float32, far from its object's own origin.
+    """Return a sphere stored in float32, far from its object's own origin.
 
     The object stands at the opposite of that offset, so that the sphere appears where it should:
     with the digits that float32 has left of it. What is certified is this mesh, as it is stored.
