@@ -1,4 +1,4 @@
-"""Ray and triangle: the textbook's test, the same taken literally, Möller–Trumbore, watertight.
+"""Tests a ray and a triangle: the textbook's test, the same taken literally, and two others.
 
 Each function takes n rays and n triangles, pair by pair, and returns
     hit : (n,) bool      whether the ray's line meets the triangle
@@ -25,11 +25,12 @@ Neither rule treats the edge between two triangles as belonging to exactly one o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..methods import Method
 from .camera import Rays
 from .vector import Vectors, cross, dot
 
@@ -129,3 +130,12 @@ def _edge_functions(sheared: Sequence[Sequence[NDArray]]) -> Vectors:
     """Return twice the areas of the triangles that the ray makes with each edge, (3, n)."""
     (ax, ay, _), (bx, by, _), (cx, cy, _) = sheared
     return np.stack((cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax))
+
+
+# By method: the function that tests n rays with n triangles.
+TESTS: dict[Method, Callable[[Rays, Vectors, Vectors, Vectors], Intersection]] = {
+    Method.TEXTBOOK_LITERAL: textbook_literal,
+    Method.TEXTBOOK: textbook,
+    Method.MOLLER_TRUMBORE: moller_trumbore,
+    Method.WATERTIGHT: watertight,
+}
