@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty, Reason
-from reference_tracer.certified.ladder import Decisions
+from reference_tracer.certified.ladder import Decisions, one_by_one
+from reference_tracer.certified.order import UNDECIDED
+from reference_tracer.certified.sweep.tournament import tournament
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
@@ -76,7 +78,7 @@ def test_coplanar_surfaces_do_not_cost_a_ray_each(make, monkeypatch):
 
 
 def depths_of(rng):
-    """Return depths of candidates, in runs of one ray, with equal ones; and which ray each is of."""
+    """Return depths of candidates, several of each ray, some equal; and which ray each is of."""
     count = rng.integers(1, 9, 20)
     of_ray = np.repeat(np.arange(len(count)), count)
     return rng.integers(0, 4, len(of_ray)), of_ray
