@@ -1,19 +1,18 @@
-"""Why the error bound did not decide, in words that a user understands."""
+"""Says in words why an error bound did not decide a pair of a ray and a surface."""
 
 from __future__ import annotations
 
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..tracer.camera import Rays
-from ..tracer.vector import cross, largest
+from ..tracer.vector import Floats, Vectors, cross, largest
 from .bounds import BOUND, SLACK
 
 
 class Reason(Enum):
-    """What about a ray and a surface needed exact arithmetic."""
+    """Why a ray and a surface needed exact arithmetic: the end of "rays that ..."."""
 
     EDGE = "meet an edge or a corner exactly"
     NEAR_EDGE = "pass an edge within rounding error"
@@ -26,24 +25,33 @@ class Reason(Enum):
     EXTREME = "have numbers near the limits of float64"
 
 
-# Below this ratio a property is nothing unusual: it costs three of float64's sixteen digits.
+# A ratio below this is ordinary: it costs three of float64's sixteen digits.
 _ORDINARY = 1e3
 
 
-def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
-    """Return for n rays, each in doubt of a triangle's edge (3, 3, n), what is unusual about it."""
+def of_doubts(rays: Rays, corners: Vectors) -> list[Reason]:
+    """Return why the bound did not decide n pairs: what is unusual about the ray and the triangle.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays.
+    corners : (3, 3, n) float64
+        Corner, component, triangle: that of each ray.
+    """
     a, b, c = corners
     with np.errstate(all="ignore"):
         sides = [_length(side) for side in (b - a, c - b, a - c)]
         longest = largest(*sides)
-        normal = cross((b - a) / longest, (c - a) / longest)  # by units, lest it underflow
+        normal = cross((b - a) / longest, (c - a) / longest)  # does not underflow
         height = _length(normal)
-        speed, distance = _length(rays.directions), _length(a - rays.origins)
+        speed = _length(rays.directions)
+        distance = _length(a - rays.origins)
         d = rays.directions / speed
         cosine = np.abs(d[0] * normal[0] + d[1] * normal[1] + d[2] * normal[2]) / height
         ratios = np.stack((distance / longest, 1 / height, 1 / cosine))
         ratios = np.nan_to_num(ratios, nan=np.inf)
-        # Of e, T and D: beyond these, it is not the digits that are too few, but the exponent.
+        # The sizes of e, T and D: beyond these ends not digits are too few, but exponents.
         sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
         extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
     found = np.array([Reason.FAR, Reason.THIN, Reason.EDGE_ON])[ratios.argmax(axis=0)]
@@ -53,7 +61,7 @@ def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
 
 
 def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
-    """Return what the scene required, a fact a line: the whole, then each reason with its count."""
+    """Return what the scene required, in lines: the total, then each reason with its count."""
     exact = sum(counts.values())
     if not exact:
         return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
@@ -65,5 +73,6 @@ def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
     ]
 
 
-def _length(v: NDArray) -> NDArray:
+def _length(v: Vectors) -> Floats:
+    """Return the largest |component| of vectors (3, n)."""
     return np.abs(v).max(axis=0)

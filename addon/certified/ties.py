@@ -10,7 +10,8 @@ from functools import cmp_to_key
 from math import gcd
 
 from ..tracer.hits import NOWHERE, Name
-from .exact import PERTURBATION, Hit, Integers, Moves, crossing, gap, sign_of_difference, turning
+from .exact import PERTURBATION, Hit, Moves, crossing, gap, sign_of_difference, turning
+from .integers import Integers
 
 
 def seen_and_ties(hits: Sequence[tuple[Name, Hit]]) -> tuple[int, frozenset[Name]]:
