@@ -29,10 +29,11 @@ LEFT_OUT = {
     "definition.py": {CALLS: "definition _surfaces"},
     "exact.py": {
         EXACT: "Hit.on_edge Hit.weights Hit.is_hit sign_of_difference crossing gap turning "
-        "integers IntegerBatch.__init__ IntegerBatch.hit IntegerBatch.of_first_ray "
+        "IntegerBatch.__init__ IntegerBatch.hit IntegerBatch.of_first_ray "
         "IntegerBatch._triangle IntegerBatch._plane IntegerBatch.t IntegerBatch._limit "
-        "IntegerBatch._seen _sign _sub _dot _cross",
+        "IntegerBatch._clipped _sign",
     },
+    "integers.py": {EXACT: "integers scaled sub dot cross"},
     "order.py": {EXACT: "_difference _scaled", WHICH: "applies"},
     "ladder.py": {
         CALLS: "Ladder.__init__ Ladder.of Ladder.test Ladder._test_plane Decisions.by_bound "
