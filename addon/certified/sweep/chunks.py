@@ -77,7 +77,7 @@ class Numbering:
         self._starts = np.zeros(1, np.int64)  # the number of the first surface of each
 
     def enter(self, names: Names) -> int:
-        """Number a chunk's surfaces; returns the first number."""
+        """Give numbers to a chunk's surfaces, and return the first."""
         start = int(self._starts[-1])
         self._names.append(names)
         self._starts = np.append(self._starts, start + names.starts[-1])

@@ -140,7 +140,7 @@ def _relative(
 def _errors(
     film: Film, across: Sequence[Floats], w: Sequence[Floats], size: Floats, reach: Floats
 ) -> tuple[Floats, Floats, Floats]:
-    """Bound the errors of edge functions and T, and the terms of the former; `across` is p and q."""
+    """Bound the errors of edge functions and T, and the terms of edges; `across` is p and q."""
     constant, slope = film.place
     place = constant + slope * size
     weight = film.weight * size
