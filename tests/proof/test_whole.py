@@ -52,7 +52,7 @@ LEFT_OUT = {
         CALLS: "Prepared.__init__ Prepared.enter Prepared.meet",
         WEIGHTS: "Prepared._weights _edges",
     },
-    "ties.py": {EXACT: "seen_and_ties _ways _reduced _by_angle _first"},
+    "ties.py": {EXACT: "seen_and_ties _ways _lines _reduced _by_angle _first"},
     "sweep/boxes.py": {
         WHICH: "InstanceBoxes.in_region",
         LEAST: "boxes_of",
@@ -71,7 +71,7 @@ LEFT_OUT = {
     },
     "sweep/film.py": {CALLS: "Film.dual Film.is_sound"},
     "sweep/rasterise.py": {WHICH: "Boxes.size rasterised split cells"},
-    "sweep/small_boxes.py": {WHICH: "_blocks _pixels"},
+    "sweep/small_boxes.py": {CALLS: "small_pairs", WHICH: "_blocks _pixels"},
     "sweep/small_triangles.py": {
         FLOAT32: "SmallTriangles.__init__ SmallTriangles.within SmallTriangles._ends"
     },
