@@ -7,7 +7,7 @@ import pytest
 from reference_tracer import certainty
 from reference_tracer.certainty import AssumptionError, Certainty
 from reference_tracer.certified import measures, plain
-from reference_tracer.certified.sweep import verdict
+from reference_tracer.certified.sweep import resolve
 from reference_tracer.images import save_png, to_display
 from reference_tracer.methods import Method
 from reference_tracer.tracer import render
@@ -29,7 +29,7 @@ def nothing_asked(monkeypatch):
         raise AssertionError("nobody asked")
 
     monkeypatch.setattr(measures, "measured", never)
-    monkeypatch.setattr(verdict, "measured", never)
+    monkeypatch.setattr(resolve, "measured", never)
 
 
 def test_what_is_asked_for_later_is_what_the_definition_finds_at_once(make):

@@ -49,7 +49,7 @@ TUNING = {
         "2": _SHARE,
         "0.6": _SHARE,
     },
-    "sweep.verdict": {"_FRAGMENTS": _STEP, "1 << 14": _STEP, "1 << 15": _STEP},
+    "sweep.resolve": {"_FRAGMENTS": _STEP, "1 << 14": _STEP, "1 << 15": _STEP},
 }
 # What reaches an expression only as a part of another number: these.
 FOLDED = {

@@ -76,10 +76,12 @@ LEFT_OUT = {
         FLOAT32: "SmallTriangles.__init__ SmallTriangles.within SmallTriangles._ends"
     },
     "sweep/sweep.py": {
-        CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._keep Sweep._make_room Sweep.enter "
-        "Sweep.pairs _FullError.__init__"
+        CALLS: "sweep Sweep.__init__ Sweep.steps Sweep._instances Sweep._keep Sweep._make_room "
+        "Sweep.enter Sweep._enter_triangles Sweep._enter_large Sweep.boxes_of Sweep.are_small "
+        "Sweep.pairs _FullError.__init__",
+        WHICH: "_Boxed.in_region",
     },
-    "sweep/verdict.py": {CALLS: "Verdict.steps Verdict._enter_open Verdict._contest"},
+    "sweep/resolve.py": {CALLS: "Resolver.steps Resolver._enter_open Resolver._contest"},
 }
 
 

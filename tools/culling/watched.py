@@ -40,12 +40,12 @@ class Look:
 
 @dataclass(frozen=True, eq=False)
 class Tested:
-    """EdgeFunctions that were evaluated together, what hid them, and the rivals that were kept."""
+    """EdgeFunctions that were evaluated together, what hid them, and their fragments."""
 
     found: EdgeFunctions
     boxes: Boxes
     depths: DepthBuffer
-    rivals: list[Fragments] = field(default_factory=list)
+    fragments: list[Fragments] = field(default_factory=list)
 
 
 class Watched(sweep.Sweep):
@@ -74,14 +74,12 @@ class Watched(sweep.Sweep):
         grid = self._depths.nearness.reshape(-1, self._depths.stride)
         return grid[: region.height, : region.width] > -np.inf
 
-    def numbers(self, rivals: Fragments) -> NDArray[np.integer]:
-        """Which pixels pairs are of, row by row from the lowest."""
-        return self._depths.pixels(rivals.pixel)
+    def numbers(self, fragments: Fragments) -> NDArray[np.integer]:
+        """Return the pixels of fragments, numbered row by row from the lowest."""
+        return self._depths.pixels(fragments.pixel)
 
-    def boxes_of(
-        self, scene: Scene, film: Film, expanded: Expanded
-    ) -> tuple[NDArray, NDArray, NDArray]:
-        low, high, nearest = super().boxes_of(scene, film, expanded)
+    def boxes_of(self, expanded: Expanded) -> tuple[NDArray, NDArray, NDArray]:
+        low, high, nearest = super().boxes_of(expanded)
         if self._closely:
             self.expanded.append(expanded)
             self.found_boxes.append((low, high))
@@ -95,7 +93,7 @@ class Watched(sweep.Sweep):
         return found
 
     def are_small(
-        self, film: Film, expanded: Expanded, low: NDArray, high: NDArray, some: NDArray
+        self, expanded: Expanded, low: NDArray, high: NDArray, some: NDArray
     ) -> NDArray[np.bool_]:
         """All triangles go the way that can be drawn, which finds the same."""
         return np.zeros(len(some), bool)
@@ -108,10 +106,10 @@ class Watched(sweep.Sweep):
         return super().pairs(found, boxes)
 
     def of_pairs(self, pairs: Covered, surface: NDArray) -> Fragments:
-        rivals = super().of_pairs(pairs, surface)
+        fragments = super().of_pairs(pairs, surface)
         if self._closely:
-            self.tested[-1].rivals.append(rivals)
-        return rivals
+            self.tested[-1].fragments.append(fragments)
+        return fragments
 
 
 def watch(scene: Scene) -> Watched:
