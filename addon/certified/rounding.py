@@ -14,16 +14,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..certainty import check_assumptions
 from ..scene import ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import NOTHING, Hits, Name
 from ..tracer.vector import Floats, Index, Vectors, rational
 from ..tracer.world import reaches, world_corners
+from .arithmetic import check_assumptions
 from .bounds import BOUND
-from .contest import Contest
-from .settle import BY_INTEGERS, Decisions, by_ray
+from .ladder import BY_INTEGERS, Decisions, Ladder
 from .surfaces import Candidates, Surfaces
 
 if TYPE_CHECKING:
@@ -86,12 +85,12 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     for y in range(region.y0, region.y1, _ROWS):
         tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
         film = film_positions(tile)
-        contest = Contest.of(scene, camera_rays(camera, *film), around, aside)
+        ladder = Ladder.of(scene, camera_rays(camera, *film), around, aside)
         for _, pairs in candidates(plan, tile):
             if pairs:
-                contest.enter(pairs)
-        left, clear, surfaces = contest.left()
-        for part in by_ray(left.take(np.flatnonzero(~clear)), BY_INTEGERS):
+                ladder.test(pairs)
+        left, clear, surfaces = ladder.left()
+        for part in left.take(np.flatnonzero(~clear)).by_ray(BY_INTEGERS):
             ray, seen = _unrounded(scene, film, part, surfaces)
             found.enter(tile, ray, seen, part, surfaces)
         yield (tile.y1 - region.y0) / region.height

@@ -25,8 +25,11 @@ Neither rule treats the edge between two triangles as belonging to exactly one o
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
+from ..methods import Method
 from .camera import Rays
 from .vector import Bools, Floats, Vectors, cross, dot
 
@@ -138,3 +141,12 @@ def _edge_functions(sheared: Sheared) -> Vectors:
     """Return twice the areas of the triangles that the ray makes with each edge, (3, n)."""
     (ax, ay, _), (bx, by, _), (cx, cy, _) = sheared
     return np.stack((cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax))
+
+
+# By method: the function that tests n rays with n triangles.
+TESTS: dict[Method, Callable[[Rays, Vectors, Vectors, Vectors], Intersection]] = {
+    Method.TEXTBOOK_LITERAL: textbook_literal,
+    Method.TEXTBOOK: textbook,
+    Method.MOLLER_TRUMBORE: moller_trumbore,
+    Method.WATERTIGHT: watertight,
+}

@@ -178,6 +178,51 @@ def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index)
         high[:, part] = x1 - 1, y1 - 1
 
 
+@dataclass(frozen=True, eq=False)
+class Boxed:
+    """A chunk on the film, with the boxes of its m triangles.
+
+    `first` is the number of its first surface. Boxes are (2, m) x and y, both ends included: `low`
+    to `high` in the whole picture, `region_low` to `region_high` in the region. `nearest` (m,)
+    bounds the nearness of each triangle from above.
+    """
+
+    expanded: Expanded
+    first: int
+    low: Index
+    high: Index
+    nearest: Floats
+    region_low: Index
+    region_high: Index
+
+    @classmethod
+    def of(
+        cls,
+        expanded: Expanded,
+        first: int,
+        region: Region,
+        low: Index,
+        high: Index,
+        nearest: Floats,
+    ) -> Boxed:
+        """Clip the boxes to a region."""
+        corner = np.array([[region.x0], [region.y0]], low.dtype)
+        extent = np.array([[region.width - 1], [region.height - 1]], low.dtype)
+        region_low = np.maximum(low - corner, 0)
+        region_high = np.minimum(high - corner, extent)
+        return cls(expanded, first, low, high, nearest, region_low, region_high)
+
+    @property
+    def seen(self) -> Index:
+        """The triangles with a pixel of the region in their box."""
+        fits = self.region_low <= self.region_high
+        return np.flatnonzero(fits[0] & fits[1])
+
+    def in_region(self, triangle: Index) -> tuple[Index, Index]:
+        """Return the ends of triangles' boxes in the region."""
+        return gather(self.region_low, triangle), gather(self.region_high, triangle)
+
+
 def by_depth(seen: Index, nearest: Floats, low: Index, high: Index) -> list[Index]:
     """Split the triangles `seen` into depth bins, from the front to the back.
 

@@ -1,33 +1,34 @@
 """Resolves the pixels of a swept region: decides which surface each of them sees.
 
 A pixel whose winner has no fragment that may be nearer is decided. The rays of the others are
-tested again by a `Contest`, with all surfaces that they may see.
+tested again by a `Ladder`, with all surfaces that they may see.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
-from ...tracer.hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
+from ...tracer.frame_measures import PIXELS
+from ...tracer.hits import NOTHING, Hits, Statistics, Ties
 from ...tracer.progress import Steps, mapped
 from ...tracer.vector import Bools, Index, gather, grouped, groups, parts
 from ...tracer.world import Pairs, WorldTriangles, world_corners
-from ..contest import Contest
-from ..measures import PIXELS, measured
+from ..ladder import Ladder
+from ..measures import Known, Measured
 from .chunks import Numbering
 from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
+from .tournament import tournament
 
-_PAIRS = 1 << 15  # pairs that a contest tests at a time
+_PAIRS = 1 << 15  # pairs that a ladder tests at a time
 _FRAGMENTS = 1 << 17  # fragments looked at together: a step of some milliseconds
-_RAYS = 1 << 14  # rays of a contest, at most
-_CANDIDATES = 1 << 15  # candidates of a contest, at most
+_RAYS = 1 << 14  # rays of a ladder, at most
+_CANDIDATES = 1 << 15  # candidates of a ladder, at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,15 +69,15 @@ class Resolver:
             beside = np.flatnonzero((own != NOTHING) & is_open)
             pairs.append((part.start + beside, gather(own, beside)))
             yield "verdict"
-        out = LazyHits(instance, triangle, certainty)
-        yield from self._enter_open(out, open_, pairs)
-        given = self.scene, region, (instance, triangle), out.known
-        out.measure = partial(measured, *given, dx=self.film.dx, dy=self.film.dy)
+        measured = Measured(self.scene, region, Known.none(), self.film.dx, self.film.dy)
+        out = Hits(instance, triangle, certainty, measured)
+        known = yield from self._enter_open(out, open_, pairs)
+        out.measures = replace(measured, known=known)
         return out
 
     def _enter_open(
-        self, hits: LazyHits, open_: Bools, pairs: list[tuple[Index, Index]]
-    ) -> Steps[None]:
+        self, hits: Hits, open_: Bools, pairs: list[tuple[Index, Index]]
+    ) -> Steps[Known]:
         """Decide the `open_` pixels, some at a time: they may see several surfaces, or none.
 
         `pairs` are these pixels and their surfaces; empties the list.
@@ -98,29 +99,31 @@ class Resolver:
                     members.append((pixel[own], surface[own]))
             yield "contest"
         ties = []
-        known = [Measured.none()]
+        known = [Known.none()]
         for (first, last), members in zip(ends, contests, strict=True):
             which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             members.clear()
             ray = np.searchsorted(which, pixel)
             found = yield from self._contest(which, ray, surface)
-            hits.enter(which, found)
+            hits.instance[which] = found.instance
+            hits.triangle[which] = found.triangle
+            hits.certainty[which] = found.certainty
             ties.append(found.ties.numbered(which))
-            known.append(Measured(which, np.vstack((found.t, found.s))))
+            known.append(Known(which, found.values))
         hits.ties = Ties.joined(ties)
-        hits.known = Measured.joined(known)
+        return Known.joined(known)
 
     def _contest(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
         """Decide the rays of pixels (n,), given all pairs of one of them and a surface, (p,)."""
         scene = self.scene
         film = self.film
         at = film_positions(self.depths.region, film.dx, film.dy, pixel)
-        on_mesh = np.flatnonzero(surface >= len(scene.planes))  # a contest has all planes anyway
+        on_mesh = np.flatnonzero(surface >= len(scene.planes))  # a ladder has all planes anyway
         ray = ray[on_mesh]
         surface, row = np.unique(surface[on_mesh], return_inverse=True)
         around = corner_rays(film.camera, film.dx, film.dy)
-        contest = Contest.of(scene, camera_rays(film.camera, *at), around)
+        ladder = Ladder.of(scene, camera_rays(film.camera, *at), around)
         names = self.numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
         # Sort by ray, and drop duplicates: a triangle of unknown orientation was set up twice.
@@ -128,6 +131,6 @@ class Resolver:
         key = key[np.flatnonzero(np.diff(key, prepend=-1))]
         ray, row = np.divmod(key, max(1, len(surface)))
         for part in parts(len(ray), _PAIRS):
-            contest.enter(Pairs(ray[part], row[part], triangles))
+            ladder.test(Pairs(ray[part], row[part], triangles))
             yield "contest"
-        return (yield from mapped(contest.hits(self.statistics), lambda _: "contest"))
+        return (yield from mapped(ladder.hits(self.statistics, tournament), lambda _: "contest"))

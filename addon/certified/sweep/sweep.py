@@ -8,7 +8,7 @@ nearest. `resolve.py` decides which of them is. Theorem: `Sweep.sweep_sees_what_
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,10 +16,10 @@ from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
 from ...tracer.progress import Steps, Work, quiet, scaled, timed
-from ...tracer.vector import Bools, Floats, Index, gather, parts
+from ...tracer.vector import Floats, Index, gather, parts
 from ..bounds import plane_fractions
-from .boxes import InstanceBoxes, boxes_of, by_depth
-from .chunks import Chunk, Expanded, Names, Numbering, chunks, expand
+from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
+from .chunks import Chunk, Names, Numbering, chunks, expand
 from .depth_buffer import ROUNDING, ClipRange, DepthBuffer, Fragments
 from .edge_functions import EdgeFunctions, set_up
 from .film import Film
@@ -47,8 +47,8 @@ def sweep(
 ) -> Work[Hits]:
     """Find the nearest hits of a region's rays, the same as `plain` does.
 
-    A chunk of the scene may take about `memory` bytes, and the fragments as many. If there are more
-    fragments, as many surfaces tie, the region's halves are swept one after the other.
+    A chunk of the scene may take about `memory` bytes, and the fragments as many. If they need more,
+    because many surfaces tie, the region's halves are swept one after the other.
     """
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
@@ -76,28 +76,6 @@ class _FullError(Exception):
         self.share = share
 
 
-@dataclass(frozen=True, eq=False)
-class _Boxed:
-    """A chunk on the film, with the boxes of its m triangles.
-
-    `first` is the number of its first surface. Boxes are (2, m) x and y, both ends included: `low`
-    to `high` in the whole picture, `region_low` to `region_high` in the region. `nearest` (m,)
-    bounds the nearness of each triangle from above.
-    """
-
-    expanded: Expanded
-    first: int
-    low: Index
-    high: Index
-    region_low: Index
-    region_high: Index
-    nearest: Floats
-
-    def in_region(self, triangle: Index) -> tuple[Index, Index]:
-        """Return the ends of triangles' boxes in the region."""
-        return gather(self.region_low, triangle), gather(self.region_high, triangle)
-
-
 class Sweep:
     """The sweep of a region, which is within the camera's."""
 
@@ -112,13 +90,7 @@ class Sweep:
         self._numbers = Numbering()
 
     def steps(self, memory: int) -> Work[Hits]:
-        """Sweep the scene in chunks, and decide every pixel.
-
-        Raises
-        ------
-        _FullError
-            If the fragments take more than `memory`.
-        """
+        """Sweep the scene in chunks, and decide every pixel; a `_FullError` without the memory."""
         room = max(_FRAGMENTS, memory // _BYTES_PER_FRAGMENT)
         stages = self._statistics.stages
         yield 0.0  # allocating the depth buffer of a large picture is a step of its own
@@ -127,8 +99,8 @@ class Sweep:
             self._make_room(room, 0.0)
         if self._scene.instances:
             yield from self._instances(max(1, memory // _BYTES_PER_TRIANGLE), room)
-        resolver = Resolver(self._scene, self._film, self._depths, self._numbers, self._statistics)
-        return (yield from timed(resolver.steps(self._fragments), stages, 0.6))
+        end = Resolver(self._scene, self._film, self._depths, self._numbers, self._statistics)
+        return (yield from timed(end.steps(self._fragments), stages, 0.6))
 
     def _instances(self, limit: int, room: int) -> Work[None]:
         """Sweep the instances in chunks of `limit` triangles, with room for some fragments."""
@@ -191,23 +163,17 @@ class Sweep:
         """Sweep the triangles of a chunk, in small steps that yield the stage of their work."""
         if not len(chunk.instances):
             return
-        region = self._depths.region
         expanded = yield from expand(self._scene, self._film, chunk, small)
         first = self._numbers.enter(expanded.names)
         yield "project"
-        low, high, nearest = self.boxes_of(expanded)
+        low, high, nearest = boxes_of(self._scene, self._film, expanded)
         yield "boxes"
-        corner = np.array([[region.x0], [region.y0]], low.dtype)
-        extent = np.array([[region.width - 1], [region.height - 1]], low.dtype)
-        region_low = np.maximum(low - corner, 0)
-        region_high = np.minimum(high - corner, extent)
-        fits = region_low <= region_high
-        seen = np.flatnonzero(fits[0] & fits[1])
+        boxed = Boxed.of(expanded, first, self._depths.region, low, high, nearest)
+        seen = boxed.seen
         if not len(seen):
             return
         yield "boxes"
-        boxed = _Boxed(expanded, first, low, high, region_low, region_high, nearest)
-        bins = by_depth(seen, nearest, region_low, region_high)
+        bins = by_depth(seen, nearest, boxed.region_low, boxed.region_high)
         yield "bins"
         for number, depth_bin in enumerate(bins):
             if number or self._fragments:
@@ -215,16 +181,16 @@ class Sweep:
             for part in parts(len(depth_bin), _TRIANGLES):
                 yield from self._enter_triangles(boxed, depth_bin[part])
 
-    def _enter_triangles(self, boxed: _Boxed, some: Index) -> Steps[None]:
+    def _enter_triangles(self, boxed: Boxed, some: Index) -> Steps[None]:
         """Sweep some triangles of a chunk: the small ones first."""
-        culling = self._statistics.culling
         low, high = boxed.in_region(some)
         some = gather(some, self.not_hidden(low, high, gather(boxed.nearest, some)))
-        small = self.are_small(boxed.expanded, boxed.low, boxed.high, some)
+        small = are_small(self._film, boxed.expanded, boxed.low, boxed.high, some)
         yield "set-up"
         own = gather(some, np.flatnonzero(small))
         boxes = Boxes(own, gather(boxed.low, own), gather(boxed.high, own))
         left = [some[~small]]
+        culling = self._statistics.culling
         found = small_pairs(self._film, boxed.expanded, boxes, self._depths, culling, left)
         for pairs in Covered.together(found, _PAIRS):
             self._keep(self.of_pairs(pairs, boxed.first + pairs.owner))
@@ -234,7 +200,7 @@ class Sweep:
         for part in parts(len(rest), _SET_UP):
             yield from self._enter_large(boxed, rest[part])
 
-    def _enter_large(self, boxed: _Boxed, some: Index) -> Steps[None]:
+    def _enter_large(self, boxed: Boxed, some: Index) -> Steps[None]:
         """Sweep some triangles that are not small, or nearly edge-on."""
         expanded = boxed.expanded
         origin = gather(boxed.low, some)
@@ -249,14 +215,6 @@ class Sweep:
         for pairs in Covered.together(self.pairs(found, boxes), _PAIRS):
             self._keep(self.of_pairs(pairs, boxed.first + gather(of, pairs.owner)))
             yield "pixels"
-
-    def boxes_of(self, expanded: Expanded) -> tuple[Index, Index, Floats]:
-        """Return the boxes of a chunk's triangles, and bounds on their nearness from above."""
-        return boxes_of(self._scene, self._film, expanded)
-
-    def are_small(self, expanded: Expanded, low: Index, high: Index, some: Index) -> Bools:
-        """Return which of some triangles may be rasterised by `small_pairs`."""
-        return are_small(self._film, expanded, low, high, some)
 
     def not_hidden(self, low: Index, high: Index, nearest: Floats) -> Index:
         """Return which boxes the depth buffer does not surely hide; it knows about small boxes."""
@@ -290,8 +248,7 @@ class Sweep:
             gather(least, certain),
             gather(most, certain),
         )
-        behind = most < gather(self._depths.nearness, pixel)
-        open_ = ~(sure | behind)
+        open_ = ~(sure | (most < gather(self._depths.nearness, pixel)))
         unsure = np.flatnonzero(open_ & ~self._clip.outside(least, most))
         others = Fragments(gather(pixel, unsure), gather(surface, unsure), gather(most, unsure))
         return Fragments.joined((*fragments, others))
