@@ -47,8 +47,8 @@ def sweep(
 ) -> Work[Hits]:
     """Find the nearest hits of a region's rays, the same as `plain` does.
 
-    A chunk of the scene may take about `memory` bytes, and the fragments as many. If they need more,
-    because many surfaces tie, the region's halves are swept one after the other.
+    A chunk of the scene may take about `memory` bytes, and the fragments as many. If many surfaces
+    tie and they need more, the region's halves are swept one after the other.
     """
     statistics = statistics or Statistics()
     pairs = statistics.pairs_tested
