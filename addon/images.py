@@ -19,8 +19,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array, Bytes, Colors, Floats, Reals
 from .runs import by_runs
 
 _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
@@ -33,21 +33,21 @@ class MissingLibraryError(RuntimeError):
     """An optional library is not installed; the message says how to get it."""
 
 
-def to_display(color: NDArray[np.floating]) -> NDArray[np.uint8]:
+def to_display(color: Reals) -> Bytes:
     """Return what a screen shows of linear RGBA with premultiplied alpha, (h, w, 4) uint8.
 
     The transfer function is sRGB's (IEC 61966-2-1), Blender's view transform 'Standard'; values are
     cut off at 1, and what is not a number is black.
     """
 
-    def shown(color: NDArray) -> NDArray[np.uint8]:
+    def shown(color: Array) -> Bytes:
         color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
         return np.rint(255 * encoded(color)).astype(np.uint8)
 
     return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
 
 
-def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
+def encoded(color: Reals) -> Floats:
     """Return linear premultiplied RGBA or RGB (..., 4 or 3) as sRGB's curve, straight, 0 to 1."""
     color = np.asarray(color, dtype=np.float64)
     alpha = np.clip(color[..., 3:], 0, 1)
@@ -57,7 +57,7 @@ def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.concatenate((curve(np.clip(straight, 0, 1)), alpha), axis=-1)
 
 
-def decoded(stored: NDArray[np.floating]) -> NDArray[np.float64]:
+def decoded(stored: Reals) -> Floats:
     """Return what :func:`encoded` was made of: linear RGBA or RGB, alpha premultiplied."""
     stored = np.asarray(stored, dtype=np.float64)
     linear, alpha = curve_undone(stored[..., :3]), stored[..., 3:]
@@ -66,18 +66,18 @@ def decoded(stored: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.concatenate((linear, alpha), axis=-1)
 
 
-def curve(linear: NDArray[np.floating]) -> NDArray[np.float64]:
+def curve(linear: Reals) -> Floats:
     """Return sRGB's transfer function (IEC 61966-2-1) of linear values, 0 to 1."""
     with np.errstate(invalid="ignore"):
         return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-def curve_undone(stored: NDArray[np.floating]) -> NDArray[np.float64]:
+def curve_undone(stored: Reals) -> Floats:
     """Return the linear values of which :func:`curve` makes the stored ones."""
     return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
 
 
-def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
+def save_png(path: str | Path, picture: Bytes) -> None:
     """Write an (h, w, 4) uint8 sRGB picture, row 0 at the bottom.
 
     Raises
@@ -88,7 +88,7 @@ def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
     Path(path).write_bytes(png(picture))
 
 
-def png(picture: NDArray[np.uint8]) -> bytes:
+def png(picture: Bytes) -> bytes:
     """Return an (h, w, 4) uint8 sRGB picture, row 0 at the bottom, as the content of a PNG file.
 
     Source: the PNG specification, third edition (W3C): 8 bits a channel; every row is filtered by
@@ -107,12 +107,12 @@ def png(picture: NDArray[np.uint8]) -> bytes:
     return b"".join(out)
 
 
-def data_uri(picture: NDArray[np.uint8]) -> str:
+def data_uri(picture: Bytes) -> str:
     """Return the same PNG as the address of an image in a page."""
     return f"data:image/png;base64,{base64.b64encode(png(picture)).decode('ascii')}"
 
 
-def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
+def save_exr(path: str | Path, passes: dict[str, Array]) -> None:
     """Write passes to one EXR: `color` as RGBA, the others as channels of a layer of their name.
 
     All channels are float32: an index above 2^24 is rounded (`frame.npz` has it whole).
@@ -152,7 +152,7 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
 class StoredPicture:
     """A picture from a file."""
 
-    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
+    color: Colors  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
     levels: int  # above 0 of sRGB's curve in which it was stored; 0 for floats
     opaque: bool  # the file has no alpha
 

@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
+
+from .arrays import Array, Places
 
 
-def run_starts(*values: NDArray) -> NDArray[np.intp]:
+def run_starts(*values: Array) -> Places:
     """Return where the runs of n items begin, (k,): in each, all of the values have the same bits.
 
     Each of `values` is (n, ...).
@@ -27,7 +28,7 @@ def run_starts(*values: NDArray) -> NDArray[np.intp]:
     return np.flatnonzero(new)
 
 
-def by_runs(of: Callable[..., NDArray], *values: NDArray) -> NDArray:
+def by_runs(of: Callable[..., Array], *values: Array) -> Array:
     """Return what a function makes of n items, (n, ...), which it makes of each by itself.
 
     `values` are its arguments, (n, ...) each; the function is asked about the first of each run.

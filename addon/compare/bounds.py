@@ -8,15 +8,14 @@ float32.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Floats, Mask
 from ..images import encoded
 from ..runs import run_starts
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
-from ..tracer.hits import NOTHING
-from ..tracer.nearest import Hits
+from ..tracer.hits import NOTHING, Hits
 from ..tracer.progress import Work
 from ..tracer.shading import by_mesh
 from ..tracer.vector import transform_points
@@ -56,10 +55,14 @@ INTERPOLATED = 2.0**-9
 # What a writer's own rounding of sRGB's curve may add to half a level (float32, tables).
 LEVEL_SLACK = 0.02
 
+# Pixels: where Blender's sample may lie farther than this from the centre, whatever is shown proves
+# nothing.
+DECIDABLE = 0.5
+
 _ROWS = 64  # looked at together, at least, so that a step is short in large pictures
 
 
-def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDArray[np.float64]:
+def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
     """Return how far float32 may move what n rays hit in camera space, (n,) metres.
 
     Parameters
@@ -90,9 +93,7 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
     return U32 * error
 
 
-def pixel_error(
-    camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def pixel_error(camera: Camera, depth: Floats, view: Floats) -> Floats:
     """Return how far Blender's sample may lie from the pixel's centre, (n,) pixels.
 
     Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film.
@@ -105,9 +106,7 @@ def pixel_error(
     return SNAPPING + film + moved / min(width, height)
 
 
-def depth_resolution(
-    camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
     """Return how far apart in depth Blender can tell two surfaces, (n,) metres.
 
     A 24-bit depth buffer holds f / (f - n) (1 - n / z) of a perspective camera, so a step at depth
@@ -120,8 +119,8 @@ def depth_resolution(
 
 
 def differing(
-    first: NDArray, second: NDArray, interpolated: NDArray[np.bool_] | bool = False, *stored: float
-) -> NDArray[np.bool_]:
+    first: Array, second: Array, interpolated: Mask | bool = False, *stored: float
+) -> Mask:
     """Return which pixels of two (..., c) pictures differ by more than :func:`difference` allows.
 
     `stored` is as there. What is not finite differs from everything.
@@ -133,13 +132,13 @@ def differing(
 
 
 def difference(
-    first: NDArray,
-    second: NDArray,
-    interpolated: NDArray[np.bool_] | bool = False,
+    first: Array,
+    second: Array,
+    interpolated: Mask | bool = False,
     levels: int = 0,
     sums: int = 0,
     dither: float = 0.0,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return how far two pictures are apart, and how far rounding may have put them, (..., c).
 
     HALF_UNITS of a half float's last place are allowed, but at least LEAST_STEP; where a colour is
@@ -164,7 +163,7 @@ def difference(
         return apart, np.maximum(HALF_UNITS * unit, LEAST_STEP) + more
 
 
-def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDArray[np.float64]]:
+def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[Floats]:
     """Return how far from each pixel's centre Blender's sample may lie, (h, w) pixels.
 
     It is the largest of the surfaces seen in the 3 x 3 pixels around, and of those farther off that
@@ -181,7 +180,7 @@ def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDArr
     return (yield from spread_error(own))
 
 
-def spread_error(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
+def spread_error(own: Floats) -> Work[Floats]:
     """Return SNAPPING, or what is larger of those whose surface may move as far as the pixel.
 
     `own` (h, w) is how far, in pixels; it counts in a square that reaches as far as the power of
@@ -207,7 +206,7 @@ def spread_error(own: NDArray[np.float64]) -> Work[NDArray[np.float64]]:
         reach *= 2
 
 
-def largest_within(values: NDArray, reach: int) -> NDArray:
+def largest_within(values: Array, reach: int) -> Array:
     """Return the largest of (h, w) values that are at most `reach` rows and columns away."""
     for axis in (0, 1):
         values = np.moveaxis(values, axis, 0).copy()

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors, Mask, Numbers
 from ..manifest import Effect, Manifest
 from ..scene import Scene
 from ..tracer.coloring import Color
@@ -48,7 +48,7 @@ class Case:
         if self.settings.color != Color.OBJECT:
             object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
 
-    def feature_of(self, effect: Effect) -> NDArray[np.int32]:
+    def feature_of(self, effect: Effect) -> Numbers:
         """Return which feature with an effect each instance's object has, and each plane's.
 
         It is an index into the manifest's `unmodelled`; NOTHING for none, and at the end: (k + 1,).
@@ -59,7 +59,7 @@ class Case:
         return np.array([*found, NOTHING], np.int32)[self.scene.instance_objects]
 
     @property
-    def colorless(self) -> NDArray[np.bool_]:
+    def colorless(self) -> Mask:
         """The colours of which instances, then planes, the tracer does not know, (k + 1,)."""
         return self.feature_of(Effect.COLOR) != NOTHING
 
@@ -68,7 +68,7 @@ class Case:
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
         return replace(self, scene=change(self.scene), alternatives=others)
 
-    def before(self, background: NDArray[np.float32]) -> Case:
+    def before(self, background: Colors) -> Case:
         """Return the same with every scene, and the picture, before a background, linear RGBA."""
         behind = partial(replace, background=background)
         picture = replace(self.picture, background=background)

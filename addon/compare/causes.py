@@ -13,8 +13,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Mask, Places
 from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
@@ -22,12 +22,34 @@ from ..tracer.progress import Work, scaled
 from ..tracer.render import steps, tiles
 from .bounds import SNAPPING, sample_band
 from .case import Case
-from .cause import Cause, Causes
+from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
 from .checks import anti_aliasing, clip, color, edges, hidden, identity, unmodelled
+from .checks.anti_aliasing import ANTI_ALIASING
 from .checks.background import Background, find_background
+from .checks.clip import CLIP_PLANE
+from .checks.color import COLOR
+from .checks.edges import DEPTH_TIE, EDGE
+from .checks.hidden import HIDDEN
 from .checks.probe import OpenPixels
+from .checks.unmodelled import NOT_MODELLED
 
 DECIDABLE = 0.5  # pixels: within a larger band, what lies there explains nothing
+
+# All causes, in the order of the legend.
+CAUSES: tuple[Cause, ...] = (
+    AGREE,
+    EDGE,
+    DEPTH_TIE,
+    CLIP_PLANE,
+    ANTI_ALIASING,
+    COLOR,
+    NOT_MODELLED,
+    HIDDEN,
+    NOT_DECIDABLE,
+    UNEXPLAINED,
+    NOT_TRACED,
+)
+BY_NUMBER = {cause.number: cause for cause in CAUSES}
 
 # What a pixel is asked, in this order, and the weight of each check in the work. The first check
 # that accounts for a pixel gives it its cause; what none accounts for is unexplained.
@@ -98,7 +120,7 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
         share = (1 - _OPENING) * weight / weights
         yield from scaled(check(pixels), done, share)
         done += share
-    pixels.settle(pixels.open, Cause.UNEXPLAINED)
+    pixels.settle(pixels.open, UNEXPLAINED)
     yield from scaled(unmodelled.settle_drawn(pixels), 1.0, 0.0)
     yield from scaled(color.name_shades(pixels), 1.0, 0.0)
     return out
@@ -115,13 +137,13 @@ def _open(pixels: OpenPixels) -> Work[None]:
         ramp = shading.interpolated(scene, seen)
         differ = part.picture.other_color(frame.color[rows], ramp)
         part.open[:] = differ | part.picture.other_object(seen)
-        part.settle(~frame.rows_done[rows, None], Cause.NOT_TRACED)
+        part.settle(~frame.rows_done[rows, None], NOT_TRACED)
         # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
-        part.settle(part.band > DECIDABLE, Cause.NOT_DECIDABLE, part.band, DECIDABLE)
+        part.settle(part.band > DECIDABLE, NOT_DECIDABLE, part.band, DECIDABLE)
         yield 1.0
 
 
-def _thin(open_: NDArray[np.bool_], most: int) -> NDArray[np.intp]:
+def _thin(open_: Mask, most: int) -> Places:
     """Close open pixels but so many; return which were closed."""
     found = np.flatnonzero(open_)
     kept = np.linspace(0, len(found) - 1, min(most, len(found))).astype(int)

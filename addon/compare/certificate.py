@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Floats
 from ..scene import Camera, SceneError
 from ..tracer.camera import film_of, pixel_size
 from .bounds import U32
@@ -62,7 +62,7 @@ class CameraCertificate(NamedTuple):
             )
 
 
-def known_points(camera: Camera) -> NDArray[np.float64]:
+def known_points(camera: Camera) -> Floats:
     """Return points all over the view volume, its corners first: (3, n) world space, metres."""
     w, rng = camera.window, np.random.default_rng(SEED)
     ends = np.array((camera.clip_start, camera.clip_end), np.float64)
@@ -79,9 +79,7 @@ def known_points(camera: Camera) -> NDArray[np.float64]:
     return origin + scale * (x * right + y * up) + depth * forward
 
 
-def certify(
-    camera: Camera, points: NDArray[np.float64], film: NDArray[np.float64]
-) -> CameraCertificate:
+def certify(camera: Camera, points: Floats, film: Floats) -> CameraCertificate:
     """Return the certificate of a camera.
 
     `points` (3, n) are in world space, as :func:`known_points` gives them; `film` (2, n) is where
@@ -95,7 +93,7 @@ def certify(
     return CameraCertificate(min(largest, np.finfo(float).max), float(allowed[worst]), len(depth))
 
 
-def _allowed(camera: Camera, points: NDArray, depth: NDArray) -> NDArray[np.float64]:
+def _allowed(camera: Camera, points: Array, depth: Array) -> Floats:
     """Return how far float32 may move each point's place on the film, (n,) pixels.
 
     Turned axes move it by what it is away from the camera, seen from there; a projection's rounding

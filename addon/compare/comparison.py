@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors
 from ..certainty import Certainty
 from ..certified.rounding import rounding
 from ..manifest import Effect, Manifest
@@ -19,12 +19,15 @@ from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from .case import Case
-from .cause import Cause, Causes
-from .causes import explain
+from .cause import Causes
+from .causes import BY_NUMBER, CAUSES, explain
 from .checks.background import Background
+from .checks.hidden import HIDDEN
+from .checks.unmodelled import NOT_MODELLED
+from .counts import count_pixels
 from .identity import Identity
 from .methods import MethodRow, list_methods
-from .metrics import boundary, count_pixels, image_metrics
+from .metrics import boundary, image_metrics
 from .picture import SizeError
 from .self_check import FaultRow, self_check, table
 
@@ -68,7 +71,7 @@ class Comparison:
         return self.case.manifest
 
     @property
-    def picture(self) -> NDArray[np.float32]:
+    def picture(self) -> Colors:
         """What the scene is compared with, (h, w, 4) linear RGBA."""
         return self.case.picture.color
 
@@ -83,7 +86,7 @@ class Comparison:
         if pixels["not_judged"]["share"] > COMPARABLE:
             return "not comparable"
         doubtful = (
-            *(pixels["by_cause"][c.key] for c in Cause if c.warns),
+            *(pixels["by_cause"][c.key] for c in CAUSES if c.warns),
             pixels["not_judged"]["pixels"],
             self.empty,
             *(u.effect is Effect.UNPLACED for u in self.manifest.unmodelled),
@@ -96,9 +99,13 @@ class Comparison:
     def told(self, x: int, y: int) -> str:
         """Return why a pixel has its cause, in a sentence with its numbers and names."""
         causes = self.causes
-        cause, figure = Cause(causes.cause[y, x]), causes.figure[y, x]
-        counted = {Cause.NOT_MODELLED: self.manifest.unmodelled, Cause.HIDDEN: causes.hidden}
-        name = counted[cause][int(figure)] if cause in counted else ""
+        cause = BY_NUMBER[causes.cause[y, x]]
+        figure = causes.figure[y, x]
+        name: object = ""
+        if cause == NOT_MODELLED:
+            name = self.manifest.unmodelled[int(figure)]
+        elif cause == HIDDEN:
+            name = causes.hidden[int(figure)]
         return cause.told(figure, causes.allowed[y, x], name)
 
     @property
@@ -137,7 +144,7 @@ class Comparison:
             },
             "methods": [row.to_dict() for row in self.methods],
             "pixels": self.pixels,
-            "causes": {c.key: c.to_dict() for c in Cause},
+            "causes": {c.key: c.to_dict() for c in CAUSES},
             "transform": self.causes.transform,
             "shades": [shade._asdict() for shade in self.causes.shades],
             "background": self.background and self.background.to_dict(),
@@ -160,7 +167,7 @@ class Comparison:
             f"{p['differ']:,} differ",
             *(
                 f"  {c.label}: {n:,}{_at(p['examples'].get(c.key, ()))}"
-                for c in sorted(Cause)
+                for c in sorted(CAUSES)
                 if (n := p["by_cause"].get(c.key))
             ),
             *self._evidence(),

@@ -7,11 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .cause import Cause
+from .cause import UNEXPLAINED
+from .causes import BY_NUMBER, CAUSES
 from .checks.unmodelled import known_beneath
 from .comparison import EXIT_CODES, Comparison
+from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
-from .metrics import EXAMPLES
 from .self_check import FaultRow
 
 SCHEMA = "reference_tracer.engines/1"
@@ -55,16 +56,16 @@ def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
     causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
     picture, features = comparison.case.picture, comparison.manifest.unmodelled
     beneath = None if picture.beneath is None else known_beneath(picture)
-    differ = np.isin(causes.cause, [c for c in Cause if c.differs])
+    differ = np.isin(causes.cause, [c for c in CAUSES if c.explains or c == UNEXPLAINED])
     places = np.argwhere(differ)
-    order = np.argsort(causes.cause[differ] != Cause.UNEXPLAINED, kind="stable")
+    order = np.argsort(causes.cause[differ] != UNEXPLAINED, kind="stable")
     out = []
     for y, x in places[order][:EXAMPLES]:
         row = {
             "pixel": [int(x), int(y)],
             "traced": _name(comparison.scene.objects, int(frame.object_index[y, x])),
             "triangle": int(frame.triangle_index[y, x]),
-            "cause": Cause(causes.cause[y, x]).label,
+            "cause": BY_NUMBER[causes.cause[y, x]].label,
             "why": comparison.told(x, y),
         }
         if identity is not None:

@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors, Mask, Numbers, Reals
 from ..runs import by_runs
 
 NOTHING, UNKNOWN = -1, -2
@@ -29,10 +29,10 @@ class Identity(NamedTuple):
     """
 
     names: tuple[str, ...]
-    traced: NDArray[np.int32]
-    shown: NDArray[np.int32]
+    traced: Numbers
+    shown: Numbers
 
-    def counts(self, where: NDArray[np.bool_] | bool = True) -> dict[str, int]:
+    def counts(self, where: Mask | bool = True) -> dict[str, int]:
         """Count the pixels (of some) that show the same object, another, or what is not known."""
         unknown = self.shown == UNKNOWN
         same = self.shown == self.traced
@@ -47,7 +47,7 @@ class Identity(NamedTuple):
         return {"names": list(self.names), "pixels": self.counts()}
 
 
-def colors_of(count: int) -> NDArray[np.float32]:
+def colors_of(count: int) -> Colors:
     """Return the colours that stand for the numbers 0 to count - 1, (count, 3) linear RGB.
 
     Raises
@@ -65,7 +65,7 @@ def colors_of(count: int) -> NDArray[np.float32]:
     return (np.stack((red, green, blue), axis=-1) / (LEVELS - 1)).astype(np.float32)
 
 
-def decode(picture: NDArray[np.floating], count: int) -> NDArray[np.int32]:
+def decode(picture: Reals, count: int) -> Numbers:
     """Return the numbers (h, w) that a picture's colours (h, w, 4) stand for.
 
     Linear RGBA, premultiplied: NOTHING where it is transparent, UNKNOWN where it is none of the
@@ -75,7 +75,7 @@ def decode(picture: NDArray[np.floating], count: int) -> NDArray[np.int32]:
     return by_runs(lambda some: _decode(some, count), flat).reshape(picture.shape[:-1])
 
 
-def _decode(colors: NDArray[np.floating], count: int) -> NDArray[np.int32]:
+def _decode(colors: Reals, count: int) -> Numbers:
     with np.errstate(invalid="ignore"):
         scaled = np.nan_to_num(colors[..., :3].astype(np.float64), nan=0.5) * (LEVELS - 1)
         digits = np.rint(np.clip(scaled, 0, LEVELS - 1)).astype(np.int32)

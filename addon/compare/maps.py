@@ -6,12 +6,13 @@ All are of pictures (h, w, 4), or of some rows of them: linear RGBA, opaque.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bytes, Colors, Mask
 from ..certainty import Certainty
 from ..images import curve_undone
 from ..runs import by_runs
-from .cause import Cause, Color
+from .cause import Color
+from .causes import CAUSES
 
 WRONG: Color = (1.0, 0.0, 0.0)
 DIM = 0.25  # of what lies below
@@ -19,7 +20,7 @@ RING, MOST_RINGS = 6, 500  # pixels from the one that is marked; rings, so that 
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 
-def dimmed(color: NDArray[np.float32]) -> NDArray[np.float32]:
+def dimmed(color: Colors) -> Colors:
     """Return a picture's light, dimmed."""
     flat = color.reshape(-1, 4)
     light = by_runs(lambda c: DIM * (np.nan_to_num(c[:, :3]) @ np.array(_LUMINANCE)), flat)
@@ -28,17 +29,17 @@ def dimmed(color: NDArray[np.float32]) -> NDArray[np.float32]:
     return out
 
 
-def wrong_map(color: NDArray[np.float32], wrong: NDArray[np.bool_]) -> NDArray[np.float32]:
+def wrong_map(color: Colors, wrong: Mask) -> Colors:
     """Return a picture with the pixels that are wrong (h, w)."""
     out = dimmed(color)
     out[wrong, :3] = WRONG
     return out
 
 
-def cause_map(color: NDArray[np.float32], cause: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Return a picture with the pixels that have a `Cause` other than to agree (h, w)."""
+def cause_map(color: Colors, cause: Bytes) -> Colors:
+    """Return a picture with the pixels that do not agree in the colours of their causes (h, w)."""
     out = dimmed(color)
-    for c in Cause:
+    for c in CAUSES:
         if c.color is not None:
             where = cause == c
             share = 0.5 if c.see_through else 1.0
@@ -46,7 +47,7 @@ def cause_map(color: NDArray[np.float32], cause: NDArray[np.uint8]) -> NDArray[n
     return out
 
 
-def certainty_map(color: NDArray[np.float32], certainty: NDArray[np.uint8]) -> NDArray[np.float32]:
+def certainty_map(color: Colors, certainty: Bytes) -> Colors:
     """Return a picture with the `Certainty` of each pixel (h, w).
 
     What whole surfaces have leaves these visible.
@@ -58,7 +59,7 @@ def certainty_map(color: NDArray[np.float32], certainty: NDArray[np.uint8]) -> N
     return out
 
 
-def ringed(color: NDArray[np.float32], where: NDArray[np.bool_]) -> NDArray[np.float32]:
+def ringed(color: Colors, where: Mask) -> Colors:
     """Return a picture with a ring of its own colour around each of few pixels (h, w)."""
     y, x = np.nonzero(where)
     if not 0 < len(y) <= MOST_RINGS:

@@ -14,16 +14,16 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Mask
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from ..tracer.render import steps
 from .bounds import differing
 from .case import Case
-from .cause import Cause, Causes
-from .causes import explain
+from .cause import AGREE, UNEXPLAINED, Causes
+from .causes import CAUSES, explain
 from .faults import FAULTS, Fault
 
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
@@ -103,14 +103,14 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
         return row
     found = (yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)).causes
     of_fault = found.cause[changed]
-    looked_at = int((of_fault != Cause.AGREE).sum())
+    looked_at = int((of_fault != AGREE).sum())
     named = bool(found.transform) and found.transform != causes.transform
-    rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
+    rounding = [c for c in CAUSES if c.rounding or c == AGREE]
     return row._replace(
         changed=int(changed.sum()),
         differ=looked_at + len(found.passed_over),
         looked_at=looked_at,
-        unexplained=int((of_fault == Cause.UNEXPLAINED).sum()),
+        unexplained=int((of_fault == UNEXPLAINED).sum()),
         within_rounding=bool(np.isin(of_fault, rounding).all()),
         note=f"named: {found.transform}" if named else "",
         named=named,
@@ -118,7 +118,7 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     )
 
 
-def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> NDArray[np.bool_]:
+def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Mask:
     """Return which pixels (h, w) the fault changes: their colour, or whose surface they show."""
     right, picture = case.picture, wrong.picture
     if wrong.scene is case.scene:

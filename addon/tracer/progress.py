@@ -10,7 +10,9 @@ from collections import Counter
 from collections.abc import Callable, Generator
 from typing import TypeVar
 
-A, B, T = TypeVar("A"), TypeVar("B"), TypeVar("T")
+A = TypeVar("A")
+B = TypeVar("B")
+T = TypeVar("T")
 Work = Generator[float, None, T]
 Steps = Generator[str, None, T]  # of which each says which stage of the work it was
 

@@ -7,7 +7,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause, Causes
+from reference_tracer.compare.cause import Causes
+from reference_tracer.compare.causes import (
+    AGREE,
+    CAUSES,
+    EDGE,
+    NOT_DECIDABLE,
+    NOT_TRACED,
+    UNEXPLAINED,
+)
 from reference_tracer.compare.comparison import (
     EXIT_CODES,
     SCHEMA,
@@ -15,7 +23,8 @@ from reference_tracer.compare.comparison import (
     compare,
     trace_and_compare,
 )
-from reference_tracer.compare.metrics import boundary, count_pixels
+from reference_tracer.compare.counts import count_pixels
+from reference_tracer.compare.metrics import boundary
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
@@ -33,6 +42,7 @@ BLENDER = {
     "filter_radius": 0.0,
     "settings": {},
 }
+BY_KEY = {cause.key: cause for cause in CAUSES}
 BOX = np.array([[-2.0, -2, -2.1], [0.1, 0.1, -2]])
 
 
@@ -66,14 +76,12 @@ def test_counts_add_up(scene):
     assert p["differ"] == p["explained"] + p["unexplained"]
     assert p["differ"] + p["not_decidable"] == sum(p["by_cause"].values())
     assert p["by_cause"]["not_modelled"] > 10 and p["unexplained"] > 10
-    assert set(p["by_cause"]) == {
-        c.name.lower() for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
-    }
+    assert set(p["by_cause"]) == {c.key for c in CAUSES if c not in (AGREE, NOT_TRACED)}
     for key in ("total", "agree", "differ", "explained", "unexplained", "not_decidable"):
         assert p[key] == p["interior"][key] + p["boundary"][key]
     assert p["boundary"]["total"] == boundary(found.frame).sum() > 0 < p["interior"]["total"]
     for name, n in p["by_cause"].items():
-        assert n == (found.causes.cause == Cause[name.upper()]).sum()
+        assert n == (found.causes.cause == BY_KEY[name]).sum()
 
 
 def test_examples_are_spread(scene):
@@ -81,14 +89,14 @@ def test_examples_are_spread(scene):
     picture[2:14, 3:19] = (1, 0, 1, 1)
     found = compared(scene, picture)
     examples = found.pixels["examples"]["unexplained"]
-    rows, columns = np.nonzero(found.causes.cause == Cause.UNEXPLAINED)
+    rows, columns = np.nonzero(found.causes.cause == UNEXPLAINED)
     assert len(examples) == 10 and len({y for _, y in examples}) > 8
     assert examples[0] == [columns[0], rows[0]] and examples[-1] == [columns[-1], rows[-1]]
 
 
 def test_undecidable_pixels_have_examples_too():
     causes = Causes.none((3, 4))
-    causes.cause[1, 2] = Cause.NOT_DECIDABLE
+    causes.cause[1, 2] = NOT_DECIDABLE
     counted = count_pixels(causes, np.zeros((3, 4), bool))
     assert counted["examples"] == {"not_decidable": [[2, 1]]}
 
@@ -180,11 +188,11 @@ def test_json_has_what_is_promised(scene):
     }
     assert held["causes"]["edge"] == {
         "number": 1,
-        "label": Cause.EDGE.label,
-        "sentence": Cause.EDGE.sentence,
+        "label": EDGE.label,
+        "sentence": EDGE.sentence,
         "unit": "px",
     }
-    assert set(held["causes"]) == {c.name.lower() for c in Cause}
+    assert set(held["causes"]) == {c.key for c in CAUSES}
     assert held["identity"] is held["certificate"] is None and held["self_check"] == []
     assert held["blender"] == BLENDER and held["pixels"] == found.pixels
     assert held["scene"]["unmodelled"][0]["object"] == "Hair"

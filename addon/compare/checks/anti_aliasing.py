@@ -17,8 +17,8 @@ from functools import partial
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, Floats, Mask, Places
 from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
@@ -26,6 +26,19 @@ from ...tracer.progress import Work, scaled
 from ..cause import Cause
 from .coverage import coverage
 from .probe import SOUND, OpenPixels, Part, by_parts
+
+ANTI_ALIASING = Cause(
+    8,
+    "anti_aliasing",
+    "anti-aliasing",
+    "the colour is a mix of what the tracer sees within {figure:.3g} px "
+    "(the filter reaches {allowed:.3g} px)",
+    "px",
+    (0.7, 0.4, 0.2),
+    explains=True,
+    warns=True,
+)
+
 
 # Rings within the radius and directions on each, where the tracer is asked; later ones only of
 # what is left: a sliver passes between the samples.
@@ -80,15 +93,15 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         seen = seen[:, rest]
         color = picture.color[rest, : seen.shape[-1]]
         found[rest] = yield from is_mix(color, seen, picture.sums, np.array(opposite))
-        part.settle(found, Cause.ANTI_ALIASING, reach, radius)
+        part.settle(found, ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
         left = np.flatnonzero(~found & owner)
         across = np.array(opposite)
         found[left] = yield from _through_cracks(part, radius, np.stack(mixed), across, left)
-        part.settle(found, Cause.ANTI_ALIASING, radius, radius)
+        part.settle(found, ANTI_ALIASING, radius, radius)
 
 
-def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
+def _owner_seen(part: Part) -> Work[Mask]:
     """Return where the tracer sees whose surface is shown, in the centre or within its band."""
     hits = yield from part.probe.trace()
     seen = ~part.picture.other_object(hits.instance)
@@ -103,8 +116,8 @@ def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
 
 
 def _through_cracks(
-    part: Part, radius: float, mixed: NDArray, opposite: NDArray, left: NDArray[np.intp]
-) -> Work[NDArray[np.bool_]]:
+    part: Part, radius: float, mixed: Array, opposite: Array, left: Places
+) -> Work[Mask]:
     """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
 
     Some of the filter's samples may meet a crack of float32's, and show any triangle that comes
@@ -132,9 +145,7 @@ def _through_cracks(
     return found
 
 
-def is_mix(
-    color: NDArray, mixed: NDArray, sums: int = 0, opposite: NDArray[np.intp] | None = None
-) -> Work[NDArray[np.bool_]]:
+def is_mix(color: Array, mixed: Array, sums: int = 0, opposite: Places | None = None) -> Work[Mask]:
     """Return which colours (n, c) are a mix of those of (k, n, c), or near to one.
 
     Each of `sums` additions in half floats may lose as much as half a unit of every channel. With
@@ -158,7 +169,7 @@ def is_mix(
     return found
 
 
-def _logarithm(color: NDArray, offset: float = 1.0, channels: int = 3) -> NDArray[np.float64]:
+def _logarithm(color: Array, offset: float = 1.0, channels: int = 3) -> Floats:
     """Return what Workbench mixes: of RGB the logarithm, and alpha as it is.
 
     A colour's own error is up to 1.44 / offset as large in it, and it is a half float itself.
@@ -167,9 +178,7 @@ def _logarithm(color: NDArray, offset: float = 1.0, channels: int = 3) -> NDArra
     return np.concatenate((logarithms, color[..., channels:]), axis=-1)
 
 
-def in_hull(
-    target: NDArray[np.float64], points: NDArray[np.float64], allowed: NDArray[np.float64]
-) -> Work[NDArray[np.bool_]]:
+def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Mask]:
     """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
 
     A target is outside for sure once a plane lies between. Where colours lie almost on a line the
@@ -210,8 +219,8 @@ def in_hull(
 
 
 def _pair(
-    points: NDArray, weight: NDArray, way: NDArray, at: NDArray
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    points: Array, weight: Array, way: Array, at: Array
+) -> tuple[Places, Places, Floats, Floats]:
     """Return the points farthest ahead and behind on the way from `at` to the target, (n,) each.
 
     Besides, how much weight to move, and how far the target lies beyond the farthest of all, times
@@ -228,7 +237,7 @@ def _pair(
     return ahead, behind, np.clip(share, 0, weight[behind, index]), beyond
 
 
-def distance_to_triangles(target: NDArray[np.float64], points: NDArray[np.float64]) -> float:
+def distance_to_triangles(target: Floats, points: Floats) -> float:
     """Return how far a colour (c,) is from the nearest point, side or triangle of some (k, c)."""
     least = np.linalg.norm(points - target, axis=1).min()
     for corners in (2, 3):

@@ -11,8 +11,8 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Mask
 from ...images import encoded
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
@@ -83,9 +83,7 @@ def find_background(
     return Background(tuple(map(float, color)), tuple(map(float, own)), picture.opaque)
 
 
-def _apart(
-    frame: Frame, picture: Picture, color: NDArray[np.float32], surface: NDArray[np.bool_]
-) -> Work[bool]:
+def _apart(frame: Frame, picture: Picture, color: Colors, surface: Mask) -> Work[bool]:
     """Return whether a colour is a background's: surfaces that have it are where they should be.
 
     A picture upside down shows the floor where the sky is, and the sky where the floor is.

@@ -18,6 +18,18 @@ from ..bounds import U32, depth_resolution
 from ..cause import Cause
 from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
 
+CLIP_PLANE = Cause(
+    7,
+    "clip_plane",
+    "clip plane",
+    "a surface lies {figure:.3g} m from a clip plane, and float32 clips to within {allowed:.3g} m",
+    "m",
+    (1.0, 1.0, 0.4),
+    explains=True,
+    rounding=True,
+)
+
+
 # The clip range is widened by so many times what it may be off for a point right before the camera.
 WIDENED = 64
 
@@ -50,7 +62,7 @@ def _clipped(part: Part) -> Work[None]:
         figure, allowed = np.where(may, distance, figure), np.where(may, bound, allowed)
         near |= may
         same = seen & near & ~part.picture.differ(part.scene, hits)
-        part.settle(same, Cause.CLIP_PLANE, figure, allowed)
+        part.settle(same, CLIP_PLANE, figure, allowed)
         yield 0.0
         going &= ~seen | at_clip
         if not (going & (hits.instance != NOTHING)).any():

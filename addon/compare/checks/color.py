@@ -13,17 +13,31 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, Index, Mask, Places, Reals
 from ...images import curve, curve_undone
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
 from ..bounds import difference
-from ..cause import Cause, Shade
+from ..cause import AGREE, UNEXPLAINED, Cause, Shade
 from ..metrics import boundary
 from ..picture import MAJORITY, Curve, Picture, Transform, straight
 from .probe import OpenPixels, blocks
+
+COLOR = Cause(
+    9,
+    "color",
+    "colour only",
+    "the same object in another shade: {figure:.3g} is left after the transform that the "
+    "comparison names (allowed: {allowed:.3g})",
+    "of 1",
+    (0.4, 0.7, 0.7),
+    explains=True,
+    warns=True,
+    see_through=True,
+)
+
 
 FITTED_SHARE = 0.9  # as MAJORITY, of a curve whose number was fitted to the pixels
 ENOUGH = 4096  # pixels on which it is tried
@@ -54,7 +68,7 @@ def check(pixels: OpenPixels) -> Work[None]:
     elif pixels.case.curves is None or not pixels.open.any():
         return
     else:
-        where = _judged(pixels) & (pixels.open | (pixels.out.cause == Cause.AGREE))
+        where = _judged(pixels) & (pixels.open | (pixels.out.cause == AGREE))
         found = yield from find_transform(pixels.frame, pixels.picture, where, pixels.case.curves)
         if found is None:
             return
@@ -69,12 +83,12 @@ def check(pixels: OpenPixels) -> Work[None]:
         else:
             alike = ~picture.other_color(color) & ~picture.other_object(instance)
             left, allowed = picture.difference(color)
-        part.settle(part.open & alike, Cause.COLOR, left, allowed)
+        part.settle(part.open & alike, COLOR, left, allowed)
         yield 1.0
 
 
 def find_transform(
-    frame: Frame, picture: Picture, interior: NDArray[np.bool_], more: Sequence[Curve] = ()
+    frame: Frame, picture: Picture, interior: Mask, more: Sequence[Curve] = ()
 ) -> Work[Curve | None]:
     """Return the transform that makes a picture's (h, w) differing surfaces agree, or None.
 
@@ -110,12 +124,12 @@ def find_transform(
     return None
 
 
-def _judged(pixels: OpenPixels) -> NDArray[np.bool_]:
+def _judged(pixels: OpenPixels) -> Mask:
     """Return the pixels (h, w) away from edges in which something is known of the colour."""
     return ~boundary(pixels.frame) & (pixels.out.blind < 0)
 
 
-def _differing(frame: Frame, picture: Picture) -> Work[NDArray[np.bool_]]:
+def _differing(frame: Frame, picture: Picture) -> Work[Mask]:
     """Return where the colours differ, (h, w)."""
     out = np.zeros(frame.shape, bool)
     for rows in blocks(out.shape):
@@ -124,7 +138,7 @@ def _differing(frame: Frame, picture: Picture) -> Work[NDArray[np.bool_]]:
     return out
 
 
-def _refuted(frame: Frame, surface: NDArray[np.bool_], wrong: NDArray[np.bool_]) -> bool:
+def _refuted(frame: Frame, surface: Mask, wrong: Mask) -> bool:
     """Return whether what a transform makes wrong refutes it: most of an instance, or too much."""
     of, count = frame.instance_index, int(frame.instance_index.max()) + 1
     many, bad = (np.bincount(of[some], minlength=count) for some in (surface, wrong))
@@ -140,10 +154,10 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
     frame, picture = pixels.frame, pixels.picture
     inside = _judged(pixels) & (frame.instance_index != NOTHING)
     inside &= ~picture.other_object(frame.instance_index)
-    if picture.lit or not (inside & (pixels.out.cause == Cause.UNEXPLAINED)).any():
+    if picture.lit or not (inside & (pixels.out.cause == UNEXPLAINED)).any():
         return
     # Pixels that agree and differ were passed over: nobody looked for their cause.
-    wrong = inside & np.isin(pixels.out.cause, (Cause.UNEXPLAINED, Cause.AGREE))
+    wrong = inside & np.isin(pixels.out.cause, (UNEXPLAINED, AGREE))
     wrong &= yield from _differing(frame, picture)
     count = np.bincount(frame.object_index[wrong])
     share = count / np.maximum(np.bincount(frame.object_index[inside])[: len(count)], 1)
@@ -157,7 +171,7 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
         yield 1.0
 
 
-def _is_its_own(frame: Frame, picture: Picture, where: NDArray[np.bool_]) -> bool:
+def _is_its_own(frame: Frame, picture: Picture, where: Mask) -> bool:
     """Return whether most of an object's pixels (h, w) show no colour of what is around it."""
     if picture.at(where).known(frame.instance_index[where]).all():
         return True
@@ -169,7 +183,7 @@ def _is_its_own(frame: Frame, picture: Picture, where: NDArray[np.bool_]) -> boo
     return bool(taken.mean() < MAJORITY)
 
 
-def _one_other_each(picture: Picture, colors: NDArray) -> bool:
+def _one_other_each(picture: Picture, colors: Array) -> bool:
     """Return whether each traced colour of n pixels is shown as one other."""
     some = slice(None, None, -(-len(colors) // ENOUGH))
     picture, colors = picture.at(some), colors[some]
@@ -181,9 +195,7 @@ def _one_other_each(picture: Picture, colors: NDArray) -> bool:
     return bool(alike.mean() > FITTED_SHARE)
 
 
-def _medians(
-    shown: NDArray, group: NDArray[np.integer]
-) -> tuple[NDArray[np.intp], NDArray[np.floating]]:
+def _medians(shown: Array, group: Index) -> tuple[Places, Reals]:
     """Return the first of each of k groups of n pixels, (k,), and what is shown of it, (k, 4)."""
     _, first = np.unique(group, return_index=True)
     order = np.argsort(group, kind="stable")
@@ -191,9 +203,7 @@ def _medians(
     return first, np.array([np.median(part, axis=0) for part in parts])
 
 
-def _candidates(
-    traced: NDArray, shown: NDArray, levels: int, more: Sequence[Curve]
-) -> Iterator[Curve]:
+def _candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) -> Iterator[Curve]:
     """Yield what may turn traced colours (k, 3) into the shown ones, the likeliest first."""
     yield from more
     yield from CURVES
@@ -225,12 +235,12 @@ def _candidates(
             yield _coded_power(coded, levels, FITTED_SHARE)
 
 
-def _several(values: NDArray) -> bool:
+def _several(values: Array) -> bool:
     """Return whether values are told apart: one alone fits any curve of one number."""
     return len(values) > 0 and float(np.ptp(values)) > LEAST_CHANGE
 
 
-def _power(a: NDArray, b: NDArray) -> float:
+def _power(a: Array, b: Array) -> float:
     """Return p of b = a**p: the median, then least squares of b among the values near to it."""
     x, y = np.log(a), np.log(b)
     power = float(np.median(y / x))
@@ -244,7 +254,7 @@ def _power(a: NDArray, b: NDArray) -> float:
 def _coded_power(power: float, levels: int, share: float) -> Curve:
     """Return a power of sRGB's coded values, which a picture of `levels` has rounded before."""
 
-    def transform(color: NDArray) -> NDArray:
+    def transform(color: Array) -> Array:
         stored = curve(np.clip(color, 0, 1))
         if levels:
             stored = np.rint(levels * stored) / levels
@@ -253,8 +263,8 @@ def _coded_power(power: float, levels: int, share: float) -> Curve:
     return Curve(f"a gamma of {1 / power:.3g} applied to coded (sRGB) values", transform, share)
 
 
-def _cut_off(of: Callable[[NDArray], NDArray], levels: int) -> Transform:
-    def transform(color: NDArray) -> NDArray:
+def _cut_off(of: Callable[[Array], Array], levels: int) -> Transform:
+    def transform(color: Array) -> Array:
         stored = levels * curve(np.clip(of(color), 0, 1))
         return curve_undone(np.floor(stored + 1e-6) / levels)
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, Floats, Index
 from ...tracer import plane, shading
 from ...tracer.camera import camera_rays, film_of
 from ...tracer.hits import NOTHING
@@ -37,14 +37,14 @@ class Coverage(NamedTuple):
     cannot miss.
     """
 
-    pixel: NDArray[np.integer]
-    distance: NDArray[np.float64]
+    pixel: Index
+    distance: Floats
     hits: Hits
     sure: Hits
-    behind: NDArray[np.float64]  # (k,) depth of the sure surface where each of `hits` is
+    behind: Floats  # (k,) depth of the sure surface where each of `hits` is
 
 
-def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
+def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
     """Return what may cover the pixels of a probe, whose samples lie within `band` (n,) pixels."""
     scene, settings = probe.plan.scene, probe.plan.settings
     dtype = settings.precision.dtype
@@ -88,7 +88,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
     return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure, behind)
 
 
-def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
+def _around_centre(probe: Probe, some: Pairs) -> list[Floats]:
     """Corners on the film, each (2, p) pixels from the pixel's centre; NaN behind the eye."""
     out = []
     for corner in some.corners:
@@ -97,7 +97,7 @@ def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
     return out
 
 
-def nearest_to_origin(a: NDArray, b: NDArray, c: NDArray) -> tuple[NDArray, NDArray]:
+def nearest_to_origin(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
     """Return the point of each triangle (a, b, c), (2, n) each, that lies nearest to the origin.
 
     Returns

@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Floats, Mask
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING
@@ -21,6 +22,30 @@ from ..cause import Cause
 from ..picture import Picture
 from .coverage import coverage
 from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
+
+EDGE = Cause(
+    1,
+    "edge",
+    "edge",
+    "{figure:.3g} px from the centre the tracer sees what Blender shows "
+    "(float32 and its rasteriser may be off by {allowed:.3g} px)",
+    "px",
+    (1.0, 0.3, 0.0),
+    explains=True,
+    rounding=True,
+)
+DEPTH_TIE = Cause(
+    2,
+    "depth_tie",
+    "depth tie",
+    "what Blender shows lies {figure:.3g} m behind what the tracer sees "
+    "(a depth buffer tells {allowed:.3g} m apart there)",
+    "m",
+    (0.0, 0.7, 1.0),
+    explains=True,
+    rounding=True,
+)
+
 
 # Where in the band the tracer is asked again, in widths of it: eight directions on three rings,
 # and eight between them on the rim.
@@ -44,8 +69,8 @@ class _Asked(NamedTuple):
     """What is known of the n pixels of a part, more with each way to ask."""
 
     centre: Hits
-    lost: NDArray[np.bool_]  # where the picture's own method lost what its centre shows
-    found: NDArray[np.float64]  # (2, n) px: how far off the picture's colour is seen, and its owner
+    lost: Mask  # where the picture's own method lost what its centre shows
+    found: Floats  # (2, n) px: how far off the picture's colour is seen, and its owner
     beside: list[Hits]  # of the samples in the band
 
 
@@ -59,7 +84,7 @@ def _look(part: Part) -> Work[None]:
             yield from look(part, asked)
 
 
-def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> NDArray[np.float64]:
+def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> Floats:
     """Return how far off n hits have the picture's colour, and its owner, (2, n) pixels.
 
     Infinitely far where they have not. The two come from two drawings, in which an edge or a tie
@@ -83,7 +108,7 @@ def _beside(part: Part, asked: _Asked) -> Work[None]:
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
         np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
         off = np.where(asked.lost, np.where(other, distance, np.inf), found.max(axis=0))
-        part.settle(off < np.inf, Cause.EDGE, off, part.band)
+        part.settle(off < np.inf, EDGE, off, part.band)
         yield 0.0
         if part.settled:
             return
@@ -102,7 +127,7 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
             tied = gap <= allowed
         color |= tied & picture.same_color(scene, hits)
         owner |= tied & ~picture.other_object(hits.instance)
-        part.settle(tied & color & owner, Cause.DEPTH_TIE, gap, allowed)
+        part.settle(tied & color & owner, DEPTH_TIE, gap, allowed)
         yield 0.0
         if part.settled:
             return
@@ -125,10 +150,10 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
         np.minimum.at(side, may.pixel[visible], off[visible])
     np.minimum(found, np.where(np.isinf(closed), nothing, np.inf), out=found)
     off = found.max(axis=0)
-    part.settle((off < np.inf) & ~asked.lost, Cause.EDGE, off, width)
+    part.settle((off < np.inf) & ~asked.lost, EDGE, off, width)
 
 
-def _closed(scene: Scene, beside: list[Hits], asks: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _closed(scene: Scene, beside: list[Hits], asks: Mask) -> Floats:
     """Return how far off n pixels surely see a surface, though each triangle may end there, (n,).
 
     Infinitely far where they need not. Triangles that share an edge, or a corner all around it,

@@ -10,17 +10,29 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Mask
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.render import steps
 from ...tracer.settings import Settings
 from ..case import Alternative
-from ..cause import Cause, Hidden
+from ..cause import AGREE, Cause, Hidden
 from . import edges
 from .probe import OpenPixels, blocks
+
+HIDDEN = Cause(
+    10,
+    "hidden",
+    "hidden for one side",
+    "only one side shows {name}",
+    "index",
+    (0.08, 0.2, 0.08),
+    explains=True,
+    warns=True,
+)
+
 
 CONFIRMED = 0.5  # of the pixels that an alternative changes
 
@@ -32,7 +44,7 @@ def check(pixels: OpenPixels) -> Work[None]:
         if name in why:
             where = pixels.open & (pixels.picture.owner == number)
             if where.any():
-                pixels.settle(where, Cause.HIDDEN, _named(pixels, Hidden(name, why[name])))
+                pixels.settle(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
             yield 0.0
     alternatives = pixels.case.alternatives
     for number, other in enumerate(alternatives):
@@ -57,17 +69,17 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
     changed = (traced.color != pixels.frame.color).any(axis=-1)
-    changed &= pixels.open | (pixels.out.cause == Cause.AGREE)
+    changed &= pixels.open | (pixels.out.cause == AGREE)
     changed &= ~picture.colorless[traced.instance_index]  # any colour would be the right one
     if (same & changed).sum() <= CONFIRMED * changed.sum():
         return
     same &= changed & pixels.open
-    pixels.settle(same, Cause.HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
+    pixels.settle(same, HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
     # Its edges are as uncertain as those of the traced scene.
     yield from scaled(edges.check(there), 0.5, 0.5)
 
 
-def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, NDArray[np.bool_]]]:
+def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Mask]]:
     """Trace the case's scene, which is not the one that was; return which pixels show that."""
     scene, picture = pixels.case.scene, pixels.picture
     traced = Frame.empty(scene)

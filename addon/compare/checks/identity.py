@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Mask, Places
 from ...scene import Scene
 from ...tracer import shading
 from ...tracer.frame import Frame
@@ -45,7 +45,7 @@ def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
     return replace(case, picture=replace(picture, owner=owner))
 
 
-def _colors(scene: Scene, instances: NDArray[np.intp]) -> NDArray[np.float32]:
+def _colors(scene: Scene, instances: Places) -> Colors:
     """Return the colours that some instances, planes and the background may have, (m, 4)."""
     first, last = (rows[instances] for rows in scene.color_rows)
     ends = np.unique(np.stack((first, last)), axis=1).T
@@ -53,7 +53,7 @@ def _colors(scene: Scene, instances: NDArray[np.intp]) -> NDArray[np.float32]:
     return np.unique(scene.color_table[rows], axis=0)
 
 
-def _may_have(picture: Picture, colors: NDArray[np.float32]) -> NDArray[np.bool_]:
+def _may_have(picture: Picture, colors: Colors) -> Mask:
     """Return which of n pixels show one of the colours (m, 4)."""
     shown = np.zeros(len(picture.color), bool)
     for color in colors:

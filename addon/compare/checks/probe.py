@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Floats, Index, Mask, Places
 from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays
@@ -26,7 +27,7 @@ from ...tracer.shading import interpolated, positions
 from ...tracer.vector import groups
 from ..bounds import depth_resolution, view_error
 from ..case import Case
-from ..cause import Cause, Causes
+from ..cause import AGREE, Cause, Causes
 from ..picture import Picture
 
 # A method that loses hits would find at some sample or other whatever Blender shows.
@@ -51,19 +52,19 @@ class OpenPixels:
     frame: Frame  # what was traced
     picture: Picture  # (h, w): the case's, as it is seen once a transform of its colours is found
     out: Causes  # what has been found
-    open: NDArray[np.bool_]  # (h, w)
-    band: NDArray[np.float64]  # (h, w) pixels: how far from its centre Blender's sample may lie
+    open: Mask  # (h, w)
+    band: Floats  # (h, w) pixels: how far from its centre Blender's sample may lie
 
     def settle(
         self,
-        where: NDArray[np.bool_],
+        where: Mask,
         cause: Cause,
         figure: ArrayLike = np.nan,
         allowed: ArrayLike = np.nan,
-        at: tuple[NDArray[np.intp], ...] | None = None,
+        at: tuple[Places, ...] | None = None,
     ) -> None:
         """Give pixels that have none a cause: those of `where`, (h, w), or (n,) of those `at`."""
-        where = where & (self.out.cause[... if at is None else at] == Cause.AGREE)
+        where = where & (self.out.cause[... if at is None else at] == AGREE)
         given = where if at is None else tuple(v[where] for v in at)
         self.out.cause[given], self.open[given] = cause, False
         for values, own in ((self.out.figure, figure), (self.out.allowed, allowed)):
@@ -83,12 +84,12 @@ class Probe:
     """Some pixels of a tile, with every triangle that rays near their centres may meet."""
 
     plan: Plan
-    px: NDArray[np.float64]  # (n,) film positions of the centres, in pixels of the whole picture
-    py: NDArray[np.float64]
+    px: Floats  # (n,) film positions of the centres, in pixels of the whole picture
+    py: Floats
     chunks: list[Pairs]  # `pixel` numbers the n pixels
 
     @classmethod
-    def of(cls, plan: Plan, tile: Region, wanted: NDArray[np.bool_]) -> Work[Probe]:
+    def of(cls, plan: Plan, tile: Region, wanted: Mask) -> Work[Probe]:
         """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
 
         Yields the share of the work done; returns the probe.
@@ -100,7 +101,7 @@ class Probe:
             yield share
         return cls(plan, *film_positions(tile, pixel=np.flatnonzero(wanted)), chunks)
 
-    def points(self, hits: Hits) -> NDArray[np.float64]:
+    def points(self, hits: Hits) -> Floats:
         """Return where the rays through the n centres end, (n, 3) world space."""
         return positions(camera_rays(self.plan.scene.camera, self.px, self.py), hits)
 
@@ -127,7 +128,7 @@ class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
 
     pixels: OpenPixels  # of the part's rows
-    wanted: NDArray[np.bool_]  # (rows, w): where the n pixels are
+    wanted: Mask  # (rows, w): where the n pixels are
     probe: Probe
 
     @cached_property
@@ -136,7 +137,7 @@ class Part:
         return self.pixels.case.scene
 
     @cached_property
-    def at(self) -> tuple[NDArray[np.intp], ...]:
+    def at(self) -> tuple[Places, ...]:
         """The rows and columns of the n pixels."""
         return np.nonzero(self.wanted)
 
@@ -146,7 +147,7 @@ class Part:
         return self.pixels.picture.at(self.at)
 
     @cached_property
-    def band(self) -> NDArray[np.float64]:
+    def band(self) -> Floats:
         """How far from the n centres Blender's samples may lie, in pixels."""
         return self.pixels.band[self.at]
 
@@ -155,13 +156,11 @@ class Part:
         """Whether no pixel is left."""
         return not self.pixels.open[self.at].any()
 
-    def settle(
-        self, where: NDArray[np.bool_], cause: Cause, figure: ArrayLike, allowed: ArrayLike
-    ) -> None:
+    def settle(self, where: Mask, cause: Cause, figure: ArrayLike, allowed: ArrayLike) -> None:
         """Give those of the n pixels a cause that have none yet."""
         self.pixels.settle(where, cause, figure, allowed, self.at)
 
-    def resolution(self, hits: Hits) -> NDArray[np.float64]:
+    def resolution(self, hits: Hits) -> Floats:
         """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
         seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
         found = hits.take(seen)
@@ -174,7 +173,7 @@ def by_parts(
     pixels: OpenPixels,
     plan: Plan,
     look: Callable[[Part], Work[None]],
-    asked: NDArray[np.bool_] | bool = True,
+    asked: Mask | bool = True,
 ) -> Work[None]:
     """Have `look` settle the open pixels of a whole picture, a part of it at a time.
 
@@ -189,7 +188,7 @@ def by_parts(
             yield done + 0.5 * size
 
 
-def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[NDArray[np.bool_]]:
+def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Mask]:
     """Return which open pixels, (h, w), show the colour and the object of something near them.
 
     What the others show no ray sees that passes within the plan's reach, at whatever depth.
@@ -213,9 +212,7 @@ def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[NDArray[np.bool_]]:
     return out
 
 
-def _shown(
-    picture: Picture, scene: Scene, instance: NDArray[np.integer], triangle: NDArray[np.integer]
-) -> NDArray[np.bool_]:
+def _shown(picture: Picture, scene: Scene, instance: Index, triangle: Index) -> Mask:
     """Return where n pixels show the colour of a triangle, and its object, (2, n).
 
     Between corners, a triangle may have any colour.
@@ -226,9 +223,7 @@ def _shown(
     return np.stack((color, ~picture.other_object(instance)))
 
 
-def parts_of(
-    scene: Scene, open_: NDArray[np.bool_], most: int
-) -> list[tuple[Region, slice, NDArray[np.bool_]]]:
+def parts_of(scene: Scene, open_: Mask, most: int) -> list[tuple[Region, slice, Mask]]:
     """Return parts of whole rows with about `most` open pixels, as tiles and rows, and these."""
     r = scene.camera.region
     return [

@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Floats, Mask, Numbers
 from ...manifest import Effect
 from ...scene import Camera
 from ...tracer.camera import film_of
@@ -22,13 +22,25 @@ from ...tracer.hits import NOTHING
 from ...tracer.progress import Work, scaled
 from ..bounds import largest_within
 from ..case import Case
-from ..cause import Cause
+from ..cause import NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause
 from ..picture import Picture
 from . import edges
 from .hidden import traced_instead
 from .probe import OpenPixels, blocks
 
-_FINAL = (Cause.UNEXPLAINED, Cause.NOT_TRACED, Cause.NOT_DECIDABLE)  # whatever is drawn over it
+NOT_MODELLED = Cause(
+    3,
+    "not_modelled",
+    "not modelled",
+    "{name} changes the pixel",
+    "index",
+    (0.3, 0.08, 0.9),
+    explains=True,
+    warns=True,
+)
+
+
+_FINAL = (UNEXPLAINED, NOT_TRACED, NOT_DECIDABLE)  # whatever is drawn over it
 
 
 def as_known(case: Case) -> Picture:
@@ -42,12 +54,12 @@ def as_known(case: Case) -> Picture:
     return replace(picture, color=color)
 
 
-def known_beneath(picture: Picture) -> NDArray[np.bool_]:
+def known_beneath(picture: Picture) -> Mask:
     """Return where, (h, w), it is known what lies beneath something that draws itself."""
     return (picture.drawn != NOTHING) & np.isfinite(picture.beneath).all(axis=-1)
 
 
-def blind(case: Case, frame: Frame) -> NDArray[np.int32]:
+def blind(case: Case, frame: Frame) -> Numbers:
     """Return which feature keeps each pixel from being judged, (h, w): its index, else NOTHING."""
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
     out = np.full(frame.shape, NOTHING, np.int32)
@@ -81,7 +93,7 @@ def check_in_place(pixels: OpenPixels) -> Work[None]:
     number = np.where(drawn | (own == NOTHING), number, own)  # hair before glass: it is glass
     recolored |= own != NOTHING
     recolored &= ~picture.other_object(pixels.frame.instance_index)
-    pixels.settle(pixels.open & (drawn | recolored), Cause.NOT_MODELLED, number)
+    pixels.settle(pixels.open & (drawn | recolored), NOT_MODELLED, number)
     yield 1.0
 
 
@@ -100,9 +112,7 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
         yield from scaled(_see(pixels, picture, front != NOTHING, front), 0.5, 0.5)
 
 
-def _see(
-    pixels: OpenPixels, picture: Picture, kept: NDArray[np.bool_], feature: NDArray[np.int32]
-) -> Work[None]:
+def _see(pixels: OpenPixels, picture: Picture, kept: Mask, feature: Numbers) -> Work[None]:
     """Settle open pixels that show what some of the instances and planes (k + 1,) do alone."""
     scene = pixels.case.scene
     shown = (*scene.instances, *scene.planes)
@@ -121,7 +131,7 @@ def _see(
     where = pixels.open & same & (number != NOTHING)
     any_color = where & ~picture.known(number) & picture.colorless[traced.instance_index]
     pixels.out.blind[any_color] = number[any_color]
-    pixels.settle(where, Cause.NOT_MODELLED, number)
+    pixels.settle(where, NOT_MODELLED, number)
     yield from scaled(edges.check(there), 0.5, 0.5)
 
 
@@ -132,7 +142,7 @@ def check_everywhere(pixels: OpenPixels) -> Work[None]:
             where = pixels.open
             if feature.effect is Effect.LIGHT:  # it does not put another object there
                 where = where & ~pixels.picture.other_object(pixels.frame.instance_index)
-            pixels.settle(where, Cause.NOT_MODELLED, float(number))
+            pixels.settle(where, NOT_MODELLED, float(number))
             yield 0.0
 
 
@@ -145,12 +155,12 @@ def settle_drawn(pixels: OpenPixels) -> Work[None]:
         part = own.at(rows)
         over = known_beneath(part) & part.other_color(pixels.frame.color[rows])
         over &= ~np.isin(out.cause[rows], _FINAL)
-        out.cause[rows][over] = Cause.NOT_MODELLED
+        out.cause[rows][over] = NOT_MODELLED
         out.figure[rows][over], out.allowed[rows][over] = part.drawn[over], np.nan
         yield 1.0
 
 
-def covered(camera: Camera, bounds: NDArray[np.float64]) -> NDArray[np.bool_]:
+def covered(camera: Camera, bounds: Floats) -> Mask:
     """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
     r = camera.region
     corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8)

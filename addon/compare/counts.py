@@ -1,0 +1,76 @@
+"""Counts pixels by what is said of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Bytes, Mask
+from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Causes
+from .causes import CAUSES
+from .identity import Identity
+
+EXAMPLES = 10  # pixels named of each cause
+
+
+def count_pixels(
+    causes: Causes,
+    at_boundary: Mask,
+    identity: Identity | None = None,
+    features: Sequence[str] = (),
+) -> dict[str, Any]:
+    """Count pixels by what is said of them, and those at boundaries and inside apart.
+
+    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
+    `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
+    lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
+    unexplained is a wrong colour (the same object) or a wrong object. `not_judged` counts pixels
+    in which a fault would be excused, and by which of the unmodelled features excuses it.
+    """
+    cause = causes.cause
+    out = _counts(cause)
+    out["interior"] = _counts(cause[~at_boundary])
+    out["boundary"] = _counts(cause[at_boundary])
+    out["examples"] = {
+        c.key: _positions(cause == c) for c in sorted(CAUSES) if out["by_cause"].get(c.key)
+    }
+    blind = causes.blind[causes.blind >= 0]
+    found, count = np.unique(blind, return_counts=True)
+    by_feature: Counter[str] = Counter()
+    for n, many in zip(found, count, strict=True):
+        by_feature[features[n]] += int(many)
+    out["not_judged"] = {
+        "pixels": len(blind),
+        "share": len(blind) / max(cause.size, 1),
+        "by_feature": dict(by_feature.most_common()),
+    }
+    if identity is not None:
+        out["unexplained_shows"] = identity.counts(cause == UNEXPLAINED)
+    return out
+
+
+def _counts(cause: Bytes) -> dict[str, Any]:
+    count = {c: int((cause == c).sum()) for c in sorted(CAUSES)}
+    explained = sum(n for c, n in count.items() if c.explains)
+    return {
+        "total": cause.size,
+        "agree": count[AGREE],
+        "differ": explained + count[UNEXPLAINED],
+        "explained": explained,
+        "unexplained": count[UNEXPLAINED],
+        "not_decidable": count[NOT_DECIDABLE],
+        "not_traced": count[NOT_TRACED],
+        "by_cause": {
+            c.key: n for c, n in count.items() if c.explains or c in (UNEXPLAINED, NOT_DECIDABLE)
+        },
+    }
+
+
+def _positions(where: Mask) -> list[list[int]]:
+    """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
+    found = np.flatnonzero(where)
+    chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)
+    return [[int(i % where.shape[1]), int(i // where.shape[1])] for i in found[chosen]]
