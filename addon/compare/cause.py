@@ -46,6 +46,7 @@ class Cause(int):
     see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
 
     def __new__(cls, number: int, *_: object, **__: object) -> Self:
+        """Return the number, to which the record's fields are added."""
         return super().__new__(cls, number)
 
     def __post_init__(self) -> None:

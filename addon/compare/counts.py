@@ -1,4 +1,4 @@
-"""Counts pixels by what is said of them."""
+"""Counts a comparison's pixels by their causes."""
 
 from __future__ import annotations
 
@@ -22,13 +22,27 @@ def count_pixels(
     identity: Identity | None = None,
     features: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Count pixels by what is said of them, and those at boundaries and inside apart.
+    """Count pixels by their causes: all of them, then those at boundaries and inside.
 
-    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
-    `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
-    lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
-    unexplained is a wrong colour (the same object) or a wrong object. `not_judged` counts pixels
-    in which a fault would be excused, and by which of the unmodelled features excuses it.
+    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained.
+
+    Parameters
+    ----------
+    causes : Causes
+        Of each pixel (h, w).
+    at_boundary : (h, w) bool
+    identity : Identity, optional
+        Which objects are shown. Then `unexplained_shows` counts how many unexplained pixels show
+        the same object in a wrong colour, and how many a wrong object.
+    features : sequence of str
+        What the tracer does not model; `not_judged` counts the pixels in which one of these would
+        excuse a fault.
+
+    Returns
+    -------
+    dict
+        As JSON can hold it. `examples` has some pixels of each cause, spread over them, [x, y] of
+        the region from its lower left.
     """
     cause = causes.cause
     out = _counts(cause)

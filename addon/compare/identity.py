@@ -1,9 +1,9 @@
-"""Whose surface each pixel shows, on both sides, and numbers as colours that survive a renderer.
+"""Tells which object each pixel shows on both sides, by colours that stand for numbers.
 
 A picture in which every object has a colour of its own says which object Blender shows. A number
-becomes three digits of LEVELS, one a channel, whose sum is even: half floats and steps of 1/255 are
-far smaller than a digit's step, and a mix of two colours, or a colour that is nobody's, mostly
-falls between digits or has an odd sum. Then nothing is said.
+becomes three digits of LEVELS, one a channel, with an even sum. Half floats and steps of 1/255 are
+far smaller than a digit's step, so a renderer does not change a digit. A mix of two colours mostly
+falls between digits, or has an odd sum: then the object is not known.
 """
 
 from __future__ import annotations
@@ -18,22 +18,19 @@ from ..runs import by_runs
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
-MOST_OBJECTS = LEVELS**3 // 2  # objects that are told apart
-_OFF = 0.1  # of a step: so far a channel may lie from its digit (1/255 is 0.12 of one, halved)
+MOST_OBJECTS = LEVELS**3 // 2  # that can be told apart
+_OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 is 0.06)
 
 
 class Identity(NamedTuple):
-    """Which object each side shows.
-
-    `traced` and `shown` are (h, w) int32: indices into `names`, NOTHING or UNKNOWN.
-    """
+    """Which object each side shows."""
 
     names: tuple[str, ...]
-    traced: Numbers
-    shown: Numbers
+    traced: Numbers  # (h, w) indices into `names`, or NOTHING
+    shown: Numbers  # (h, w) indices into `names`, NOTHING or UNKNOWN
 
     def counts(self, where: Mask | bool = True) -> dict[str, int]:
-        """Count the pixels (of some) that show the same object, another, or what is not known."""
+        """Count the pixels, or some, that show the same object, another, or one not known."""
         unknown = self.shown == UNKNOWN
         same = self.shown == self.traced
         return {
@@ -66,10 +63,10 @@ def colors_of(count: int) -> Colors:
 
 
 def decode(picture: Reals, count: int) -> Numbers:
-    """Return the numbers (h, w) that a picture's colours (h, w, 4) stand for.
+    """Return the numbers (h, w) that a picture's colours stand for.
 
-    Linear RGBA, premultiplied: NOTHING where it is transparent, UNKNOWN where it is none of the
-    first `count` colours.
+    The picture is (h, w, 4), linear RGBA, premultiplied. A pixel is NOTHING where it is
+    transparent, and UNKNOWN where it has none of the first `count` colours.
     """
     flat = picture.reshape(-1, picture.shape[-1])
     return by_runs(lambda some: _decode(some, count), flat).reshape(picture.shape[:-1])

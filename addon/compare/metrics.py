@@ -18,7 +18,7 @@ _ROWS, _COLUMNS = 32, 64  # looked at together, so that a step is short
 
 
 def rmse(first: Array, second: Array) -> float:
-    """Return the root of the mean squared difference over all pixels and channels.
+    """Return the root of the mean squared difference over all pixels and channels of (h, w, c).
 
     Raises
     ------
@@ -35,12 +35,16 @@ def psnr(error: float, data_range: float = 1.0) -> float:
 
 
 def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) -> Work[float]:
-    """Return the mean structural similarity of two pictures, 1 for equal ones.
+    """Return the mean structural similarity of two pictures (h, w, c), 1 for equal ones.
 
+    The window is uniform, `size` x `size` pixels, or in smaller pictures the largest odd one that
+    fits. Covariances are of samples, K1 = 0.01 and K2 = 0.03. The mean is over the windows that lie
+    inside the picture, and over the channels.
+
+    References
+    ----------
     Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to
-    structural similarity", 2004; with a uniform window of `size` x `size` pixels, sample
-    covariances, K1 = 0.01 and K2 = 0.03, averaged over the windows that lie inside the picture and
-    over the channels. Smaller pictures take the largest odd window that fits.
+    structural similarity", 2004.
     """
     _same_shape(first, second)
     shortest = min(first.shape[:2])
@@ -50,19 +54,21 @@ def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) ->
         for x in range(0, width, _COLUMNS):
             rows, columns = min(_ROWS, height - y), min(_COLUMNS, width - x)
             part = np.s_[y : y + rows + size - 1, x : x + columns + size - 1]
-            sides = first[part], second[part]
-            if all((side == side[0, 0]).all() for side in sides):  # each window is as the others
-                sides = tuple(side[:size, :size] for side in sides)
-            total += rows * columns * _similarity(*sides, data_range, size).mean(axis=(0, 1)).sum()
+            one, other = first[part], second[part]
+            if (one == one[0, 0]).all() and (other == other[0, 0]).all():
+                # All windows are alike: one is enough.
+                one, other = one[:size, :size], other[:size, :size]
+            similarity = _similarity(one, other, data_range, size)
+            total += rows * columns * similarity.mean(axis=(0, 1)).sum()
         yield y / height
     return float(total / (height * width * first.shape[2]))
 
 
-def _similarity(first: Array, second: Array, data_range: float, size: int) -> Array:
+def _similarity(first: Array, second: Array, data_range: float, size: int) -> Floats:
     """Return the similarity of every window and channel."""
     x, y = first.astype(np.float64), second.astype(np.float64)
     samples = size * size
-    unbiased = samples / (samples - 1) if samples > 1 else 1.0
+    unbiased = samples / (samples - 1) if samples > 1 else 1.0  # of covariances
     ux, uy = _window_mean(x, size), _window_mean(y, size)
     vx = unbiased * (_window_mean(x * x, size) - ux * ux)
     vy = unbiased * (_window_mean(y * y, size) - uy * uy)
@@ -75,18 +81,19 @@ def largest_difference(first: Array, second: Array) -> dict[str, Any]:
     """Return the largest absolute difference, with the pixel (x, y; row 0 first) and channel."""
     _same_shape(first, second)
     difference = np.abs(first.astype(np.float64) - second)
-    y, x, channel = np.unravel_index(int(difference.argmax()), difference.shape)
+    y, x, channel = np.unravel_index(int(np.argmax(difference)), difference.shape)
     value = float(difference[y, x, channel])
     return {"value": value, "pixel": [int(x), int(y)], "channel": int(channel)}
 
 
 def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
-    """Measure how far two pictures of linear RGBA differ; what is not a number counts as 0.
+    """Measure how far two pictures (h, w, 4) of linear RGBA differ; NaN counts as 0.
 
-    RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
+    Returns RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
     """
     a, b = np.empty_like(traced), np.empty_like(picture)
-    height, squares, largest = len(a), 0.0, {"value": -1.0}
+    height, squares = len(a), 0.0
+    largest: dict[str, Any] = {"value": -1.0}
     for start in range(0, height, _ROWS):
         rows = slice(start, min(start + _ROWS, height))
         for made, of in ((a, traced), (b, picture)):
@@ -94,23 +101,30 @@ def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
         squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
         found = largest_difference(a[rows], b[rows])
         if found["value"] > largest["value"]:
-            largest = found | {"pixel": [found["pixel"][0], found["pixel"][1] + start]}
+            x, y = found["pixel"]
+            largest = found | {"pixel": [x, y + start]}
         yield 0.2 * start / height
     error = float(np.sqrt(squares / height))
     similarity = yield from scaled(ssim(a, b), 0.2, 0.8)
-    told = {"rmse": error, "psnr": psnr(error) if error else None, "ssim": similarity}
-    return told | {"largest_difference": largest}
+    return {
+        "rmse": error,
+        "psnr": psnr(error) if error else None,
+        "ssim": similarity,
+        "largest_difference": largest,
+    }
 
 
 def _window_mean(picture: Floats, size: int) -> Floats:
     """Return the mean over every size x size window; sums of 1, 2, 4... make up those of `size`."""
     for axis in (0, 1):
         picture = picture.swapaxes(axis, 0)
-        count, sums, done, total = len(picture) - size + 1, picture, 0, 0.0
+        count = len(picture) - size + 1
+        sums, done = picture, 0
+        total = np.zeros_like(picture[:count])
         for bit in range(size.bit_length()):
             step = 1 << bit
             if size & step:
-                total = total + sums[done : done + count]
+                total += sums[done : done + count]
                 done += step
             sums = sums[:-step] + sums[step:]
         picture = (total / size).swapaxes(axis, 0)
@@ -125,9 +139,9 @@ def _same_shape(first: Array, second: Array) -> None:
 
 
 def boundary(frame: Frame) -> Mask:
-    """Return which pixels see, with the eight around them, more than one appearance of an object.
+    """Return which pixels (h, w) see another instance than one of the eight pixels around them.
 
-    The background is one, too. Beyond the picture's rim is what its outermost pixels see.
+    The background counts as an instance.
     """
     seen = frame.instance_index
     return (largest_within(seen, 1) != seen) | (largest_within(-seen, 1) != -seen)

@@ -19,12 +19,12 @@ from reference_tracer.compare.causes import (
 from reference_tracer.compare.comparison import (
     EXIT_CODES,
     SCHEMA,
-    SizeError,
     compare,
     trace_and_compare,
 )
 from reference_tracer.compare.counts import count_pixels
 from reference_tracer.compare.metrics import boundary
+from reference_tracer.compare.picture import SizeError
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
