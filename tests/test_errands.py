@@ -116,7 +116,7 @@ CAUSE = {
         ")\n\n\n"
         "def check(pixels):\n"
         "    white = (pixels.picture.color == 1).all(axis=-1)\n"
-        "    pixels.settle(pixels.open & white, COMET, 7.0, 9.0)\n"
+        "    pixels.give(pixels.open & white, COMET, 7.0, 9.0)\n"
         "    yield 1.0\n",
     ),
     "compare/causes.py": (

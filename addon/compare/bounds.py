@@ -26,9 +26,9 @@ SNAPPING = 1 / 256
 
 # A vertex goes through three float32 products: model, view, projection. The model's rounds each
 # component 4 times, in terms with absolute values that sum up to |M| |v|. The view's rounds it 4
-# times, and its matrix was inverted in float32 (8 more), in terms up to |p| + |o|. (v is the vertex in its
-# object's space, p in world space, o the camera; norms are sums of absolute values.) The error of a
-# point of a triangle is that of its corners, weighed by its barycentrics.
+# times, and its matrix was inverted in float32 (8 more), in terms up to |p| + |o|. (v is the vertex
+# in its object's space, p in world space, o the camera; norms are sums of absolute values.) A point
+# of a triangle has the errors of the corners, weighed by its barycentrics.
 _MODEL, _VIEW = 4, 12
 # The projection rounds a film position a few times more, and so does the division by w.
 _FILM = 4

@@ -64,7 +64,9 @@ def list_methods(
     return tuple(rows), frames[textbook]
 
 
-def _row(way: tuple[Method, str], samples: int, frame: Frame, truth: Frame | None) -> MethodRow:
+def _row(
+    way: tuple[Method, Precision], samples: int, frame: Frame, truth: Frame | None
+) -> MethodRow:
     wrong, ambiguous = None, 0
     if truth is not None:
         wrong = int(frame.wrong_against(truth).sum())

@@ -115,11 +115,11 @@ class Picture:
                 f"The picture has {own[1]} x {own[0]} pixels, the traced one {shape[1]} x "
                 f"{shape[0]}."
             )
-        if self.off_center >= DECIDABLE:
+        if SNAPPING + self.off_center >= DECIDABLE:
             raise SceneError(
-                f"{self.source} cannot be compared: its samples may lie {self.off_center:.3g} px "
-                f"from the pixels' centres (sampled within {self.sample_radius:.3g} px, corners "
-                f"rounded to {self.snapping:.3g} px), which must be less than {DECIDABLE} px."
+                f"{self.source} cannot be compared: it is sampled up to {self.sample_radius:.3g} "
+                f"px from the pixels' centres, and corners are rounded to {self.snapping:.3g} px. "
+                f"Together these must be less than {DECIDABLE} px."
             )
 
     def at(self, where: Where) -> Picture:

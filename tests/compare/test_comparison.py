@@ -24,9 +24,10 @@ from reference_tracer.compare.comparison import (
 )
 from reference_tracer.compare.counts import count_pixels
 from reference_tracer.compare.metrics import boundary
-from reference_tracer.compare.picture import SizeError
+from reference_tracer.compare.picture import Picture, SizeError, Source
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.rendering import render
+from reference_tracer.scene import SceneError
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
@@ -217,6 +218,24 @@ def test_lines_say_the_verdict_and_every_cause(scene):
 def test_sizes_must_match(scene, shape):
     with pytest.raises(SizeError, match=f"{shape[1]} x {shape[0]}.*20 x 16"):
         compared(scene, np.zeros(shape, np.float32))
+
+
+@pytest.mark.parametrize(
+    ("sampling", "told"),
+    [
+        ({"sample_radius": 0.6}, "up to 0.6 px"),
+        ({"sample_radius": 0.4965}, "up to 0.4.* px"),  # with the rounding of corners it is too far
+        ({"snapping": 0.5}, "rounded to 0.5 px"),
+        ({"sample_radius": 0.3, "snapping": 0.25}, "up to 0.3 px.*rounded to 0.25 px"),
+    ],
+)
+def test_samples_far_from_the_centres_are_refused(scene, sampling, told):
+    """No pixel could be decided: the fault is the judge's, not the scene's."""
+    picture = Picture(render(scene).color, Source("draft", "5.2.3"), **sampling)
+    with pytest.raises(SceneError, match=f"Blender's draft picture cannot be compared.*{told}"):
+        result_of(trace_and_compare(case_of(scene, picture)))
+    with pytest.raises(SceneError, match=told):
+        compared(scene, picture)
 
 
 def test_tracing_and_comparing_in_one(scene):
