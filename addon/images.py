@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import Array, Bytes, Colors, Floats, Reals
+from .arrays import Array, Bytes, Colors, Floats
 from .runs import by_runs
 
 _LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
@@ -33,7 +33,7 @@ class MissingLibraryError(RuntimeError):
     """An optional library is not installed; the message says how to get it."""
 
 
-def to_display(color: Reals) -> Bytes:
+def to_display(color: Floats) -> Bytes:
     """Return what a screen shows of linear RGBA with premultiplied alpha, (h, w, 4) uint8.
 
     The transfer function is sRGB's (IEC 61966-2-1), Blender's view transform 'Standard'; values are
@@ -47,7 +47,7 @@ def to_display(color: Reals) -> Bytes:
     return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
 
 
-def encoded(color: Reals) -> Floats:
+def encoded(color: Floats) -> Floats:
     """Return linear premultiplied RGBA or RGB (..., 4 or 3) as sRGB's curve, straight, 0 to 1."""
     color = np.asarray(color, dtype=np.float64)
     alpha = np.clip(color[..., 3:], 0, 1)
@@ -57,7 +57,7 @@ def encoded(color: Reals) -> Floats:
     return np.concatenate((curve(np.clip(straight, 0, 1)), alpha), axis=-1)
 
 
-def decoded(stored: Reals) -> Floats:
+def decoded(stored: Floats) -> Floats:
     """Return what :func:`encoded` was made of: linear RGBA or RGB, alpha premultiplied."""
     stored = np.asarray(stored, dtype=np.float64)
     linear, alpha = curve_undone(stored[..., :3]), stored[..., 3:]
@@ -66,13 +66,13 @@ def decoded(stored: Reals) -> Floats:
     return np.concatenate((linear, alpha), axis=-1)
 
 
-def curve(linear: Reals) -> Floats:
+def curve(linear: Floats) -> Floats:
     """Return sRGB's transfer function (IEC 61966-2-1) of linear values, 0 to 1."""
     with np.errstate(invalid="ignore"):
         return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-def curve_undone(stored: Reals) -> Floats:
+def curve_undone(stored: Floats) -> Floats:
     """Return the linear values of which :func:`curve` makes the stored ones."""
     return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
 

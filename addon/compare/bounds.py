@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Array, Floats, Mask
+from ..arrays import Array, Bools, Floats
 from ..images import encoded
 from ..runs import run_starts
 from ..scene import Camera, Scene
@@ -121,11 +121,11 @@ def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
 def differing(
     first: Array,
     second: Array,
-    interpolated: Mask | bool = False,
+    interpolated: Bools | bool = False,
     levels: int = 0,
     sums: int = 0,
     dither: float = 0.0,
-) -> Mask:
+) -> Bools:
     """Return which pixels of two (..., c) pictures differ by more than :func:`difference` allows.
 
     What is not finite differs from everything.
@@ -139,7 +139,7 @@ def differing(
 def difference(
     first: Array,
     second: Array,
-    interpolated: Mask | bool = False,
+    interpolated: Bools | bool = False,
     levels: int = 0,
     sums: int = 0,
     dither: float = 0.0,

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from ..arrays import Colors, Mask, Numbers
+from ..arrays import Bools, Colors, Integers
 from ..manifest import Effect, Manifest
 from ..scene import Scene
 from ..tracer.coloring import Color
@@ -48,7 +48,7 @@ class Case:
         if self.settings.color != Color.OBJECT:
             object.__setattr__(self, "settings", replace(self.settings, color=Color.OBJECT))
 
-    def feature_of(self, effect: Effect) -> Numbers:
+    def feature_of(self, effect: Effect) -> Integers:
         """Return which feature with an effect each instance has, then each plane, (k + 1,).
 
         It is an index into the manifest's `unmodelled`; NOTHING for none, and at the end.
@@ -59,7 +59,7 @@ class Case:
         return np.array([*found, NOTHING], np.int32)[self.scene.instance_objects]
 
     @property
-    def colorless(self) -> Mask:
+    def colorless(self) -> Bools:
         """Whether each instance, then each plane, has colours that the tracer does not know."""
         return self.feature_of(Effect.COLOR) != NOTHING
 

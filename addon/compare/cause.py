@@ -13,7 +13,7 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from ..arrays import Bytes, Floats, Mask, Numbers, Places
+from ..arrays import Bools, Bytes, Floats, Integers, Places
 
 Color = tuple[float, float, float]
 
@@ -131,7 +131,7 @@ class Causes:
     figure: Floats  # as the cause's sentence says; NaN where there is none
     allowed: Floats  # the bound that the figure was held against
     # The feature of the manifest's `unmodelled` that keeps the pixel from being judged, else -1.
-    blind: Numbers
+    blind: Integers
     hidden: list[Hidden] = field(default_factory=list)  # a figure may be an index into it
     transform: str = ""  # what turns the traced colours into the picture's, in words
     shades: list[Shade] = field(default_factory=list)
@@ -146,6 +146,6 @@ class Causes:
         return cls(np.zeros(shape, np.uint8), figure, figure.copy(), blind)
 
     @property
-    def unjudged(self) -> Mask:
+    def unjudged(self) -> Bools:
         """The pixels (h, w) that cannot be judged: no fault would be found in them."""
         return (self.blind >= 0) | (self.cause == NOT_DECIDABLE)

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Mask, Places
+from ..arrays import Bools, Places
 from ..rendering import steps
 from ..tracer import shading
 from ..tracer.frame import Frame
@@ -144,7 +144,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
         yield 1.0
 
 
-def _thin(open_: Mask, most: int) -> Places:
+def _thin(open_: Bools, most: int) -> Places:
     """Close open pixels until no more than `most` are left; return which were closed."""
     found = np.flatnonzero(open_)
     left = np.linspace(0, len(found) - 1, min(most, len(found))).astype(int)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Bytes, Mask
+from ..arrays import Bools, Bytes
 from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Causes
 from .causes import CAUSES
 from .identity import Identity
@@ -18,7 +18,7 @@ EXAMPLES = 10  # pixels named of each cause
 
 def count_pixels(
     causes: Causes,
-    at_boundary: Mask,
+    at_boundary: Bools,
     identity: Identity | None = None,
     features: Sequence[str] = (),
 ) -> dict[str, Any]:
@@ -83,7 +83,7 @@ def _counts(cause: Bytes) -> dict[str, Any]:
     }
 
 
-def _positions(where: Mask) -> list[list[int]]:
+def _positions(where: Bools) -> list[list[int]]:
     """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
     found = np.flatnonzero(where)
     chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from ..arrays import Array, Mask
+from ..arrays import Array, Bools
 from ..scene import Camera, Instance, Mesh, Scene, ViewWindow
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
@@ -150,7 +150,7 @@ def _dropped_triangle(case: Case, frame: Frame) -> Case | None:
     return case.with_scenes(less)
 
 
-def _part(mesh: Mesh, left: Mask) -> Mesh:
+def _part(mesh: Mesh, left: Bools) -> Mesh:
     """Return the mesh of some of the triangles."""
     colors = None if mesh.corner_colors is None else mesh.corner_colors[left]
     return replace(

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Colors, Mask, Numbers, Reals
+from ..arrays import Bools, Colors, Floats, Integers
 from ..runs import by_runs
 
 NOTHING, UNKNOWN = -1, -2
@@ -26,10 +26,10 @@ class Identity(NamedTuple):
     """Which object each side shows."""
 
     names: tuple[str, ...]
-    traced: Numbers  # (h, w) indices into `names`, or NOTHING
-    shown: Numbers  # (h, w) indices into `names`, NOTHING or UNKNOWN
+    traced: Integers  # (h, w) indices into `names`, or NOTHING
+    shown: Integers  # (h, w) indices into `names`, NOTHING or UNKNOWN
 
-    def counts(self, where: Mask | bool = True) -> dict[str, int]:
+    def counts(self, where: Bools | bool = True) -> dict[str, int]:
         """Count the pixels, or some, that show the same object, another, or one not known."""
         unknown = self.shown == UNKNOWN
         same = self.shown == self.traced
@@ -62,7 +62,7 @@ def colors_of(count: int) -> Colors:
     return (np.stack((red, green, blue), axis=-1) / (LEVELS - 1)).astype(np.float32)
 
 
-def decode(picture: Reals, count: int) -> Numbers:
+def decode(picture: Floats, count: int) -> Integers:
     """Return the numbers (h, w) that a picture's colours stand for.
 
     The picture is (h, w, 4), linear RGBA, premultiplied. A pixel is NOTHING where it is
@@ -72,7 +72,7 @@ def decode(picture: Reals, count: int) -> Numbers:
     return by_runs(lambda some: _decode(some, count), flat).reshape(picture.shape[:-1])
 
 
-def _decode(colors: Reals, count: int) -> Numbers:
+def _decode(colors: Floats, count: int) -> Integers:
     with np.errstate(invalid="ignore"):
         scaled = np.nan_to_num(colors[..., :3].astype(np.float64), nan=0.5) * (LEVELS - 1)
         digits = np.rint(np.clip(scaled, 0, LEVELS - 1)).astype(np.int32)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import Bytes, Colors, Mask
+from ..arrays import Bools, Bytes, Colors
 from ..certainty import Certainty
 from ..images import curve_undone
 from ..runs import by_runs
@@ -30,7 +30,7 @@ def dimmed(color: Colors) -> Colors:
     return out
 
 
-def wrong_map(color: Colors, wrong: Mask) -> Colors:
+def wrong_map(color: Colors, wrong: Bools) -> Colors:
     """Return a map of the pixels (h, w) that are wrong."""
     out = dimmed(color)
     out[wrong, :3] = WRONG
@@ -60,7 +60,7 @@ def certainty_map(color: Colors, certainty: Bytes) -> Colors:
     return out
 
 
-def ringed(color: Colors, where: Mask) -> Colors:
+def ringed(color: Colors, where: Bools) -> Colors:
     """Return a picture with a ring around each of a few pixels (h, w), in the pixel's colour."""
     y, x = np.nonzero(where)
     if not 0 < len(y) <= MOST_RINGS:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Array, Colors, Floats, Mask
+from ..arrays import Array, Bools, Colors, Floats
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .bounds import largest_within
@@ -138,7 +138,7 @@ def _same_shape(first: Array, second: Array) -> None:
         )
 
 
-def boundary(frame: Frame) -> Mask:
+def boundary(frame: Frame) -> Bools:
     """Return which pixels (h, w) see another instance than one of the eight pixels around them.
 
     The background counts as an instance.

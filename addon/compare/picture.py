@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array, Colors, Floats, Index, Mask, Numbers
+from ..arrays import Array, Bools, Colors, Floats, Index, Integers
 from ..runs import by_runs
 from ..scene import Scene, SceneError
 from ..tracer import shading
@@ -59,9 +59,9 @@ class Picture:
     color: Colors  # (..., 4) linear RGBA, alpha premultiplied
     source: Source = Source()
     # (...) which object is shown: an index into `names`, NOTHING or UNKNOWN.
-    owner: Numbers | None = None
+    owner: Integers | None = None
     # (k + 1,) the object of each instance of the traced scene, then of each plane; last NOTHING.
-    owners: Numbers | None = None
+    owners: Integers | None = None
     names: tuple[str, ...] = ()  # of the objects that may be shown
     sample_radius: float = 0.0  # pixels: how far from a pixel's centre it is sampled on purpose
     # Pixels: how far the filter reaches that mixes several samples of a pixel; 0 for one sample.
@@ -75,10 +75,10 @@ class Picture:
     background: Colors | None = None  # (4,) its own, linear RGBA, not transformed
     snapping: float = SNAPPING  # pixels: the step to which its rasteriser rounds triangles' corners
     # Both (k + 1,) as `owners`, last False.
-    colorless: Mask | None = None  # the tracer does not know the instance's colours
-    holes: Mask | None = None  # the instance is shown as if nothing were there
+    colorless: Bools | None = None  # the tracer does not know the instance's colours
+    holes: Bools | None = None  # the instance is shown as if nothing were there
     # (...) the index of the unmodelled feature that draws itself over what is traced, or NOTHING.
-    drawn: Numbers | None = None
+    drawn: Integers | None = None
     beneath: Colors | None = None  # (..., 4) the colour without these features; NaN: not known
 
     def to_dict(self) -> dict[str, Any]:
@@ -132,7 +132,7 @@ class Picture:
             beneath=some(self.beneath, where),
         )
 
-    def of_instances(self, some_of: Mask) -> Picture:
+    def of_instances(self, some_of: Bools) -> Picture:
         """Return the picture as it is of some of the traced scene's instances and planes."""
         return replace(
             self,
@@ -141,16 +141,16 @@ class Picture:
             holes=some(self.holes, some_of),
         )
 
-    def differ(self, scene: Scene, hits: Hits) -> Mask:
+    def differ(self, scene: Scene, hits: Hits) -> Bools:
         """Return which of n hits show something else than these n pixels."""
         return self.other_object(hits.instance) | ~self.same_color(scene, hits)
 
-    def other_color(self, colors: Array, interpolated: Mask | bool = False) -> Mask:
+    def other_color(self, colors: Array, interpolated: Bools | bool = False) -> Bools:
         """Return where the colour is another than (..., 4) traced ones."""
         shape, count = colors.shape[:-1], colors.shape[-1]
         flat = colors.reshape(-1, count), self.color.reshape(-1, self.color.shape[-1])
 
-        def differ(traced: Array, own: Array, between: Array) -> Mask:
+        def differ(traced: Array, own: Array, between: Array) -> Bools:
             first, second = self._sides(traced, own)
             return differing(first, second, between, self.levels, self.sums, self.dither)
 
@@ -184,11 +184,11 @@ class Picture:
                 made = np.where(own, colors, made)
         return made[..., : 3 if self.opaque else 4]
 
-    def other_object(self, instance: Index) -> Mask:
+    def other_object(self, instance: Index) -> Bools:
         """Return where another object is known to be shown than that of the instances (...)."""
         return self.known(instance) & ~self.same_object(instance)
 
-    def same_color(self, scene: Scene, hits: Hits) -> Mask:
+    def same_color(self, scene: Scene, hits: Hits) -> Bools:
         """Return which of n hits may have the colour of these n pixels.
 
         In a lit picture any colour may be right, and so may be that of a colourless surface.
@@ -197,18 +197,18 @@ class Picture:
             return self.known(hits.instance)
         return self.alike(scene, hits.instance, shading.colors(scene, hits))
 
-    def alike(self, scene: Scene, instance: Array, colors: Array) -> Mask:
+    def alike(self, scene: Scene, instance: Array, colors: Array) -> Bools:
         """Return where these pixels may be (..., 4) colours that instances (...) are traced in."""
         if self.holes is not None:
             colors = np.where(self.holes[instance][..., None], np.float32(0), colors)
         same = ~self.other_color(colors, shading.interpolated(scene, instance))
         return same if self.colorless is None else same | self.colorless[instance]
 
-    def known(self, instance: Index) -> Mask:
+    def known(self, instance: Index) -> Bools:
         """Return where it is known which object is shown, in the shape of `instance`."""
         return np.zeros(instance.shape, bool) if self.owner is None else self.owner != UNKNOWN
 
-    def same_object(self, instance: Index) -> Mask:
+    def same_object(self, instance: Index) -> Bools:
         """Return where the object of the instances (...) is known to be shown."""
         if self.owner is None or self.owners is None:
             return np.zeros(instance.shape, bool)
@@ -226,7 +226,7 @@ def straight(colors: Array) -> Floats:
     return colors[..., :3] / np.where(colors[..., 3:] > 0, colors[..., 3:], 1)
 
 
-def numbered(names: Sequence[str], owners: Sequence[str]) -> Numbers:
+def numbered(names: Sequence[str], owners: Sequence[str]) -> Integers:
     """Return the index in `names` of each owner, (k,), and NOTHING at the end: (k + 1,) int32.
 
     An owner that is not among the names gets an index that no pixel has.

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arrays import Mask
+from ..arrays import Bools
 from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
@@ -113,7 +113,7 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     )
 
 
-def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Mask:
+def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
     """Return which pixels (h, w) the fault changes: their colour, or the object that they show."""
     right, picture = case.picture, wrong.picture
     if wrong.scene is case.scene:

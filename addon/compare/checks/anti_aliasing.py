@@ -24,7 +24,7 @@ from itertools import combinations
 
 import numpy as np
 
-from ...arrays import Array, Floats, Mask, Places
+from ...arrays import Array, Bools, Floats, Places
 from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
@@ -124,7 +124,7 @@ def _opposite(count: int) -> Places:
     return index
 
 
-def _owner_seen(part: Part) -> Work[Mask]:
+def _owner_seen(part: Part) -> Work[Bools]:
     """Return where the tracer sees the object that is shown, in the centre or within its band."""
     hits = yield from part.probe.trace()
     seen = ~part.picture.other_object(hits.instance)
@@ -138,7 +138,7 @@ def _owner_seen(part: Part) -> Work[Mask]:
     return seen
 
 
-def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Work[Mask]:
+def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Work[Bools]:
     """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
 
     Some of the filter's samples may hit a crack of float32's, and show any triangle that comes
@@ -170,7 +170,9 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
     return found
 
 
-def is_mix(color: Array, mixed: Array, sums: int = 0, opposite: Places | None = None) -> Work[Mask]:
+def is_mix(
+    color: Array, mixed: Array, sums: int = 0, opposite: Places | None = None
+) -> Work[Bools]:
     """Return which colours (n, c) are a mix of those of (k, n, c), or near to one.
 
     Each of `sums` additions in half floats may lose as much as half a unit of every channel. With
@@ -204,7 +206,7 @@ def _logarithm(color: Array, offset: float = 1.0, channels: int = 3) -> Floats:
     return np.concatenate((logarithms, color[..., channels:]), axis=-1)
 
 
-def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Mask]:
+def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
 
     A target is surely outside once a plane lies between. If colours lie almost on a line, the

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...arrays import Colors, Mask
+from ...arrays import Bools, Colors
 from ...images import encoded
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
@@ -66,7 +66,7 @@ def find_background(
         return None
     own, color = frame.scene.background, np.median(picture.color[nothing], axis=0)
 
-    def has_it(rows: slice) -> Mask:
+    def has_it(rows: slice) -> Bools:
         there = picture.at(rows)
         return nothing[rows] & ~there.other_color(np.broadcast_to(color, there.color.shape))
 
@@ -84,17 +84,17 @@ def find_background(
     return Background(tuple(map(float, color)), tuple(map(float, own)), picture.opaque)
 
 
-def _apart(frame: Frame, picture: Picture, color: Colors, surface: Mask) -> Work[bool]:
+def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Work[bool]:
     """Return whether a colour can be a background's: the surfaces in it are where they should be.
 
     (A picture upside down shows the floor where the sky is, and the sky where the floor is.)
     """
 
-    def has_it(rows: slice) -> Mask:
+    def has_it(rows: slice) -> Bools:
         made = picture.made_of(frame.color[rows])
         return surface[rows] & (np.abs(made - color[: made.shape[-1]]) <= NEAR).all(axis=-1)
 
-    def shows_it(rows: slice) -> Mask:
+    def shows_it(rows: slice) -> Bools:
         return own[rows] & ~picture.at(rows).other_color(frame.color[rows])
 
     own = yield from by_blocks(surface.shape, has_it)

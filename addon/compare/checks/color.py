@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array, Index, Mask, Places, Reals
+from ...arrays import Array, Bools, Floats, Index, Places
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
@@ -73,7 +73,7 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def find_transform(
-    frame: Frame, picture: Picture, interior: Mask, more: Sequence[Curve] = ()
+    frame: Frame, picture: Picture, interior: Bools, more: Sequence[Curve] = ()
 ) -> Work[Curve | None]:
     """Return the transform that makes a picture's (h, w) differing surfaces agree, or None.
 
@@ -108,17 +108,17 @@ def find_transform(
     return None
 
 
-def _judged(pixels: OpenPixels) -> Mask:
+def _judged(pixels: OpenPixels) -> Bools:
     """Return the pixels (h, w) away from edges in which something is known of the colour."""
     return ~boundary(pixels.frame) & (pixels.out.blind < 0)
 
 
-def _differing(frame: Frame, picture: Picture) -> Work[Mask]:
+def _differing(frame: Frame, picture: Picture) -> Work[Bools]:
     """Return where the colours differ, (h, w)."""
     return by_blocks(frame.shape, lambda rows: picture.at(rows).other_color(frame.color[rows]))
 
 
-def _refuted(frame: Frame, surface: Mask, wrong: Mask) -> bool:
+def _refuted(frame: Frame, surface: Bools, wrong: Bools) -> bool:
     """Return whether what a transform makes wrong refutes it: most of an instance, or too much."""
     count = int(np.max(frame.instance_index)) + 1
     many = np.bincount(frame.instance_index[surface], minlength=count)
@@ -153,7 +153,7 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
         yield 1.0
 
 
-def _is_its_own(frame: Frame, picture: Picture, where: Mask) -> bool:
+def _is_its_own(frame: Frame, picture: Picture, where: Bools) -> bool:
     """Return whether most of an object's pixels (h, w) show no colour of what is around it."""
     if picture.at(where).known(frame.instance_index[where]).all():
         return True
@@ -183,7 +183,7 @@ def _groups(keys: Array) -> Index:
     return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
 
 
-def _medians(shown: Array, group: Index) -> tuple[Places, Reals]:
+def _medians(shown: Array, group: Index) -> tuple[Places, Floats]:
     """Return the first of each of k groups of n pixels, (k,), and what is shown of it, (k, 4)."""
     _, first = np.unique(group, return_index=True)
     order = np.argsort(group, kind="stable")

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Array, Floats, Index, Mask
+from ...arrays import Array, Bools, Floats, Index
 from ...tracer import plane, shading
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
@@ -90,7 +90,7 @@ def _around_centre(probe: Probe, some: Pairs) -> Floats:
     return out
 
 
-def _thin(corners: Floats, band: Floats) -> Mask:
+def _thin(corners: Floats, band: Floats) -> Bools:
     """Return which triangles (3, 2, p) are too low to have been missed near an edge."""
     edges = corners - np.roll(corners, 1, axis=0)
     longest = np.hypot(edges[:, 0], edges[:, 1]).max(axis=0)

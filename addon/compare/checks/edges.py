@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Floats, Mask
+from ...arrays import Bools, Floats
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
@@ -69,7 +69,7 @@ class _Asked(NamedTuple):
     """What is known of the n pixels of a part: more is found by each way to ask."""
 
     centre: Hits
-    lost: Mask  # the picture's own method lost what the centre sees
+    lost: Bools  # the picture's own method lost what the centre sees
     found: Floats  # (2, n) px: how far away the picture's colour is seen, and its object
     beside: list[Hits]  # at the samples in the band
 
@@ -154,7 +154,7 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     part.give((off < np.inf) & ~asked.lost, EDGE, off, width)
 
 
-def _closed(scene: Scene, beside: list[Hits], asks: Mask) -> Floats:
+def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
     """Return the depth at which n pixels surely see a closed surface of several triangles, (n,).
 
     It is infinite where there is none. Triangles that share an edge, or a corner all around it,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...arrays import Mask
+from ...arrays import Bools
 from ...rendering import steps
 from ...scene import Scene
 from ...tracer.frame import Frame
@@ -78,13 +78,13 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     yield from scaled(edges.check(there), 0.5, 0.5)
 
 
-def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Mask]]:
+def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
     """Trace the case's scene, which is not the one that was traced; return which pixels show it."""
     scene = pixels.case.scene
     traced = Frame.empty(scene)
     yield from steps(scene, Settings(), traced)
 
-    def alike(rows: slice) -> Mask:
+    def alike(rows: slice) -> Bools:
         part, seen = pixels.picture.at(rows), traced.instance_index[rows]
         return part.alike(scene, seen, traced.color[rows]) & ~part.other_object(seen)
 

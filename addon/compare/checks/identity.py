@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Colors, Mask, Places
+from ...arrays import Bools, Colors, Places
 from ...scene import Scene
 from ...tracer import shading
 from ...tracer.frame import Frame
@@ -54,7 +54,7 @@ def _colors(scene: Scene, instances: Places) -> Colors:
     return np.unique(scene.color_table[rows], axis=0)
 
 
-def _may_have(picture: Picture, colors: Colors) -> Mask:
+def _may_have(picture: Picture, colors: Colors) -> Bools:
     """Return which of n pixels show one of the colours (m, 4)."""
     shown = np.zeros(len(picture.color), bool)
     for color in colors:

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Floats, Index, Mask, Places
+from ...arrays import Bools, Floats, Index, Places
 from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
@@ -48,7 +48,7 @@ def blocks(shape: tuple[int, ...]) -> list[slice]:
     return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
 
 
-def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Mask]) -> Work[Mask]:
+def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
     """Return what a function says of each pixel (h, w); it is asked about some rows at a time."""
     out = np.zeros(shape, bool)
     for rows in blocks(shape):
@@ -65,12 +65,12 @@ class OpenPixels:
     frame: Frame  # what was traced
     picture: Picture  # (h, w): the case's, as it is seen once a transform of its colours is found
     out: Causes  # what has been found
-    open: Mask  # (h, w)
+    open: Bools  # (h, w)
     band: Floats  # (h, w) pixels: how far from its centre Blender's sample may lie
 
     def give(
         self,
-        where: Mask,
+        where: Bools,
         cause: Cause,
         figure: ArrayLike = np.nan,
         allowed: ArrayLike = np.nan,
@@ -115,7 +115,7 @@ class Probe:
     settings: Settings
 
     @classmethod
-    def of(cls, plan: Plan, tile: Region, wanted: Mask, settings: Settings = SOUND) -> Work[Probe]:
+    def of(cls, plan: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
         """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
 
         Yields the share of the work done; returns the probe.
@@ -164,7 +164,7 @@ class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
 
     pixels: OpenPixels  # of the part's rows
-    wanted: Mask  # (rows, w): where the n pixels are
+    wanted: Bools  # (rows, w): where the n pixels are
     probe: Probe
 
     @cached_property
@@ -192,7 +192,7 @@ class Part:
         """Whether all n pixels have a cause."""
         return not self.pixels.open[self.at].any()
 
-    def give(self, where: Mask, cause: Cause, figure: ArrayLike, allowed: ArrayLike) -> None:
+    def give(self, where: Bools, cause: Cause, figure: ArrayLike, allowed: ArrayLike) -> None:
         """Give a cause to those of the n pixels that have none yet."""
         self.pixels.give(where, cause, figure, allowed, self.at)
 
@@ -209,7 +209,7 @@ def by_parts(
     pixels: OpenPixels,
     plan: Plan,
     look: Callable[[Part], Work[None]],
-    asked: Mask | bool = True,
+    asked: Bools | bool = True,
 ) -> Work[None]:
     """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
@@ -224,7 +224,7 @@ def by_parts(
             yield done + 0.5 * size
 
 
-def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Mask]:
+def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Bools]:
     """Return which open pixels, (h, w), show the colour and the object of something near them.
 
     No ray that passes within the plan's reach sees what the others show, at whatever depth.
@@ -250,7 +250,7 @@ def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Mask]:
     return out
 
 
-def _shown(picture: Picture, scene: Scene, instance: Index, triangle: Index) -> Mask:
+def _shown(picture: Picture, scene: Scene, instance: Index, triangle: Index) -> Bools:
     """Return where n pixels may show the colour of a triangle, and its object, (2, n).
 
     Between corners, a triangle may have any colour.
@@ -261,7 +261,7 @@ def _shown(picture: Picture, scene: Scene, instance: Index, triangle: Index) -> 
     return np.stack((color, ~picture.other_object(instance)))
 
 
-def parts_of(scene: Scene, open_: Mask, most: int) -> list[tuple[Region, slice, Mask]]:
+def parts_of(scene: Scene, open_: Bools, most: int) -> list[tuple[Region, slice, Bools]]:
     """Return parts of whole rows with about `most` open pixels, as tiles and rows, and these."""
     r = scene.camera.region
     return [

@@ -16,7 +16,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ...arrays import Floats, Mask, Numbers
+from ...arrays import Bools, Floats, Integers
 from ...manifest import Effect
 from ...scene import Camera
 from ...tracer.camera import film_of
@@ -59,7 +59,7 @@ def as_known(case: Case) -> Picture:
     return replace(picture, color=np.where(known[..., None], picture.beneath, picture.color))
 
 
-def drawn_over(picture: Picture) -> Numbers:
+def drawn_over(picture: Picture) -> Integers:
     """Return which feature draws itself over what is known to lie beneath, (h, w), or NOTHING."""
     if picture.drawn is None or picture.beneath is None:
         return np.full(picture.color.shape[:-1], NOTHING, np.int32)
@@ -67,7 +67,7 @@ def drawn_over(picture: Picture) -> Numbers:
     return np.where(known, picture.drawn, np.int32(NOTHING))
 
 
-def blind(case: Case, frame: Frame) -> Numbers:
+def blind(case: Case, frame: Frame) -> Integers:
     """Return which feature keeps each pixel from being judged, (h, w): its index, or NOTHING."""
     features, picture = list(enumerate(case.manifest.unmodelled)), case.picture
     filtered = int(np.ceil(picture.filter_radius))
@@ -121,7 +121,7 @@ def check_otherwise(pixels: OpenPixels) -> Work[None]:
         yield from scaled(_see(pixels, picture, front != NOTHING, front), 0.5, 0.5)
 
 
-def _see(pixels: OpenPixels, picture: Picture, left: Mask, feature: Numbers) -> Work[None]:
+def _see(pixels: OpenPixels, picture: Picture, left: Bools, feature: Integers) -> Work[None]:
     """Find open pixels that show what is seen of the instances and planes `left` (k + 1,) alone."""
     scene = pixels.case.scene
     count = len(scene.instances)
@@ -141,7 +141,7 @@ def _see(pixels: OpenPixels, picture: Picture, left: Mask, feature: Numbers) -> 
     yield from scaled(edges.check(there), 0.5, 0.5)
 
 
-def _some(things: Sequence[T], left: Mask) -> tuple[T, ...]:
+def _some(things: Sequence[T], left: Bools) -> tuple[T, ...]:
     return tuple(thing for thing, stays in zip(things, left, strict=False) if stays)
 
 
@@ -170,7 +170,7 @@ def name_drawn(pixels: OpenPixels) -> Work[None]:
         yield 1.0
 
 
-def covered(camera: Camera, bounds: Floats) -> Mask:
+def covered(camera: Camera, bounds: Floats) -> Bools:
     """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
     r = camera.region
     corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8)
