@@ -1,4 +1,4 @@
-"""Runs of equal pixels: what follows from a pixel alone is computed once for each.
+"""Finds runs of equal pixels, so that what follows from a pixel alone is computed once a run.
 
 A picture in constant colours has some thousand runs, and millions of pixels.
 """
@@ -13,9 +13,9 @@ from .arrays import Array, Places
 
 
 def run_starts(*values: Array) -> Places:
-    """Return where the runs of n items begin, (k,): in each, all of the values have the same bits.
+    """Return where the runs of n items begin, (k,).
 
-    Each of `values` is (n, ...).
+    Each of `values` is (n, ...). In a run, all of them have the same bits.
     """
     count = len(values[0])
     new = np.zeros(count, bool)
@@ -29,9 +29,9 @@ def run_starts(*values: Array) -> Places:
 
 
 def by_runs(of: Callable[..., Array], *values: Array) -> Array:
-    """Return what a function makes of n items, (n, ...), which it makes of each by itself.
+    """Return what a function makes of n items, (n, ...); it has to treat each item by itself.
 
-    `values` are its arguments, (n, ...) each; the function is asked about the first of each run.
+    `values` are its arguments, (n, ...) each. The function is asked about the first of each run.
     """
     first, count = run_starts(*values), len(values[0])
     if 2 * len(first) > count:

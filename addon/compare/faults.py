@@ -81,11 +81,20 @@ def _clip_start(case: Case, frame: Frame) -> Case | None:
 
 
 def _flipped_winding(case: Case, _: Frame) -> Case:
-    def flipped(mesh: Mesh) -> Mesh:
-        colors = None if mesh.corner_colors is None else mesh.corner_colors[:, ::-1]
-        return replace(mesh, triangles=mesh.triangles[:, ::-1], corner_colors=colors)
+    every, backwards = slice(None), slice(None, None, -1)
 
-    return case.with_scenes(lambda s: replace(s, meshes=tuple(map(flipped, s.meshes))))
+    def flipped(scene: Scene) -> Scene:
+        meshes = tuple(_with_triangles(m, every, backwards) for m in scene.meshes)
+        return replace(scene, meshes=meshes)
+
+    return case.with_scenes(flipped)
+
+
+def _with_triangles(mesh: Mesh, left: Bools | slice, corners: slice = slice(None)) -> Mesh:
+    """Return the mesh of some of the triangles, with their corners in some order."""
+    colors = None if mesh.corner_colors is None else mesh.corner_colors[left][:, corners]
+    triangles = mesh.triangles[left][:, corners]
+    return replace(mesh, triangles=triangles, slots=mesh.slots[left], corner_colors=colors)
 
 
 def _seen(case: Case, frame: Frame) -> list[int]:
@@ -144,18 +153,10 @@ def _dropped_triangle(case: Case, frame: Frame) -> Case | None:
         meshes = list(scene.meshes)
         number = scene.instances[own].mesh
         left = np.arange(len(meshes[number].triangles)) != triangle
-        meshes[number] = _part(meshes[number], left)
+        meshes[number] = _with_triangles(meshes[number], left)
         return replace(scene, meshes=tuple(meshes))
 
     return case.with_scenes(less)
-
-
-def _part(mesh: Mesh, left: Bools) -> Mesh:
-    """Return the mesh of some of the triangles."""
-    colors = None if mesh.corner_colors is None else mesh.corner_colors[left]
-    return replace(
-        mesh, triangles=mesh.triangles[left], slots=mesh.slots[left], corner_colors=colors
-    )
 
 
 def _moved_object(case: Case, frame: Frame) -> Case | None:

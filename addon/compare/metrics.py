@@ -115,18 +115,13 @@ def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
 
 
 def _window_mean(picture: Floats, size: int) -> Floats:
-    """Return the mean over every size x size window; sums of 1, 2, 4... make up those of `size`."""
+    """Return the mean over every window of size x size pixels."""
     for axis in (0, 1):
-        picture = picture.swapaxes(axis, 0)
-        count = len(picture) - size + 1
-        sums, done = picture, 0
-        total = np.zeros_like(picture[:count])
-        for bit in range(size.bit_length()):
-            step = 1 << bit
-            if size & step:
-                total += sums[done : done + count]
-                done += step
-            sums = sums[:-step] + sums[step:]
+        lines = picture.swapaxes(axis, 0)
+        count = len(lines) - size + 1
+        total = np.zeros_like(lines[:count])
+        for first in range(size):
+            total += lines[first : first + count]
         picture = (total / size).swapaxes(axis, 0)
     return picture
 
