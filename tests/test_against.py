@@ -198,7 +198,10 @@ def test_what_is_no_picture_is_said(against, tmp_path, name, content, message):
 def test_options_that_do_not_fit(scene, against, options, message):
     code, found, text = against(render(scene).color, options=options)
     assert code == 4 and message in text
-    assert found is None or options[0] == "--eye"  # which only the file tells
+    if options[0] == "--eye":  # that it does not fit is known once the file is read
+        assert found["verdict"] == "failed" and message in found["error"]["message"]
+    else:
+        assert found is None  # nothing is written
 
 
 def test_a_filter_needs_a_picture(tmp_path, capsys):

@@ -26,11 +26,10 @@ from numpy.typing import NDArray
 
 from ..certainty import Certainty, Reason
 from ..tracer.camera import Rays
-from ..tracer.candidates import Pairs
 from ..tracer.hits import Hits, Statistics, Ties
 from ..tracer.progress import Work
-from ..tracer.vector import Floats, Index, occurring
-from ..tracer.world import WorldTriangles
+from ..tracer.vector import Bools, Floats, Index, occurring
+from ..tracer.world import Pairs, WorldTriangles
 from . import exact, order
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
 from .measures import Prepared
@@ -45,7 +44,7 @@ if TYPE_CHECKING:
 BY_ORDER = 1 << 14
 BY_INTEGERS = 1 << 11
 
-Bools = NDArray[np.bool_]
+Met = list[exact.Hit | None]
 # Returns how the first of two candidates lies to the second, (p,) each: codes of `order.py`.
 Compare = Callable[[Index, Index], NDArray[np.int8]]
 # Finds the nearest candidate of each ray by comparing; see `one_by_one`.
@@ -139,7 +138,9 @@ class Ladder:
             yield 1.0
             for some in rest.by_ray(BY_INTEGERS):
                 with np.errstate(all="ignore"):
-                    decisions.by_integers(some)
+                    met, first = decisions.by_integers(some)
+                    why = reasons(some, met, first, self._rays, surfaces)
+                statistics.reasons.update(why)
                 yield 1.0
         hits.ties = Ties.joined(decisions.ties)
         statistics.reasons += decisions.reasons
@@ -163,7 +164,7 @@ class Ladder:
             found = self._candidates(every, plane, fractions, np.ones(len(every), bool))
         self._found.append(found)
 
-    def _prepare(self, corners: NDArray[np.float64]) -> FromPoint | Parallel | None:
+    def _prepare(self, corners: Floats) -> FromPoint | Parallel | None:
         """Return what of triangles (3, 3, m) is the same for all the rays; None if nothing is."""
         o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
@@ -269,14 +270,17 @@ class Decisions:
 
         return compare
 
-    def by_integers(self, found: Candidates) -> None:
-        """Decide rays, sorted, with all their candidates, as `definition.py` does."""
+    def by_integers(self, found: Candidates) -> tuple[Met, Met]:
+        """Decide rays, sorted, with all their candidates, as `definition.py` does.
+
+        Returns the exact hit on each candidate, and the hit that its ray sees.
+        """
         batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, self.clip)
         met = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
         instance, triangle = (v.tolist() for v in self.surfaces.names(found.surface))
         names = list(zip(instance, triangle, strict=True))
         starts = np.flatnonzero(np.diff(found.ray, prepend=-1)).tolist()
-        firsts: list[exact.Hit | None] = []
+        firsts: Met = []
         tied = []
         for start, end in zip(starts, [*starts[1:], len(met)], strict=True):
             ray = int(found.ray[start])
@@ -293,7 +297,7 @@ class Decisions:
             firsts += [first] * (end - start)
         ray_of, *name_of = np.array(tied, np.int64).reshape(-1, 3).T
         self.ties.append(Ties.of(ray_of, *name_of))
-        self.reasons.update(reasons(found, met, firsts, self.rays, self.surfaces))
+        return met, firsts
 
 
 def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
@@ -320,7 +324,7 @@ def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
     first = begin.copy()
     decided = np.ones(len(count), bool)
     coplanar_with = np.arange(len(of_ray))
-    for number in range(1, int(count.max(initial=0))):
+    for number in range(1, int(np.max(count, initial=0))):
         ray = np.flatnonzero(count > number)
         other = begin[ray] + number
         result = compare(first[ray], other)

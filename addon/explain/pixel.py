@@ -182,10 +182,10 @@ def answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings | None = 
     for number, k in enumerate(order):
         names[0, number] = int(triangles.instance[k]), int(triangles.triangle[k])
     names |= {(k, NOTHING): c.name for k, c in enumerate(pixel.planes, 1)}
-    precision = Precision(settings.precision) if settings else Precision.FLOAT64
+    precision = settings.precision if settings else Precision.FLOAT64
     hits = trace(scene, settings or Settings(), rays=pixel.rays(precision))
     return Answer(
-        Method(settings.method) if settings else Method.CERTIFIED,
+        settings.method if settings else Method.CERTIFIED,
         precision,
         names[int(hits.instance[0]), int(hits.triangle[0])],
         float(hits.t[0]),

@@ -51,7 +51,7 @@ def breaking_picture(rows: Sequence[ExtremesRow]) -> str:
     wide, below = (plots.WIDTH - left - 10) / len(columns), top + high * len(sweeps)
     out = plots.text((20, 32), BREAKING, 30)
     for k, (method, precision) in enumerate(columns):
-        x, words = left + (k + 0.5) * wide, Method(method).words
+        x, words = left + (k + 0.5) * wide, Method(method).record.words
         words = words.replace(" ", "\n").replace("–", "–\n")
         out += plots.text((x, 96), words, 19, anchor="middle", font_weight="bold")
         out += plots.text((x, 135), precision, 18, plots.GREY, "middle")
@@ -120,7 +120,7 @@ def sweeps_picture(sweeps: Sequence[Sequence[ExtremesRow]], page: str = "") -> s
     for k, rows in enumerate(sweeps):
         left, top = wide * (k % ACROSS) + 85, high * (k // ACROSS) + 155
         out += _sweep((left, top, wide - 115, high - 160), rows)
-    entries = {m.words: _series(m, Precision.FLOAT64).sample for m in SWEPT}
+    entries = {m.record.words: _series(m, Precision.FLOAT64).sample for m in SWEPT}
     entries |= {
         p: plots.Series(plots.GREY, (), p is Precision.FLOAT32, 6, 4).sample for p in Precision
     }
@@ -132,7 +132,7 @@ def _series(
     method: Method, precision: Precision, points: Sequence[tuple[float, float, str]] = ()
 ) -> plots.Series:
     width, radius = _THIN[method]
-    return plots.Series(method.color, points, precision is Precision.FLOAT32, radius, width)
+    return plots.Series(method.record.color, points, precision is Precision.FLOAT32, radius, width)
 
 
 def _steps(scales: Sequence[float]) -> plots.Scale:
@@ -148,7 +148,7 @@ def _sweep(box: plots.Box, rows: Sequence[ExtremesRow]) -> str:
     axes = plots.Axes(*box, _steps(scales), percents)
     out = axes.drawn(_title(name), scale_of(name), small=True)
     for method, p in product(SWEPT, Precision):
-        said = f"{method.words}, {p}, "
+        said = f"{method.record.words}, {p}, "
         points = [
             (
                 scales.index(r.scale),
@@ -200,7 +200,7 @@ def _heat(box: plots.Box, rows: Sequence[ExtremesRow]) -> str:
     )
     axes = plots.Axes(*box, _steps(scales), _steps(others))
     wide, high = axes.width / len(scales), axes.height / len(others)
-    out = axes.drawn(f"{Method(rows[0].method).words}, {rows[0].precision}", "", small=True)
+    out = axes.drawn(f"{Method(rows[0].method).record.words}, {rows[0].precision}", "", small=True)
     for r in rows:
         x, y = axes.at(scales.index(r.scale), others.index(r.across))
         color = UNSEEN if _is_grey(r) else _color(r.share**0.5) if r.lost else NEVER

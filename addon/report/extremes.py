@@ -36,7 +36,7 @@ _UNITS = {  # what the numbers of a row are, for the reader of the JSON
     "judged": "rays that an independent oracle in integers decided, with every triangle",
     "across": "the second scale, of a row of a map",
 }
-_SHORT = {m.value: m.short for m in MEASURED}
+_SHORT = {m.value: m.record.short for m in MEASURED}
 _WIDTH = 12  # of a column of the tables
 
 

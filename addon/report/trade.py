@@ -45,10 +45,20 @@ def page_table(trade: Trade) -> dict[str, Any]:
     return {
         "head": ["method", "precision", "picture", *(c.head for c in COLUMNS)],
         "rows": [
-            [Method(r.method).words, r.precision, r.size, *(c.shown(r, " ★") for c in COLUMNS)]
+            [
+                Method(r.method).record.words,
+                r.precision,
+                r.size,
+                *(c.shown(r, " ★") for c in COLUMNS),
+            ]
             for r in trade.rows
         ],
     }
+
+
+def _page_row(r: TradeRow) -> list[str]:
+    name = Method(r.method).record.words
+    return [name, r.precision, r.size, *(c.shown(r, " ★") for c in COLUMNS)]
 
 
 def to_dict(trade: Trade) -> dict[str, Any]:
@@ -111,7 +121,7 @@ def pictures(trade: Trade) -> dict[str, str]:
         {r.size: r for r in fastest_first if r.best_coverage},
         [r for r in trade.rows if math.isfinite(r.coverage_error)],
     )
-    entries = {m.words: plots.mark((0, 0), 13, m.color) for m in MEASURED}
+    entries = {m.record.words: plots.mark((0, 0), 13, m.record.color) for m in MEASURED}
     entries |= {p: plots.mark((0, 0), 13, plots.GREY, p == "float32") for p in Precision}
     entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
     inside += plots.legend(entries, plots.HEIGHT - 30)
@@ -120,7 +130,7 @@ def pictures(trade: Trade) -> dict[str, str]:
 
 
 def _name(r: TradeRow) -> str:
-    return f"{Method(r.method).words}, {r.precision}"
+    return f"{Method(r.method).record.words}, {r.precision}"
 
 
 def _found(r: TradeRow) -> str:
@@ -152,7 +162,7 @@ def _against(
     out = axes.drawn(title, "seconds; a bar is from the fastest round to the slowest", error.head)
     for r in rows:
         bar = axes.at(r.fastest, y[r]), axes.at(r.slowest, y[r])
-        out += plots.line(bar, Method(r.method).color, 4, opacity=0.4)
+        out += plots.line(bar, Method(r.method).record.color, 4, opacity=0.4)
     best = [r for r in rows if getattr(r, error.best)]
     out += plots.line(sorted(axes.at(r.seconds, y[r]) for r in best), plots.INK, 4)
     others = [r for r in rows if r not in best]
@@ -165,7 +175,7 @@ def _against(
 def _mark(r: TradeRow, y: float, best: bool) -> plots.Series:
     said = ", ".join(f"{c.head} {c.shown(r)}" for c in COLUMNS)
     return plots.Series(
-        Method(r.method).color,
+        Method(r.method).record.color,
         [(r.seconds, y, f"{_name(r)}, {r.size}: {said}")],
         hollow=r.precision == Precision.FLOAT32,
         radius=14 if best else 9,

@@ -15,14 +15,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..methods import Method
 from ..rendering import render
 from ..tracer.camera import Rays
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
-from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.settings import PLAIN_SETTINGS, Settings
+from ..tracer.triangle import TESTS
 from ..tracer.world import Pairs
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
@@ -175,11 +175,8 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     scene, camera = truth.frame.scene, truth.frame.scene.camera
     frame = render(scene, settings)
 
-    function = Method(settings.method).function
-    assert function  # the method is a plain one
-
     def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
-        hit, t, _ = function(rays, *pairs.corners)
+        hit, t, _ = TESTS[settings.method](rays, *pairs.corners)
         return hit & within_clip(camera, t)
 
     _, count = result_of(crossings(scene, settings, test))
@@ -201,13 +198,13 @@ def _row(
     scenario: Scenario, scale: float, truth: Truth, frame: Frame, settings: Settings
 ) -> ExtremesRow:
     """Return a row with what all rows say alike, and no errors yet."""
-    precision = Precision(settings.precision)
+    precision = settings.precision
     rays = pixel_rays(frame.scene.camera, precision)
     finite = np.isfinite(rays.origins).all(axis=0) & np.isfinite(rays.directions).all(axis=0)
     return ExtremesRow(
         scenario.name,
         scale,
-        Method(settings.method).value,
+        settings.method.value,
         precision.value,
         rays=truth.count.size,
         missed=0,

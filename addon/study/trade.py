@@ -257,7 +257,7 @@ def _costs(one: TradeRow, other: TradeRow) -> str:
 def _takes(share: float, fastest: TradeRow) -> str:
     count = f"{fastest.wrong_pixels:,}" if fastest.wrong_pixels else "no"
     wrong = f"{count} wrong pixel{'s' * (fastest.wrong_pixels != 1)}"
-    name = f"{Method(fastest.method).words} in {fastest.precision} ({wrong})"
+    name = f"{Method(fastest.method).record.words} in {fastest.precision} ({wrong})"
     if share < 0:
         return f"is faster than {name}, the next that loses no hits on purpose"
     first = "the fastest that loses no hits on purpose"  # without the literal textbook

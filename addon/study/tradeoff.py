@@ -71,8 +71,8 @@ class Choice:
         """Return the row."""
         settings, camera = self.settings, self.scene.camera
         return TradeRow(
-            method=Method(settings.method).value,
-            precision=Precision(settings.precision).value,
+            method=settings.method.value,
+            precision=settings.precision.value,
             samples=settings.samples,
             width=camera.width,
             height=camera.height,
@@ -198,7 +198,7 @@ def _look_at_all(choices: list[Choice], truth: Floats) -> Work[None]:
     """Render each once, untimed, for its memory and its errors, the certified ones first."""
     total, done = sum(c.cost for c in choices), 0.0
     certified: dict[int, Frame] = {}  # by the picture's width
-    for choice in sorted(choices, key=lambda c: Method(c.settings.method).is_plain):
+    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):
         frame = yield from scaled(_look(choice), done / total, choice.cost / total)
         done += choice.cost
         proven = certified.setdefault(choice.scene.camera.width, frame)

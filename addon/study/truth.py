@@ -43,7 +43,11 @@ def truth_of(scene: Scene) -> Work[Truth]:
     for share in steps(scene, CERTIFIED, frame):
         yield 0.5 * share
     clip = scene.camera.clip_start, scene.camera.clip_end
-    counting = crossings(scene, CERTIFIED, lambda rays, p: decide(rays, p.corners, *clip).hit)
+    counting = crossings(
+        scene,
+        CERTIFIED,
+        lambda rays, p: decide(rays, p.corners.astype(float, copy=False), *clip).hit,
+    )
     return Truth(frame, *(yield from scaled(counting, 0.5, 0.5)))
 
 
@@ -56,7 +60,7 @@ def crossings(
     Returns the `keys` of what is crossed, (k,), and its count for each ray, (n,).
     """
     region = scene.camera.region
-    rays = pixel_rays(scene.camera, Precision(settings.precision))
+    rays = pixel_rays(scene.camera, settings.precision)
     pixel: list[Index] = [np.zeros(0, np.int64)]
     found: list[Index] = [np.zeros(0, np.int64)]
     made = yield from plan(scene, settings, reach=0.0)

@@ -1,4 +1,4 @@
-"""What is asked of rows that workers send: that they are rows, and the same but for what is timed."""
+"""Rows that workers send: they must be rows, and the same in all that is not timed."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip("distributed")
 
-from reference_tracer.study.extremes import ExtremesRow  # noqa: E402
-from reference_tracer.study.trade import TIMED, TradeRow  # noqa: E402
-from reference_tracer_cluster.studies import _facts, _row  # noqa: E402
+from reference_tracer.study.extremes import ExtremesRow
+from reference_tracer.study.trade import TIMED, TradeRow
+from reference_tracer_cluster.studies import _facts, _row
 
 ROW = TradeRow("textbook", "float32", 1, 8, 6, 0.5, 3, None, 1 << 20, 0.25, (0.5, 0.6, 0.7))
 OTHER = ExtremesRow("needles", 4, "textbook", "float32", 9, 1, 2, 3, 4, across=0.5)

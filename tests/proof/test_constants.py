@@ -23,13 +23,11 @@ _SHARE = "the share of the work that is shown to the user"
 TUNING = {
     "sweep.film": {"0.25": "where the bounds hold: the premise `ray_error_small` of Perspective.v"},
     "plain": {"_ROWS": _STEP},
-    "settle": {"CLIP": "the name of a doubt, for the reasons that a user reads"},
-    "contest": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
+    "ladder": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
     "sweep.boxes": {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
         **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
     },
-    "sweep.chunks": {"_CHUNK": _STEP},
     "sweep.depth_buffer": dict.fromkeys(
         ("FINE", "COARSE", "COARSE // FINE", "2 * FINE"),
         "the size of a cell of pixels: integers; a cell has the least nearness of its pixels",
@@ -37,11 +35,7 @@ TUNING = {
     "sweep.rasterise": dict.fromkeys(
         ("FINE", "COARSE"), "the size of a cell of pixels: what no edge rules out is kept"
     ),
-    "sweep.small_boxes": {
-        "SIDE + 1": "a key for sorting boxes by their size, in integers",
-        "1 << 13": _STEP,
-        "1 << 15": _STEP,
-    },
+    "sweep.small_boxes": {"SIDE + 1": "a key for sorting boxes by their size, in integers"},
     "sweep.sweep": {
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
@@ -49,7 +43,7 @@ TUNING = {
         "2": _SHARE,
         "0.6": _SHARE,
     },
-    "sweep.verdict": {"_FRAGMENTS": _STEP, "1 << 14": _STEP, "1 << 15": _STEP},
+    "sweep.resolve": {"_FRAGMENTS": _STEP},
 }
 # What reaches an expression only as a part of another number: these.
 FOLDED = {
@@ -70,12 +64,14 @@ HAND = {
 }
 # Proven otherwise than by an expression of floats.
 ELSEWHERE = {
-    "certainty": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
+    "arithmetic": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
     "reasons": "words for the user, of what integers have decided",
-    "exact": "integers; frexp's mantissa has 53 digits, so that 2^53 of it are one",
+    "integers": "frexp's mantissa has 53 digits, so that 2^53 of it are an integer",
+    "rounding": "the roundings before the proof, which is about stored rays and corners: "
+    "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be what the boxes leave out by test_small_triangles.py",
-    "surfaces": "of barycentrics, which have no bound of their own: below it, integers divide",
+    "measures": "of barycentrics, which have no bound of their own: below it, integers divide",
 }
 
 

@@ -141,7 +141,7 @@ def grid(
     return Mesh(points, lattice(columns, rows, split), name="Sheet")
 
 
-def scene(view: Camera, *meshes: Mesh, matrix: Floats = UNMOVED) -> Scene:
+def scene(view: Camera, *meshes: Mesh, matrix: NDArray[np.float64] = UNMOVED) -> Scene:
     """Return a scene with an object for each mesh, the first of them moved by a matrix."""
     instances = tuple(
         Instance(k, k, UNMOVED if k else matrix, np.array([COLORS[k % len(COLORS)]], np.float32))

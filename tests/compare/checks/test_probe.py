@@ -14,6 +14,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions, plan, trace_tile
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.triangle import TESTS
 
 TILE = Region(2, 3, 18, 13)
 PLAIN = Settings("watertight")  # a probe has no certified ray
@@ -37,7 +38,7 @@ def scene(make, rng):
 
 
 def probe_of(scene, settings, wanted, reach=0.5):
-    return result_of(Probe.of(result_of(plan(scene, settings, reach)), TILE, wanted))
+    return result_of(Probe.of(result_of(plan(scene, settings, reach)), TILE, wanted, settings))
 
 
 @pytest.fixture
@@ -76,7 +77,7 @@ def test_layers_come_in_order_each_once(scene, settings, wanted):
     expected = [[] for _ in range(count)]
     for k, triangle in enumerate(mesh.triangles):
         corners = (mesh.vertices[c].astype(dtype)[:, None] for c in triangle)
-        hit, t, _ = settings.method.function(rays, *corners)
+        hit, t, _ = TESTS[settings.method](rays, *corners)
         for pixel in np.flatnonzero(hit):
             expected[pixel] += [(float(t[pixel]), i, k) for i in (0, 1)]
     hits, found = None, [[] for _ in range(count)]
@@ -105,9 +106,9 @@ def test_nothing_wanted_and_nothing_there(scene, make, wanted):
 
 def test_steps_are_small(scene, wanted, monkeypatch):
     monkeypatch.setattr(candidates, "PAIRS", 100)
-    probe = probe_of(scene, PLAIN, wanted)
+    shares = []
+    made = result_of(plan(scene, PLAIN, 0.5))
+    probe = result_of(Probe.of(made, TILE, wanted, PLAIN), shares.append)
     assert len(probe.chunks) > 5
     assert max(len(some.pixel) for some in probe.chunks) <= 100
-    shares = []
-    result_of(Probe.of(probe.plan, TILE, wanted), shares.append)
     assert (np.diff(shares) >= 0).all() and 0 <= shares[0] and shares[-1] <= 1
