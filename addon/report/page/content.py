@@ -53,8 +53,8 @@ def content(
         ],
         "causes": _causes(comparison),
         "certainties": {
-            str(int(c)): {"name": _words(c.name), "sentence": c.sentence, "color": c.color}
-            for c in Certainty
+            str(int(c)): {"name": _words(name), "sentence": c.sentence, "color": c.color}
+            for name, c in Certainty.__members__.items()
         },
         "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
         "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
