@@ -29,11 +29,11 @@ METHOD = {
 }
 SEES_METHOD = """
 from reference_tracer.cli.arguments import add_settings
+from reference_tracer.cli.parser import Parser
 from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import extreme_plots
 from reference_tracer.study import tradeoff
-import argparse
-parser = argparse.ArgumentParser()
+parser = Parser()
 add_settings(parser)
 assert "never" in parser.format_help()
 frame = render(scene, Settings("never", "float32"))

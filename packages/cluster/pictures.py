@@ -18,7 +18,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 from reference_tracer.certified.measures import measured
-from reference_tracer.cli.arguments import words
+from reference_tracer.errors import words
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.coloring import Color

@@ -1,9 +1,10 @@
-"""The commands of `reftrace`, a file each: `add` a parser's options, and `run` with them.
+"""The commands of `reftrace`, a file each: `add` declares a command's options.
 
+Each command makes a frozen record of what was parsed, which checks it, and works from that.
 `blender --command` has some of them, for the file that is open.
 """
 
-HELP = {  # in its order
+HELP = {  # in the order of `reftrace --help`
     "compare": "trace a scene and compare it with Blender's own picture, or with any other",
     "trace": "trace a scene or a mesh into a picture",
     "explain": "show the maths of one pixel's ray: every step, in float32, float64 and exactly",
@@ -13,9 +14,4 @@ HELP = {  # in its order
     "bench": "measure the speed of the tracer beside embreex, Cycles and others",
     "export": "export a .blend to a scene that needs no Blender",
 }
-# Which file's `add_` and name adds a command's options; the others are packages of their own.
-FILES = {
-    "compare": "compare",
-    **dict.fromkeys(("trace", "explain", "export"), "files"),
-    **dict.fromkeys(("trade", "extremes"), "studies"),
-}
+IN_PACKAGES = "judge", "bench"  # beside the add-on, found through their entry points
