@@ -64,7 +64,10 @@ def _run(argv: list[str]) -> int:
 
 def register() -> None:
     """Register the command."""
-    _registered.append(bpy.utils.register_cli_command("reference_tracer", run))
+    handle = bpy.utils.register_cli_command(  # type: ignore[func-returns-value]  # the stubs' gap
+        "reference_tracer", run
+    )
+    _registered.append(handle)
 
 
 def unregister() -> None:

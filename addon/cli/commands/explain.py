@@ -11,7 +11,8 @@ from pathlib import Path
 
 from ... import images
 from ...explain import reproducer
-from ...explain.candidates import LIMIT, Pixel, gather_pixel
+from ...explain.candidates import LIMIT, gather_pixel
+from ...explain.pixel import Pixel
 from ...explain.writers import WRITERS
 from ...framing import Choice
 from ...report import pixel
@@ -100,4 +101,5 @@ def _gathered(options: ExplainOptions) -> Pixel:
     # What is said meanwhile, by Blender too, is no part of the Markdown.
     with images.redirected(1, 2), redirect_stdout(sys.stderr):
         scene, _ = load(options.scene, options.choice)
-    return gather_pixel(scene, *options.pixel, options.limit, options.scene.name)
+    x, y = options.pixel
+    return gather_pixel(scene, x, y, options.limit, options.scene.name)

@@ -10,6 +10,7 @@ from pathlib import Path
 from ... import images
 from ...certified.rounding import check_rounding
 from ...framing import Choice
+from ...methods import Method
 from ...report import folders
 from ...scene import Scene, SceneError
 from ...scene_files import MESH_SUFFIXES
@@ -121,7 +122,7 @@ def trace(options: TraceOptions) -> int:
 
 def _traced(scene: Scene, settings: Settings, options: TraceOptions) -> tuple[Frame, list[str]]:
     """Return the picture, and lines about rounding if they are asked for."""
-    if options.check_rounding and settings.method.is_plain:
+    if options.check_rounding and Method(settings.method).is_plain:
         raise SceneError("--check-rounding is about proven pixels: --method certified has them")
     with options.place as place, progress_bar() as progress:
         frame = render(scene, settings, progress, **place)
