@@ -5,7 +5,7 @@ from __future__ import annotations
 import traceback
 from collections.abc import Callable
 
-from .certainty import AssumptionError
+from .certified.arithmetic import AssumptionError
 from .compare.picture import SizeError
 from .images import MissingLibraryError
 from .scene import SceneError

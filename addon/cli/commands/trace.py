@@ -11,13 +11,13 @@ from ... import images
 from ...certified.rounding import check_rounding
 from ...framing import Choice
 from ...methods import Method
+from ...rendering import render
 from ...report import folders
 from ...scene import Scene, SceneError
 from ...scene_files import MESH_SUFFIXES
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import result_of
-from ...tracer.render import render
 from ...tracer.settings import Settings
 from ..arguments import GivenSettings, Place, add_settings, place_from, settings_from
 from ..camera_options import add_camera, choice_from
