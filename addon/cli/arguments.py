@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ..methods import PLAIN, Method
+from ..methods import Method
 from ..scene import SceneError
 from ..tracer.settings import Precision, Settings
 from .parser import Parser
@@ -36,15 +36,8 @@ class GivenSettings:
             If a value is out of range, or the method does not come in the precision.
         """
         chosen = {name: value for name, value in vars(self).items() if value is not None}
-        method = Method(self.method or stored.method)
-        if not method.is_plain:  # the scene may store another precision, for a plain method
-            if self.precision not in (None, Precision.FLOAT64):
-                do = "name a --method with --precision float32"
-                if self.method:
-                    do = "leave out --precision float32, or name another --method"
-                names = ", ".join(PLAIN)
-                raise SceneError(f"{do}, one of {names}: {method} is proven for float64 only")
-            chosen["precision"] = Precision.FLOAT64
+        if not Method(self.method or stored.method).is_plain:
+            chosen.setdefault("precision", Precision.FLOAT64)  # that of a plain method is stored
         try:
             return replace(stored, **chosen)
         except ValueError as error:

@@ -64,10 +64,13 @@ BAD = {
     ),
     "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
     "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
-    "float32 of auto": (["none.ply", "--precision", "float32"], "reftrace: name a --method with"),
+    "float32 of auto": (
+        ["none.ply", "--precision", "float32"],
+        "--precision is float32; auto is proven for float64",
+    ),
     "float32 of certified, whatever is stored": (
         ["none.blend", "--precision", "float32", "--method", "certified"],
-        "reftrace: leave out --precision float32, or name another --method",
+        "--precision is float32; certified is proven for float64 only",
     ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
     "not a number": (["ball.ply", "--width", "many"], "--width: many is not an integer"),
