@@ -1,4 +1,4 @@
-"""What is wrong with a mesh, by trimesh: whether it is closed, how it is wound, what is double."""
+"""Has trimesh say what is wrong with a mesh: is it closed, how is it wound, what is double."""
 
 from __future__ import annotations
 

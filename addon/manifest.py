@@ -1,7 +1,4 @@
-"""What was exported, what was not, and what the tracer does not model: nothing is lost in silence.
-
-In come entries from an exporter; out go lines for people and a dict for JSON.
-"""
+"""Says what was exported, what was not, and what the tracer does not model."""
 
 from __future__ import annotations
 
@@ -11,7 +8,8 @@ from enum import Enum
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from .arrays import Floats
 
 OUTSIDE = "outside the view"
 
@@ -65,7 +63,7 @@ class Unmodelled:
     object: str
     feature: str
     detail: str = ""
-    bounds: NDArray[np.float64] | None = None
+    bounds: Floats | None = None
     effect: Effect = Effect.DRAWN
     by: tuple[str, ...] = ()
 
@@ -146,7 +144,7 @@ class Manifest:
         for u in self.unmodelled:
             detail = f" ({u.detail})" if u.detail else ""
             none = u.effect is Effect.NONE
-            said = "not modelled, which is no matter here" if none else "not modelled"
+            said = "not modelled, which changes nothing here" if none else "not modelled"
             yield f"  {said}: {u.object}: {u.feature}{detail}", not none
         for note in self.notes:
             yield f"  note: {note}", False
