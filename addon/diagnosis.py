@@ -22,12 +22,13 @@ def diagnose(mesh: Mesh) -> dict[str, Any]:
     positions, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
     faces = index.reshape(-1)[mesh.triangles]
     whole = trimesh.Trimesh(positions.astype(np.float64), faces, process=False)
+    distinct, _ = trimesh.grouping.unique_rows(np.sort(faces))  # type: ignore[no-untyped-call]
     with np.errstate(all="ignore"):  # of what is huge, or has no side
         return {
             "closed": bool(whole.is_watertight),
             "consistent_winding": bool(whole.is_winding_consistent),
             "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
-            "duplicate_faces": len(faces) - len(trimesh.grouping.unique_rows(np.sort(faces))[0]),
+            "duplicate_faces": len(faces) - len(distinct),
         }
 
 

@@ -1,6 +1,6 @@
-"""`blender FILE --command reference_tracer compare|explain|trade|extremes`, for scripts.
+"""`blender FILE --command reference_tracer COMMAND`, for scripts.
 
-These are the commands of `reftrace`, for the file that is open.
+These are the commands of `reftrace` that are part of the add-on, for the file that is open.
 """
 
 from __future__ import annotations
@@ -50,13 +50,13 @@ def run(argv: list[str]) -> int:
 
 
 def _run(argv: list[str]) -> int:
-    from ..cli.commands import HELP, compare, explain, extremes, trade
+    from ..cli.commands import COMMANDS
 
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
-    for command in (compare, explain, trade, extremes):
-        name = command.__name__.rpartition(".")[2]
-        command.add(commands.add_parser(name, help=HELP[name]))
+    for name, command in COMMANDS.items():
+        if command.module:
+            command.module().add(commands.add_parser(name, help=command.help))
     given = parser.parse_args(argv)
     code: int = given.run(given)
     return code

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from .. import __version__
 from . import running
-from .commands import HELP, IN_PACKAGES
+from .commands import COMMANDS
 from .parser import EXIT_CODES_HELP, Parser
 
 
@@ -45,7 +45,8 @@ def parser(argv: Sequence[str]) -> Parser:
     out.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = out.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     asked = next((word for word in argv if not word.startswith("-")), None)
-    for name, text in HELP.items():
+    for name, command in COMMANDS.items():
+        text = command.help
         own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
         if name == asked:
             _add_options(own, name)
@@ -54,21 +55,21 @@ def parser(argv: Sequence[str]) -> Parser:
 
 def _add_options(own: Parser, name: str) -> None:
     """Add a command's options, and those that packages beside the add-on have for it."""
-    from importlib import import_module
     from importlib.metadata import entry_points
 
     for found in entry_points(group="reference_tracer.commands"):
         if found.name == name:
             found.load().add(own)
             return
-    if name in IN_PACKAGES:
+    module = COMMANDS[name].module
+    if module is None:
         from ..scene import SceneError
 
         raise SceneError(
             f"the command {name} is not part of the add-on: pip install --editable . in a clone "
             "of the project installs it"
         )
-    import_module(f"{__package__}.commands.{name}").add(own)
+    module().add(own)
     for found in entry_points(group="reference_tracer.options"):
         found.load()(own, name)
 
