@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Places
 from ..methods import Method
 from ..scene import Camera, Instance, Mesh, Region, Scene
 from ..tracer.candidates import candidates
@@ -123,7 +124,7 @@ def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
             yield pairs
 
 
-def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
+def _order(pixel: Pixel, triangles: WorldTriangles) -> Places:
     """Return the triangles' order for a reader: hits by t, then near misses."""
     rays = pixel.rays()
     hit, t, s = textbook(rays, *triangles.corners)
@@ -134,7 +135,7 @@ def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     return np.lexsort((triangles.triangle, triangles.instance, distance, outside, ~seen))
 
 
-def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], limit: int) -> int:
+def _enough(pixel: Pixel, triangles: WorldTriangles, order: Places, limit: int) -> int:
     """Return how many of the first in order have the same proven answer as all of them.
 
     At least `limit`: what is tied with the first comes with it, and what raised a doubt of it.

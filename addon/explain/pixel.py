@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors
 from ..certainty import Certainty
 from ..methods import Method
 from ..rendering import trace
@@ -33,7 +33,7 @@ class Candidate:
     triangle: int  # and no triangle (NOTHING)
     # World space, metres: (3, 3) the corners, a row each; of a plane (2, 3), its point and normal.
     points: Floats
-    colors: NDArray[np.float32]  # linear RGBA: (1, 4), or (3, 4) with one at each corner
+    colors: Colors  # linear RGBA: (1, 4), or (3, 4) with one at each corner
     mesh: str = ""
     slot: int = 0  # of the material that gives the colour
 
@@ -69,7 +69,7 @@ class Pixel:
     x: int  # of the traced picture, the camera's region: (0, 0) is its lower left pixel
     y: int
     candidates: tuple[Candidate, ...]  # what is nearest first
-    background: NDArray[np.float32]  # (4,) linear RGBA
+    background: Colors  # (4,) linear RGBA
     first_plane: int = 0  # the number of the scene's first infinite plane: that of its instances
     triangles: int = 0  # in the whole scene
     left_out: int = 0  # candidates beyond the limit: none of them is nearer than what is seen

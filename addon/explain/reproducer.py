@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors, Floats
 from ..checked_json import ENDLESS, camera_of, numbers, part, whole
 from ..scene import SceneError
 from ..scene_files import check_is_file
@@ -128,7 +128,7 @@ def _candidate(c: Any, where: str) -> Candidate:
     )
 
 
-def _colors(values: NDArray[np.float64], where: str) -> NDArray[np.float32]:
+def _colors(values: Floats, where: str) -> Colors:
     if np.abs(values).max() > np.finfo(np.float32).max:
         raise SceneError(f"{where} is beyond what a float32 holds")
     return values.astype(np.float32)

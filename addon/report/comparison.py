@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import images
+from ..arrays import Array, Colors
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.maps import cause_map
 from . import page
@@ -47,7 +46,7 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
         write_json(new / JSON, comparison.to_dict())
 
 
-def _write_arrays(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
+def _write_arrays(path: Path, arrays: Mapping[str, Array]) -> None:
     """Write what `numpy.savez_compressed` does, a few per cent larger in less time."""
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
         for name, values in arrays.items():
@@ -55,7 +54,7 @@ def _write_arrays(path: Path, arrays: Mapping[str, NDArray[Any]]) -> None:
                 np.lib.format.write_array(file, values, allow_pickle=False)
 
 
-def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
+def difference_picture(comparison: Comparison) -> Colors:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
     return cause_map(comparison.frame.color, comparison.causes.cause)
 

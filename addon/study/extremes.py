@@ -13,8 +13,8 @@ from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools
 from ..rendering import render
 from ..tracer.camera import Rays
 from ..tracer.frame import Frame
@@ -175,7 +175,7 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     scene, camera = truth.frame.scene, truth.frame.scene.camera
     frame = render(scene, settings)
 
-    def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
+    def test(rays: Rays, pairs: Pairs) -> Bools:
         hit, t, _ = TESTS[settings.method](rays, *pairs.corners)
         return hit & within_clip(camera, t)
 

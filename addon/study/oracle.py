@@ -17,10 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Bools, Index
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
-from ..tracer.vector import Index, Vectors, transform_points
+from ..tracer.vector import Vectors, transform_points
 from .moved_rays import (
     THE_RULE,
     Surface,
@@ -44,16 +45,16 @@ class Intersections:
     # Where the stored line passes: INSIDE, at the EDGE, or OUTSIDE, which is also a line that is
     # parallel to the triangle or lies in its plane.
     side: NDArray[np.int8]
-    hit: NDArray[np.bool_]  # whether the moved line meets the triangle
+    hit: Bools  # whether the moved line meets the triangle
     numerator: NDArray[np.object_]  # integers: t = numerator / denominator * 2^shift
     denominator: NDArray[np.object_]
-    shift: NDArray[np.int64]
+    shift: Index
 
     def t(self, k: int | np.integer) -> Fraction:
         """Return the t of a pair that is not OUTSIDE."""
         return Fraction(self.numerator[k], self.denominator[k]) * Fraction(2) ** int(self.shift[k])
 
-    def within(self, start: float = 0.0, end: float = np.inf) -> NDArray[np.bool_]:
+    def within(self, start: float = 0.0, end: float = np.inf) -> Bools:
         """Return which pairs meet at start <= t <= end; not at t = 0 where the ray begins there."""
         if start == 0 and end == np.inf:  # the sign says it
             return (self.side != OUTSIDE) & (self.numerator * self.denominator > 0)
@@ -91,7 +92,7 @@ def intersect_pairs(origins: Vectors, directions: Vectors, corners: Vectors) -> 
     return Intersections(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def scaled_integers(values: Vectors) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
+def scaled_integers(values: Vectors) -> tuple[NDArray[np.object_], Index]:
     """Return floats (k, n) as integers and the exponent of each column: float = integer * 2^e."""
     mantissa, exponent = np.frexp(values)
     exponent = np.where(mantissa == 0, 5000, exponent.astype(np.int64))  # zero has none

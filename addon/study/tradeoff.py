@@ -14,8 +14,8 @@ from dataclasses import dataclass, field, replace
 from statistics import median
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
@@ -24,8 +24,6 @@ from ..tracer.progress import Work, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 from .truth import largest_t_error
-
-Floats = NDArray[np.float64]
 
 WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
 SMALLER = (1, 2, 4)  # the widths measured: the largest, a half and a quarter of it
@@ -183,7 +181,7 @@ def converged(scene: Scene, samples: int) -> Work[Floats]:
     return out
 
 
-def coverage_error(color: NDArray[np.floating], truth: Floats) -> float:
+def coverage_error(color: Floats, truth: Floats) -> float:
     """Return the root mean square, over pixels and RGBA, of a picture's difference from `truth`.
 
     A smaller picture (h, w, 4) is enlarged to the size of `truth` first, each pixel as it is.

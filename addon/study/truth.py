@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Places
 from ..certainty import Certainty
 from ..certified.any_rays import decide
 from ..methods import Method
@@ -52,7 +52,7 @@ def truth_of(scene: Scene) -> Work[Truth]:
 
 
 def crossings(
-    scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], NDArray[np.bool_]]
+    scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], Bools]
 ) -> Work[tuple[Index, Index]]:
     """Find all that the camera's n rays cross, whether it is the nearest or not.
 
@@ -105,7 +105,7 @@ def largest_t_error(frame: Frame, certified: Frame, in_ulp: bool = False) -> flo
         return float(np.abs(t / unit - exact / unit).max())  # a difference of t may overflow, too
 
 
-def sample(frame: Frame, count: int) -> NDArray[np.intp]:
+def sample(frame: Frame, count: int) -> Places:
     """Return pixels to ask about: half of them anywhere, half where integers had to decide."""
     rng = np.random.default_rng(count)
     anywhere = rng.permutation(frame.certainty.size)

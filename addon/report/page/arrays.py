@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array, Integers
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
@@ -29,7 +30,7 @@ _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
 _TOGETHER = 1 << 16  # pixels: some MiB of temporaries
 
 
-def packed(values: NDArray[Any]) -> dict[str, Any]:
+def packed(values: Array) -> dict[str, Any]:
     """Return an array's type, its shape, and its bytes, deflated (zlib) and in base64.
 
     The first bytes of all numbers come first, then all second ones, and so on, so that the
@@ -52,9 +53,9 @@ def size(value: Any) -> int:
 class SeenSurfaces(NamedTuple):
     """The k surfaces that are seen, and which of them each pixel sees."""
 
-    number: NDArray[np.int32]  # (h, w): 0 for none, else one more than the index into the others
-    instance: NDArray[np.int32]  # (k,), as in a `Frame`
-    triangle: NDArray[np.int32]
+    number: Integers  # (h, w): 0 for none, else one more than the index into the others
+    instance: Integers  # (k,), as in a `Frame`
+    triangle: Integers
 
 
 def seen(frame: Frame) -> SeenSurfaces:

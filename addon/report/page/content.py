@@ -56,7 +56,7 @@ def content(
             str(int(c)): {"name": _words(name), "sentence": c.sentence, "color": c.color}
             for name, c in Certainty.__members__.items()
         },
-        "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
+        "tolerance": {str(dtype): value for dtype, value in SUM_TOLERANCE.items()},
         "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
         "errata": ERRATA,
         "pictures": _pictures(comparison, extras.literal),

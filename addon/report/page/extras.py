@@ -10,9 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...arrays import Colors
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
 from ...methods import Method
@@ -34,7 +32,7 @@ class Extras:
 
     trade: Trade | None = None
     extremes: Sequence[extremes.ExtremesRow] | None = None
-    literal: NDArray[np.float32] | None = None  # (h, w, 4) by the textbook's test as printed
+    literal: Colors | None = None  # (h, w, 4) by the textbook's test as printed
     derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)  # by pixel (x, y)
     left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why
 
@@ -64,7 +62,7 @@ def extras(
     return Extras(**found, left_out=tuple(left_out))
 
 
-def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.float32] | None]:
+def _literal(comparison: Comparison, left_out: list[str]) -> Work[Colors | None]:
     """Return the colours that the textbook taken literally sees, unless that takes long."""
     row = next((r for r in comparison.methods if r.method == Method.TEXTBOOK.value), None)
     if row and row.seconds > LITERAL_SECONDS:
