@@ -33,8 +33,8 @@ def add_camera(parser: Parser, of_study: bool = False) -> None:
             "--width",
             type=COUNT,
             metavar="PIXELS",
-            help=f"width of the picture (default {width} for a mesh; a scene's own, or what --height "
-            "implies)",
+            help=f"width of the picture (default {width} for a mesh; a scene's own, or what "
+            "--height implies)",
         )
     implied = "" if of_study else "; a scene's own, or what --width implies"
     group.add_argument(
