@@ -1,4 +1,4 @@
-"""Short names for the types of arrays."""
+"""Short names for the types of arrays. Those of vectors are in `tracer/vector.py`."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]  # of any type
-Mask = NDArray[np.bool_]
-Floats = NDArray[np.float64]
-Reals = NDArray[np.floating]  # of either precision
-Colors = NDArray[np.float32]  # (..., 4) linear RGBA, premultiplied alpha
-Index = NDArray[np.integer]
-Places = NDArray[np.intp]  # what numpy's searches return
-Numbers = NDArray[np.int32]
+Bools = NDArray[np.bool_]
 Bytes = NDArray[np.uint8]
+Colors = NDArray[np.float32]  # (..., 4) linear RGBA, premultiplied alpha
+Floats = NDArray[np.floating]
+Index = NDArray[np.integer]
+Integers = NDArray[np.int32]
+Places = NDArray[np.intp]  # what numpy's searches return

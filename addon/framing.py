@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import Floats, Reals
+from .arrays import Floats
 from .projections import ORTHOGRAPHIC, PERSPECTIVE
 from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
@@ -22,7 +22,7 @@ NEAREST = 0.01  # depth of the nearest point at least, in sizes of all that is f
 
 
 def framing(
-    parts: Iterable[Reals],
+    parts: Iterable[Floats],
     axes: Floats,
     width: int,
     height: int,
@@ -75,7 +75,7 @@ def framing(
     )
 
 
-def _extents(parts: Iterable[Reals], axes: Floats, slope: Floats) -> tuple[Floats, Floats]:
+def _extents(parts: Iterable[Floats], axes: Floats, slope: Floats) -> tuple[Floats]:
     """Return a point, and how far all points reach from it in ten directions of the camera.
 
     Along x, y, -x and -y; along the same, tilted by the slopes; and along z and -z.

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import Array, Colors, Floats, Index, Mask, Numbers, Places, Reals
+from .arrays import Array, Bools, Colors, Floats, Index, Integers, Places
 from .projections import PERSPECTIVE, PROJECTIONS, Projection
 
 # Of a camera's axes: their inverse, two factors by the determinant, is below 2^602.
@@ -181,10 +181,10 @@ class Mesh:
         If shapes do not fit, an index is out of range, or a vertex is not finite.
     """
 
-    vertices: Reals  # (v, 3) float32 or float64, metres, finite
-    triangles: Numbers  # (n, 3), indices into `vertices`
+    vertices: Floats  # (v, 3) float32 or float64, metres, finite
+    triangles: Integers  # (n, 3), indices into `vertices`
     # Which of an instance's `colors` each triangle shows, (n,); all 0 by default.
-    slots: Numbers = None  # type: ignore[assignment]
+    slots: Integers = None  # type: ignore[assignment]
     # Linear RGBA at each corner, (n, 3, 4); where given, it is what the mesh shows.
     corner_colors: Colors | None = None
     name: str = "Mesh"
@@ -307,7 +307,7 @@ class Scene:
         return np.array([i.mesh for i in self.instances], np.intp)
 
     @cached_property
-    def instance_objects(self) -> Numbers:
+    def instance_objects(self) -> Integers:
         """Which object each instance and plane is, and -1 at the end, for nothing: (k + 1,)."""
         of_instances = [i.object for i in self.instances]
         return np.array([*of_instances, *(p.object for p in self.planes), -1], np.int32)
@@ -330,7 +330,7 @@ class Scene:
         return table
 
     @cached_property
-    def color_rows(self) -> Numbers:
+    def color_rows(self) -> Integers:
         """First and last row in `color_table`, (2, k + 1): of instances, planes, and nothing."""
         counts = np.array([*(len(i.colors) for i in self.instances), *(1,) * len(self.planes), 1])
         ends = np.cumsum(counts)
@@ -354,7 +354,7 @@ def check_size(width: int, height: int) -> None:
         )
 
 
-def drop_non_finite(vertices: Reals, triangles: Index) -> tuple[Reals, Mask]:
+def drop_non_finite(vertices: Floats, triangles: Index) -> tuple[Floats, Bools]:
     """Make vertices finite, and say which triangles may stay.
 
     Returns

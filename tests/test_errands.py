@@ -109,6 +109,75 @@ from reference_tracer.explain.writers import to_dict
 assert to_dict(derivation)["camera"]["orthographic"] == "mirrored"
 known_points(new.camera)
 """
+CAUSE = {
+    "compare/checks/comet.py": (
+        "",
+        "from ..cause import Cause\n\n"
+        "COMET = Cause(\n"
+        "    42, 'comet', 'comet', 'it passed {figure:.0f} km away (seen to {allowed:.0f} km)',\n"
+        "    'km', (0.9, 0.8, 0.1), explains=True, warns=True,\n"
+        ")\n\n\n"
+        "def check(pixels):\n"
+        "    white = (pixels.picture.color == 1).all(axis=-1)\n"
+        "    pixels.give(pixels.open & white, COMET, 7.0, 9.0)\n"
+        "    yield 1.0\n",
+    ),
+    "compare/causes.py": (
+        "from .checks.edges import",
+        "from .checks import comet\n",
+        "    NOT_DECIDABLE,\n",
+        "    comet.COMET,\n",
+        "    (color.check, ",
+        "    (comet.check, 1.0),\n",
+    ),
+}
+FAULT = {
+    "compare/faults.py": (
+        '    Fault("half_pixel"',
+        "    Fault('dark', 'no light', partial(_recolored_picture, lambda c: 0 * c)),\n",
+    ),
+}
+COMPARED = """
+import json
+from reference_tracer.compare.case import Case
+from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.picture import Picture
+from reference_tracer.manifest import Manifest
+from reference_tracer.tracer.progress import result_of
+manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "FILE", "Camera")
+color = render(scene, Settings()).color
+case = Case(scene, manifest, Settings(), Picture(color))
+"""
+SEES_CAUSE = (
+    COMPARED
+    + """
+from dataclasses import replace
+from reference_tracer.report.comparison import difference_picture
+from reference_tracer.report.page.content import content
+color[3:5, 4:9] = 1
+found = result_of(trace_and_compare(case))
+pixels = found.pixels
+assert pixels["by_cause"]["comet"] == pixels["explained"] == pixels["differ"] == 8
+assert pixels["unexplained"] == 0 and found.verdict == "warnings"
+assert "  comet: 8, as at (4, 3)" in "\\n".join(found.lines())
+held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
+assert held["number"] == 42 and held["unit"] == "km", held
+assert (difference_picture(found)[3:5, 4:8, :3] == np.float32((0.9, 0.8, 0.1))).all()
+[entry] = [c for c in content(found)["causes"] if c["name"] == "comet"]
+assert entry["label"] == "Comet" and entry["pixels"] == 8 and entry["value"] == 42
+assert found.told(4, 3) == "it passed 7 km away (seen to 9 km)"
+"""
+)
+SEES_FAULT = (
+    COMPARED
+    + """
+from dataclasses import replace
+found = result_of(trace_and_compare(replace(case, self_check=True)))
+assert found.self_check[0].name == "dark" and found.self_check[0].result == "caught"
+assert "no light" in "\\n".join(found.lines())
+assert found.to_dict()["self_check"][0]["text"] == "no light"
+"""
+)
 COMMAND = {
     "cli/commands/count.py": (
         "",
@@ -206,6 +275,17 @@ def test_a_camera_type_is_a_file_and_a_record(tmp_path):
 def test_a_pass_is_its_property_and_its_record(tmp_path):
     assert PASS.keys() == named("a pass")
     seen(tmp_path, PASS, SEES_PASS)
+
+
+def test_a_cause_is_a_file_with_its_check_and_a_line_in_the_lists(tmp_path):
+    files = {f.replace("comet.py", "") for f in CAUSE}
+    assert files == named("a cause") and len(CAUSE) == 2
+    seen(tmp_path, CAUSE, SEES_CAUSE)
+
+
+def test_a_fault_is_its_record(tmp_path):
+    assert FAULT.keys() == named("a fault of the self-check")
+    seen(tmp_path, FAULT, SEES_FAULT)
 
 
 def test_a_command_is_its_file_and_its_record(tmp_path):
