@@ -90,17 +90,17 @@ class Resolver:
             yield "contest"
         ends = list(groups(amount[every] + _CANDIDATES // _RAYS, _CANDIDATES))
         starts = every[[first for first, _ in ends]]
-        contests: list[list[tuple[Index, Index]]] = [[] for _ in ends]
+        together: list[list[tuple[Index, Index]]] = [[] for _ in ends]
         while pairs and ends:
             pixel, surface = pairs.pop()
             group = (np.searchsorted(starts, pixel, side="right") - 1).astype(np.uint16)
-            for members, own in zip(contests, grouped(group, len(ends)), strict=True):
+            for members, own in zip(together, grouped(group, len(ends)), strict=True):
                 if len(own):
                     members.append((pixel[own], surface[own]))
             yield "contest"
         ties = []
         known = [Known.none()]
-        for (first, last), members in zip(ends, contests, strict=True):
+        for (first, last), members in zip(ends, together, strict=True):
             which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             members.clear()
