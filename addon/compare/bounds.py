@@ -203,7 +203,8 @@ def spread_error(own: Floats) -> Work[Floats]:
     around that pixel that reaches as far as the next power of two.
     """
     band = np.full(own.shape, SNAPPING)
-    reach, height, most = 1, len(own), max(own.shape)
+    height, most = len(own), max(own.shape)
+    reach = 1
     while True:
         together = max(_ROWS, 2 * reach)
         for y in range(0, height, together):
