@@ -32,11 +32,11 @@ METHOD = {
 }
 SEES_METHOD = """
 from reference_tracer.cli.arguments import add_settings
+from reference_tracer.cli.parser import Parser
 from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import extreme_plots
 from reference_tracer.study import tradeoff
-import argparse
-parser = argparse.ArgumentParser()
+parser = Parser()
 add_settings(parser)
 assert "never" in parser.format_help()
 frame = render(scene, Settings("never", "float32"))
@@ -178,6 +178,58 @@ assert "no light" in "\\n".join(found.lines())
 assert found.to_dict()["self_check"][0]["text"] == "no light"
 """
 )
+COMMAND = {
+    "cli/commands/count.py": (
+        "",
+        "from dataclasses import dataclass\n"
+        "from pathlib import Path\n"
+        "from ..camera_options import add_camera, choice_from\n"
+        "from ..opening import SOURCES, load\n"
+        "from ..parser import AGREE\n\n\n"
+        "@dataclass(frozen=True)\n"
+        "class CountOptions:\n"
+        "    scene: Path\n"
+        "    choice: object\n\n\n"
+        "def add(parser):\n"
+        "    def run(given):\n"
+        "        return count(CountOptions(given.scene, choice_from(given, given.scene)))\n\n"
+        "    parser.runs(run, 'reftrace count scene.npz')\n"
+        "    parser.add_scene(SOURCES)\n"
+        "    add_camera(parser)\n\n\n"
+        "def count(options):\n"
+        "    print('triangles:', load(options.scene, options.choice)[0].triangle_count)\n"
+        "    return AGREE\n",
+    ),
+    "cli/commands/__init__.py": (
+        "COMMANDS = {",
+        "def _count():\n    from . import count\n\n    return count\n\n\n",
+        '    "judge": Command(',
+        '    "count": Command("count the triangles of a scene", _count),\n',
+    ),
+}
+SEES_COMMAND = """
+from contextlib import redirect_stdout
+from io import StringIO
+from reference_tracer.cli.main import main
+from reference_tracer.scene_files import save_scene
+save_scene("scene.npz", scene)
+with redirect_stdout(StringIO()) as said:
+    assert main(["count", "scene.npz"]) == 0
+    try:
+        main(["--help"])
+    except SystemExit:
+        pass
+assert "triangles: 1" in said.getvalue() and "count the triangles" in said.getvalue()
+assert main(["count", "scene.npz", "--frame", "3"]) == 4
+"""
+SEES_COMMAND_IN_BLENDER = """
+from contextlib import redirect_stdout
+from io import StringIO
+from reference_tracer.blender import commands
+with redirect_stdout(StringIO()) as said:
+    assert commands.run(["--help"]) == 0
+assert "count the triangles" in said.getvalue()
+"""
 SCENE = """
 import numpy as np
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
@@ -236,11 +288,21 @@ def test_a_fault_is_its_record(tmp_path):
     seen(tmp_path, FAULT, SEES_FAULT)
 
 
+def test_a_command_is_its_file_and_its_record(tmp_path):
+    files = {f.replace("count.py", "") for f in COMMAND}
+    assert files == named("a command") and len(COMMAND) == 2
+    seen(tmp_path, COMMAND, SEES_COMMAND)
+
+
 @pytest.mark.blender
 @pytest.mark.parametrize(
     ("changes", "script"),
-    [(METHOD, SEES_METHOD_IN_BLENDER), (PASS, SEES_PASS_IN_BLENDER)],
-    ids=["method", "pass"],
+    [
+        (METHOD, SEES_METHOD_IN_BLENDER),
+        (PASS, SEES_PASS_IN_BLENDER),
+        (COMMAND, SEES_COMMAND_IN_BLENDER),
+    ],
+    ids=["method", "pass", "command"],
 )
 def test_blender_shows_a_new_record(tmp_path, changes, script):
     seen(tmp_path, changes, script)

@@ -29,6 +29,7 @@ FLOORS = {
     "compare": 3,
     "study": 3,
     "explain": 3,
+    "errors": 3,
     "report": 4,
     "blender": 5,
     "cli": 5,
