@@ -114,6 +114,7 @@ def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
     error `view` (n,) besides.
     """
     near, far = camera.clip_start, camera.clip_end
+    depth = np.asarray(depth, np.float64)
     step = camera.projection.depth_step((far - near) * U32, depth, near, far)
     return _DEPTH_STEPS * step + 2 * view
 
