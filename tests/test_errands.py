@@ -109,7 +109,7 @@ known_points(new.camera)
 SCENE = """
 import numpy as np
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
-from reference_tracer.tracer.render import render
+from reference_tracer.rendering import render
 from reference_tracer.tracer.settings import Settings
 camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 8, 8)
 mesh = Mesh(np.array([[-9.0, -9, -5], [9, -9, -5], [0, 9, -5]]), [[0, 1, 2]])

@@ -13,16 +13,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..certainty import check_assumptions
 from ..scene import ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import NOTHING, Hits, Name
 from ..tracer.vector import Index, rational
 from ..tracer.world import reaches, world_corners
+from .arithmetic import check_assumptions
 from .bounds import BOUND
-from .contest import Contest
-from .settle import BY_INTEGERS, Decisions, by_ray
+from .ladder import BY_INTEGERS, Decisions, Ladder
 from .surfaces import Candidates, Surfaces
 
 if TYPE_CHECKING:
@@ -86,13 +85,13 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     for y in range(r.y0, r.y1, _ROWS):
         tile = replace(r, y0=y, y1=min(y + _ROWS, r.y1))
         film = film_positions(tile)
-        contest = Contest.of(scene, camera_rays(camera, *film), around, aside)
+        ladder = Ladder.of(scene, camera_rays(camera, *film), around, aside)
         for _, pairs in candidates(plan, tile):
             if pairs:
-                contest.enter(pairs)
-        found, clear, surfaces = contest.left()
+                ladder.test(pairs)
+        found, clear, surfaces = ladder.left()
         shown = stored[:, y - r.y0 : tile.y1 - r.y0].reshape(2, -1)
-        for part in by_ray(found.take(np.flatnonzero(~clear)), BY_INTEGERS):
+        for part in found.take(np.flatnonzero(~clear)).by_ray(BY_INTEGERS):
             rays, own = _unrounded(scene, film, part, surfaces)
             asked += len(rays)
             for k in np.flatnonzero((own != shown[:, rays]).any(axis=0)).tolist():

@@ -16,13 +16,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..rendering import render
 from ..tracer.camera import Rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
-from ..tracer.render import render
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
@@ -134,7 +134,7 @@ def measure(
 
     Raises
     ------
-    certainty.AssumptionError
+    arithmetic.AssumptionError
         If nothing can be certified in this process.
     """
     scenes = [(s, scale) for s in scenarios for scale in s.scales]

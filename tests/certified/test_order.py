@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.certainty import Certainty
-from reference_tracer.certified.reasons import Reason
-from reference_tracer.certified.settle import Decisions
+from reference_tracer.certainty import Certainty, Reason
+from reference_tracer.certified.ladder import Decisions
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
+from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWindow
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 ULP = 2.0**-52
@@ -52,7 +51,7 @@ def test_as_by_every_ray_itself(rng, orthographic, with_plane, monkeypatch):
         frame = render(scene, Settings("certified"))
         with monkeypatch.context() as patch:
             patch.setattr(
-                Decisions, "by_order", lambda self, found: found
+                Decisions, "by_order", lambda self, found, nearest: found
             )  # leaves all to the slow way
             slow = render(scene, Settings("certified"))
         for name in ("t", "instance_index", "triangle_index", "certainty"):

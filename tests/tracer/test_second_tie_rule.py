@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified import settle, ties
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.scene_files import load_scene
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .hostile_scenes import hostile_scene

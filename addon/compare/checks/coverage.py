@@ -85,7 +85,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
     points, normals = probe.points(sure)[pixel].T, shading.normals(scene, own).T
     behind = np.where(own.instance != NOTHING, plane.intersect(rays, points, normals), np.inf)
     behind = np.where(np.isnan(behind), own.t, behind)
-    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure, behind)
+    return Coverage(pixel, distance, Hits.of(t, instance, triangle, s), sure, behind)
 
 
 def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
