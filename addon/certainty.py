@@ -28,7 +28,7 @@ class Certainty(IntEnum):
 
 
 class Reason(Enum):
-    """What about a ray and a surface needed exact arithmetic."""
+    """Why a ray and a surface needed exact arithmetic: the end of "rays that ..."."""
 
     EDGE = "meet an edge or a corner exactly"
     NEAR_EDGE = "pass an edge within rounding error"
@@ -42,7 +42,7 @@ class Reason(Enum):
 
 
 def sentences(pairs: int, counts: Mapping[Reason, int]) -> list[str]:
-    """Return what the scene required, a fact a line: the whole, then each reason with its count."""
+    """Return what the scene required, in lines: the total, then each reason with its count."""
     exact = sum(counts.values())
     if not exact:
         return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]

@@ -46,6 +46,7 @@ BY_ORDER = 1 << 14
 BY_INTEGERS = 1 << 11
 
 Bools = NDArray[np.bool_]
+Met = list[exact.Hit | None]
 # Returns how the first of two candidates lies to the second, (p,) each: codes of `order.py`.
 Compare = Callable[[Index, Index], NDArray[np.int8]]
 # Finds the nearest candidate of each ray by comparing; see `one_by_one`.
@@ -139,7 +140,9 @@ class Ladder:
             yield 1.0
             for some in rest.by_ray(BY_INTEGERS):
                 with np.errstate(all="ignore"):
-                    decisions.by_integers(some)
+                    met, first = decisions.by_integers(some)
+                    why = reasons(some, met, first, self._rays, surfaces)
+                statistics.reasons.update(why)
                 yield 1.0
         hits.ties = Ties.joined(decisions.ties)
         statistics.reasons += decisions.reasons
@@ -269,14 +272,17 @@ class Decisions:
 
         return compare
 
-    def by_integers(self, found: Candidates) -> None:
-        """Decide rays, sorted, with all their candidates, as `definition.py` does."""
+    def by_integers(self, found: Candidates) -> tuple[Met, Met]:
+        """Decide rays, sorted, with all their candidates, as `definition.py` does.
+
+        Returns the exact hit on each candidate, and the hit that its ray sees.
+        """
         batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, self.clip)
         met = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
         instance, triangle = (v.tolist() for v in self.surfaces.names(found.surface))
         names = list(zip(instance, triangle, strict=True))
         starts = np.flatnonzero(np.diff(found.ray, prepend=-1)).tolist()
-        firsts: list[exact.Hit | None] = []
+        firsts: Met = []
         tied = []
         for start, end in zip(starts, [*starts[1:], len(met)], strict=True):
             ray = int(found.ray[start])
@@ -293,7 +299,7 @@ class Decisions:
             firsts += [first] * (end - start)
         ray_of, *name_of = np.array(tied, np.int64).reshape(-1, 3).T
         self.ties.append(Ties.of(ray_of, *name_of))
-        self.reasons.update(reasons(found, met, firsts, self.rays, self.surfaces))
+        return met, firsts
 
 
 def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:

@@ -1,37 +1,45 @@
-"""Why the error bound did not decide, in words that a user understands."""
+"""Says in words why an error bound did not decide a pair of a ray and a surface."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..certainty import Reason
 from ..tracer.camera import Rays
-from ..tracer.vector import cross, largest
+from ..tracer.vector import Floats, Vectors, cross, largest
 from .bounds import BOUND, SLACK
 from .exact import Hit, sign_of_difference
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
 
-# Below this ratio a property is nothing unusual: it costs three of float64's sixteen digits.
+# A ratio below this is ordinary: it costs three of float64's sixteen digits.
 _ORDINARY = 1e3
 
 
-def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
-    """Return for n rays, each in doubt of a triangle's edge (3, 3, n), what is unusual about it."""
+def of_doubts(rays: Rays, corners: Vectors) -> list[Reason]:
+    """Return why the bound did not decide n pairs: what is unusual about the ray and the triangle.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays.
+    corners : (3, 3, n) float64
+        Corner, component, triangle: that of each ray.
+    """
     a, b, c = corners
     with np.errstate(all="ignore"):
         sides = [_length(side) for side in (b - a, c - b, a - c)]
         longest = largest(*sides)
-        normal = cross((b - a) / longest, (c - a) / longest)  # by units, lest it underflow
+        normal = cross((b - a) / longest, (c - a) / longest)  # does not underflow
         height = _length(normal)
-        speed, distance = _length(rays.directions), _length(a - rays.origins)
+        speed = _length(rays.directions)
+        distance = _length(a - rays.origins)
         d = rays.directions / speed
         cosine = np.abs(d[0] * normal[0] + d[1] * normal[1] + d[2] * normal[2]) / height
         ratios = np.stack((distance / longest, 1 / height, 1 / cosine))
         ratios = np.nan_to_num(ratios, nan=np.inf)
-        # Of e, T and D: beyond these, it is not the digits that are too few, but the exponent.
+        # The sizes of e, T and D: beyond these ends not digits are too few, but exponents.
         sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
         extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
     found = np.array([Reason.FAR, Reason.THIN, Reason.EDGE_ON])[ratios.argmax(axis=0)]
@@ -40,7 +48,8 @@ def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
     return found.tolist()
 
 
-def _length(v: NDArray) -> NDArray:
+def _length(v: Vectors) -> Floats:
+    """Return the largest |component| of vectors (3, n)."""
     return np.abs(v).max(axis=0)
 
 

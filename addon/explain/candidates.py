@@ -20,6 +20,7 @@ from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import PLAIN_SETTINGS, Settings
+from ..tracer.triangle import textbook
 from ..tracer.world import WorldTriangles, refused
 from .pixel import Candidate, Pixel, certified_hits, check_pixel, plain_answer
 
@@ -125,7 +126,7 @@ def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
 def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     """Return the triangles' order for a reader: hits by t, then near misses."""
     rays = pixel.rays()
-    hit, t, s = Method.TEXTBOOK.function(rays, *triangles.corners)
+    hit, t, s = textbook(rays, *triangles.corners)
     with np.errstate(invalid="ignore"):
         outside = np.nan_to_num(np.maximum(0.0, -s.min(axis=0)), nan=np.inf)
         distance = np.nan_to_num(np.abs(t), nan=np.inf)

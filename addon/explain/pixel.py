@@ -26,6 +26,7 @@ from ..tracer.hits import NOTHING, NOWHERE, Hits, Name, Statistics
 from ..tracer.nearest import within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.triangle import TESTS
 from ..tracer.world import WorldTriangles
 
 
@@ -172,7 +173,7 @@ def plain_answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings) ->
         planes = [(c.name, *c.points.astype(precision.dtype)) for c in pixel.planes]
     met = [(np.inf, NOWHERE, np.zeros(3))]
     if len(triangles.instance):
-        hit, t, s = method.function(rays, *corners)
+        hit, t, s = TESTS[method](rays, *corners)
         for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
             name = int(triangles.instance[k]), int(triangles.triangle[k])
             met.append((float(t[k]), name, s[:, k].astype(float)))

@@ -18,6 +18,7 @@ from .candidates import PAIRS, Pairs, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
+from .triangle import TESTS
 from .world import batches, world_triangles
 
 # Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).
@@ -101,7 +102,7 @@ def test_pairs(
 
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
     """
-    hit, t, s = settings.method.function(rays.take(some.pixel), *some.corners)
+    hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
     found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
     _keep_nearest(hits, after, some.pixel[seen], found)

@@ -90,7 +90,8 @@ def test_depths_are_found_once(make, rng, monkeypatch, samples):
     found = []
 
     def counted(self, ray, *names, function=Measured.__call__):
-        found.append(len(ray))
+        if not self.dx and not self.dy:
+            found.append(len(ray))
         return function(self, ray, *names)
 
     scene = mess(make, rng, False, False)

@@ -85,7 +85,7 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
     frame = yield from scaled(work, 0.4, 0.6)
     wrong = frame.wrong_against(truth)
     shown.color = ringed(shown.color, wrong)
-    name = f"{settings.precision} {settings.method.words}"
+    name = f"{settings.precision} {settings.method.record.words}"
     shown.line = f"{name}: {wrong.sum():,} wrong of {wrong.size:,} pixels"
 
 
