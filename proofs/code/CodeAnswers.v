@@ -48,7 +48,7 @@ Record inputs := Inputs {
   clip_start : float;
   clip_end : float;
   floats_of : Contest.surface -> stored; (* of a scene's surface *)
-  (* the batch in which settle.py asks of two surfaces, and that of order.py *)
+  (* the batch in which ladder.py asks integers about surfaces, and that of order.py *)
   settled_in : Contest.surface -> Contest.surface -> batch;
   ordered_in : Contest.surface -> Contest.surface -> batch;
   division : Z -> Z -> option R; (* Python's n / d, None for an OverflowError *)
@@ -240,6 +240,7 @@ Definition code_answers : Contest.answers := {|
   Contest.interval_high s := number_of (high_float s);
   Contest.order_applies := code_order_applies;
   Contest.order_of := code_order;
+  Contest.two_by_two := false;
   Contest.hit s := asked s (fun _ => true) false;
   Contest.on_edge s := asked s Hits.on_edge false;
   Contest.is_hit s := asked s (Hits.is_hit Ties.PERTURBATION) false;

@@ -1,4 +1,4 @@
-(** What contest.py says of a ray and a surface, from their e, T and D in binary64.
+(** What ladder.py says of a ray and a surface, from their e, T and D in binary64.
 
     The trees are those that the bridge has recorded; that they are the forms of Forms.v is proven by
     comparing them ([reflexivity]). *)

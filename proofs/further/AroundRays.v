@@ -1,6 +1,6 @@
 (** Bounds that are computed for the rays of a picture's corner pixels are bounds for all its rays:
     by component, a ray is monotone in x and in y, as rounding is. ([corner_rays] in camera.py, and
-    [_prepare] in contest.py.) *)
+    [_prepare] in ladder.py.) *)
 Require Import ZArith Reals Psatz List String Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Reftrace Require Import Trees Rounding Magnitude Signs Pairs RecordedChoices RecordedCamera.

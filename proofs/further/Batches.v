@@ -129,7 +129,7 @@ Proof.
     + destruct H as [H|[x [H K]]]; [discriminate|]. inversion H; subst. congruence.
   - split; [|intros [H|[x [H _]]]; discriminate]. intros H. exfalso. revert H.
     destruct (_ && _); [|apply I].
-    unfold by_order. destruct (rounds _ _ _) as [[w tied]|]; [|apply I].
+    unfold by_order. destruct (nearest_of _ _) as [[w tied]|]; [|apply I].
     simpl. destruct tied; discriminate.
 Qed.
 End Batches.

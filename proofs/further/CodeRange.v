@@ -1,4 +1,4 @@
-(** contest.py: what becomes of a pair once its interval is known, as recorded, is what the model says.
+(** ladder.py: what becomes of a pair once its interval is known, as recorded, is what the model says.
 
     [in_range] has two records, for a start that is negative and one that is not; [_candidates] was
     recorded with a start that is not negative, of one pair that is sure, and of one that is not. *)

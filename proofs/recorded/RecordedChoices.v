@@ -4,79 +4,79 @@ From Reftrace Require Import Trees.
 Open Scope Z_scope.
 Open Scope string_scope.
 
-(** contest.Contest._candidates, what is sure: certain *)
+(** ladder.Ladder._candidates, what is sure: certain *)
 Definition candidate_sure_certain : test :=
   Same (Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start")
     (Var "low")) (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0)) (Num 0 0).
 
-(** contest.Contest._candidates, what is sure: kept *)
+(** ladder.Ladder._candidates, what is sure: kept *)
 Definition candidate_sure_kept : test :=
   And (Not (Or (Less (Var "high") (Var "start")) (Less (Var "end") (Var "low")))) (LessEq
     (Var "low") (Min (Var "farthest") (Var "high"))).
 
-(** contest.Contest._candidates, what is sure: farthest *)
+(** ladder.Ladder._candidates, what is sure: farthest *)
 Definition candidate_sure_farthest : expr :=
   Min (Var "farthest") (Var "high").
 
-(** contest.Contest._candidates, what is sure: path *)
+(** ladder.Ladder._candidates, what is sure: path *)
 Definition candidate_sure_path : test :=
   And (Not (Less (Var "start") (Num 0 0))) (Same (Where (And (Given "sure") (Finite (Var "high")))
     (Where (And (Less (Var "start") (Var "low")) (Less (Var "high") (Var "end"))) (Num 0 0)
     (Num 1 1)) (Num 1 0)) (Num 0 0)).
 
-(** contest.Contest._candidates, what is in doubt: certain *)
+(** ladder.Ladder._candidates, what is in doubt: certain *)
 Definition candidate_open_certain : test :=
   Same (Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start")
     (Var "low")) (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0)) (Num 0 0).
 
-(** contest.Contest._candidates, what is in doubt: kept *)
+(** ladder.Ladder._candidates, what is in doubt: kept *)
 Definition candidate_open_kept : test :=
   And (Not (Or (Less (Var "high") (Var "start")) (Less (Var "end") (Var "low")))) (LessEq
     (Var "low") (Var "farthest")).
 
-(** contest.Contest._candidates, what is in doubt: farthest *)
+(** ladder.Ladder._candidates, what is in doubt: farthest *)
 Definition candidate_open_farthest : expr :=
   Var "farthest".
 
-(** contest.Contest._candidates, what is in doubt: path *)
+(** ladder.Ladder._candidates, what is in doubt: path *)
 Definition candidate_open_path : test :=
   And (Not (Less (Var "start") (Num 0 0))) (Not (Same (Where (And (Given "sure") (Finite
     (Var "high"))) (Where (And (Less (Var "start") (Var "low")) (Less (Var "high") (Var "end")))
     (Num 0 0) (Num 1 1)) (Num 1 0)) (Num 0 0))).
 
-(** contest.Contest._prepare, rays from one point, two of them: around reach x *)
+(** ladder.Ladder._prepare, rays from one point, two of them: around reach x *)
 Definition around_reach_x : expr :=
   Max (Abs (Var "x1")) (Abs (Var "x2")).
 
-(** contest.Contest._prepare, rays from one point, two of them: around reach y *)
+(** ladder.Ladder._prepare, rays from one point, two of them: around reach y *)
 Definition around_reach_y : expr :=
   Max (Abs (Var "y1")) (Abs (Var "y2")).
 
-(** contest.Contest._prepare, rays from one point, two of them: around reach z *)
+(** ladder.Ladder._prepare, rays from one point, two of them: around reach z *)
 Definition around_reach_z : expr :=
   Max (Abs (Var "z1")) (Abs (Var "z2")).
 
-(** contest.Contest._prepare, parallel rays, two of them: around low x *)
+(** ladder.Ladder._prepare, parallel rays, two of them: around low x *)
 Definition around_low_x : expr :=
   Min (Var "x1") (Var "x2").
 
-(** contest.Contest._prepare, parallel rays, two of them: around low y *)
+(** ladder.Ladder._prepare, parallel rays, two of them: around low y *)
 Definition around_low_y : expr :=
   Min (Var "y1") (Var "y2").
 
-(** contest.Contest._prepare, parallel rays, two of them: around low z *)
+(** ladder.Ladder._prepare, parallel rays, two of them: around low z *)
 Definition around_low_z : expr :=
   Min (Var "z1") (Var "z2").
 
-(** contest.Contest._prepare, parallel rays, two of them: around high x *)
+(** ladder.Ladder._prepare, parallel rays, two of them: around high x *)
 Definition around_high_x : expr :=
   Max (Var "x1") (Var "x2").
 
-(** contest.Contest._prepare, parallel rays, two of them: around high y *)
+(** ladder.Ladder._prepare, parallel rays, two of them: around high y *)
 Definition around_high_y : expr :=
   Max (Var "y1") (Var "y2").
 
-(** contest.Contest._prepare, parallel rays, two of them: around high z *)
+(** ladder.Ladder._prepare, parallel rays, two of them: around high z *)
 Definition around_high_z : expr :=
   Max (Var "z1") (Var "z2").
 

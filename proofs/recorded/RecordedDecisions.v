@@ -4,55 +4,55 @@ From Reftrace Require Import Trees.
 Open Scope Z_scope.
 Open Scope string_scope.
 
-(** contest.sides: possible *)
+(** ladder.sides: possible *)
 Definition sides_possible : test :=
   Not (And (Less (Min (Min (Var "e1") (Var "e2")) (Var "e3")) (Neg (Var "error"))) (Less
     (Var "error") (Max (Max (Var "e1") (Var "e2")) (Var "e3")))).
 
-(** contest.sides: sure *)
+(** ladder.sides: sure *)
 Definition sides_sure : test :=
   Or (Less (Var "error") (Min (Min (Var "e1") (Var "e2")) (Var "e3"))) (Less (Max (Max (Var "e1")
     (Var "e2")) (Var "e3")) (Neg (Var "error"))).
 
-(** contest.in_range, start not negative: low *)
+(** ladder.in_range, start not negative: low *)
 Definition in_range_low : expr :=
   Var "low".
 
-(** contest.in_range, start not negative: high *)
+(** ladder.in_range, start not negative: high *)
 Definition in_range_high : expr :=
   Var "high".
 
-(** contest.in_range, start not negative: outside *)
+(** ladder.in_range, start not negative: outside *)
 Definition in_range_outside : test :=
   Or (Less (Var "high") (Var "start")) (Less (Var "end") (Var "low")).
 
-(** contest.in_range, start not negative: doubt *)
+(** ladder.in_range, start not negative: doubt *)
 Definition in_range_doubt : expr :=
   Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start") (Var "low"))
     (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0).
 
-(** contest.in_range, start not negative: path *)
+(** ladder.in_range, start not negative: path *)
 Definition in_range_path : test :=
   Not (Less (Var "start") (Num 0 0)).
 
-(** contest.in_range, start negative: low *)
+(** ladder.in_range, start negative: low *)
 Definition in_range_behind_low : expr :=
   Where (Finite (Var "high")) (Var "low") (Neg Inf).
 
-(** contest.in_range, start negative: high *)
+(** ladder.in_range, start negative: high *)
 Definition in_range_behind_high : expr :=
   Var "high".
 
-(** contest.in_range, start negative: outside *)
+(** ladder.in_range, start negative: outside *)
 Definition in_range_behind_outside : test :=
   And (Or (Less (Var "high") (Var "start")) (Less (Var "end") (Var "low"))) (Finite (Var "high")).
 
-(** contest.in_range, start negative: doubt *)
+(** ladder.in_range, start negative: doubt *)
 Definition in_range_behind_doubt : expr :=
   Where (And (Given "sure") (Finite (Var "high"))) (Where (And (Less (Var "start") (Var "low"))
     (Less (Var "high") (Var "end"))) (Num 0 0) (Num 1 1)) (Num 1 0).
 
-(** contest.in_range, start negative: path *)
+(** ladder.in_range, start negative: path *)
 Definition in_range_behind_path : test :=
   Less (Var "start") (Num 0 0).
 

@@ -2,7 +2,7 @@
 
     [code_answers] (CodeAnswers.v) is what the code computes of one ray and single surfaces: in
     binary64, by the operations that were recorded from it, and in integers. [plain] (Contest.v) is
-    a model of how contest.py, settle.py and ties.py put these answers together. Here is proven that
+    a model of how ladder.py and ties.py put these answers together. Here is proven that
     what [plain] says with these answers is true. What is not proven but given is in [given]. *)
 Require Import ZArith Reals List Bool.
 From Flocq Require Import Core.

@@ -151,7 +151,7 @@ Record given_but_depth (i : inputs) (p : preparation) (scene : list surface)
   (** All that [certified] is given, but for t by quotient.py. *)
   all_else : given (never_sure i) scene batches;
   (** What is taken of quotient.py is what was recorded of it, and finite. (Less may be taken:
-      surfaces.py lets integers divide also where the barycentrics are not known well.) *)
+      [Prepared.enter] lets integers divide also where the barycentrics are not known well.) *)
   quotient_is_recorded : forall s t', met (stored_ray i) (start i) (end_ i) scene s ->
     quotient i s = Some t' -> recorded_quotient i p s = Some t';
   (** And it was prepared for this ray. *)

@@ -1,8 +1,8 @@
 (** A model of [plain] for one ray: who is nearest among a scene's surfaces, as the tracer finds it.
 
-    It follows contest.py, settle.py and ties.py, function by function, with their names. What is
+    It follows ladder.py and ties.py step by step; comments name the function. What is
     computed for a surface, or for two, are [answers]: here they are any; [Whole.v] says what they
-    must be. Rays do not meet in a contest, so that one of them is enough. *)
+    must be. Rays do not depend on one another, so that one of them is enough. *)
 Require Import ZArith Reals List Bool.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry.
@@ -58,12 +58,13 @@ Definition is_finite (a : number) : bool := match a with Finite _ => true | _ =>
 Inductive order := NEARER | COPLANAR | FARTHER | UNDECIDED.
 
 Record answers := Answers {
-  possible : surface -> bool; (* contest.py, [sides]; of an infinite plane both are true *)
+  possible : surface -> bool; (* ladder.py, [sides]; of an infinite plane both are true *)
   sure : surface -> bool;
   interval_low : surface -> number; (* bounds.py, [Fractions.interval] *)
   interval_high : surface -> number;
   order_applies : bool; (* order.py *)
   order_of : surface -> surface -> order;
+  two_by_two : bool; (* whether candidates are compared in rounds, as the sweep does: tournament.py *)
   hit : surface -> bool; (* exact.py: whether [IntegerBatch.hit] is not None *)
   on_edge : surface -> bool;
   is_hit : surface -> bool; (* by the moved ray *)
@@ -80,7 +81,7 @@ Variable a : answers.
 Variable start : R. (* the clip range *)
 Variable end_ : number.
 
-(** ** contest.py *)
+(** ** ladder.py: the error bound *)
 
 (** [in_range] *)
 Definition high (s : surface) : number := interval_high a s.
@@ -95,7 +96,7 @@ Definition outside (s : surface) : bool :=
   (less (high s) (Finite start) || less end_ (interval_low a s))
   && (if behind then is_finite (high s) else true).
 
-(** What is known so far: the nearest hit is not farther than [farthest], and is among [kept]. *)
+(** [Ladder.test] and [_candidates]. What is known so far: the nearest hit is not farther than [farthest], and is among [kept]. *)
 Record contest := Contest { farthest : number; kept : list surface }.
 Definition nothing_yet : contest := Contest Infinity [].
 
@@ -140,17 +141,20 @@ Definition front (hits : list surface) : list surface :=
 Definition no_ties (hits : list surface) : bool :=
   match front hits with [] => true | [s] => negb (on_edge a s) | _ => false end.
 
-(** ** settle.py *)
+(** ** ladder.py: integers *)
 
 Definition entry (s : option surface) (c : certainty) : result :=
   Result s c (option_map (computed_t a) s).
 
+(** [Decisions.by_integers] *)
 Definition by_integers (found : list surface) : result :=
   let hits := filter (hit a) found in
   entry (first hits) (if no_ties hits then EXACT else AMBIGUOUS).
 
-(** [_first_by_order], a tournament. Whoever is left has those with it that lie in its plane and
-    were beaten by their names alone: what [tied] finds afterwards, going back. None: undecided. *)
+(** ** ladder.py: the order of depths *)
+
+(** Whoever is left of those that were compared has those with it that lie in its plane and were
+    beaten by their names alone: [tied] of the code. None: a comparison is undecided. *)
 Definition entrant := (surface * list surface)%type.
 Definition meet (one other : entrant) : option entrant :=
   match order_of a (fst one) (fst other) with
@@ -159,6 +163,16 @@ Definition meet (one other : entrant) : option entrant :=
   | COPLANAR => Some (fst one, snd one ++ fst other :: snd other)
   | UNDECIDED => None
   end.
+(** [one_by_one]: the nearest so far, and the next. *)
+Definition one_by_one (those : list entrant) : option entrant :=
+  match those with
+  | [] => None
+  | first :: rest =>
+      fold_left (fun best other => match best with Some one => meet one other | None => None end)
+        rest (Some first)
+  end.
+
+(** [tournament] of the sweep: in each round, every second one meets the one before it. *)
 Fixpoint round (those : list entrant) : option (list entrant) :=
   match those with
   | one :: other :: rest =>
@@ -175,6 +189,9 @@ Fixpoint rounds (n : nat) (those : list entrant) : option entrant :=
   | _, O => None
   end.
 
+Definition nearest_of (those : list entrant) : option entrant :=
+  if two_by_two a then rounds (length those) those else one_by_one those.
+
 (** [np.lexsort] by the names. *)
 Fixpoint insert (s : surface) (sorted : list surface) : list surface :=
   match sorted with
@@ -183,13 +200,14 @@ Fixpoint insert (s : surface) (sorted : list surface) : list surface :=
   end.
 Definition by_name (found : list surface) : list surface := fold_right insert [] found.
 
+(** [Decisions.by_order] *)
 Definition by_order (found : list surface) : option result :=
-  match rounds (length found) (map (fun s => (s, [])) (by_name found)) with
+  match nearest_of (map (fun s => (s, [])) (by_name found)) with
   | Some (s, tied) => Some (entry (Some s) (match tied with [] => EXACT | _ => AMBIGUOUS end))
   | None => None
   end.
 
-(** [Contest.hits] *)
+(** ** [Ladder.hits] *)
 Definition found (c : contest) : list surface :=
   filter (fun s => less_eq (low s) (farthest c)) (kept c).
 Definition hits (c : contest) : result :=

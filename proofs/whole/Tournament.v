@@ -1,4 +1,5 @@
-(** Who wins the tournament of those who surely are met: the nearest, with all in its plane. *)
+(** Which is the nearest of those that surely are met, with all in its plane: compared one after the
+    other, or in the rounds of a tournament. *)
 Require Import ZArith Reals Psatz List Bool Sorted Permutation.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Contest Facts Nearest.
@@ -22,7 +23,15 @@ Local Notation those := (found a start (fold_left enter batches nothing_yet)).
 Let met_in : forall s, met s -> In s scene := met_in.
 Let met_D : forall s, met s -> D r s <> 0 := met_D.
 
-(** If all pairs are decided, the tournament ends with somebody. *)
+(** If all pairs are decided, somebody is found. *)
+Lemma one_by_one_ends : (forall s s', order_of a s s' <> UNDECIDED) -> forall l, l <> [] ->
+  exists e, one_by_one a l = Some e.
+Proof.
+  intros D [|first rest] N; [easy|]. simpl. clear N. revert first.
+  induction rest as [|other rest IH]; intros first; [now exists first|]. simpl. unfold meet at 2.
+  specialize (D (fst first) (fst other)).
+  destruct (order_of a (fst first) (fst other)); try (now destruct D); apply IH; easy.
+Qed.
 Lemma round_shrinks : (forall s s', order_of a s s' <> UNDECIDED) ->
   forall n l, (length l <= n)%nat ->
   exists l', round a l = Some l' /\ (length l' <= length l)%nat /\
@@ -52,8 +61,8 @@ Qed.
 Hypothesis applies : order_applies a = true.
 Hypothesis all_sure : forall s, In s those -> SURE s = true.
 
-(** What a round of the tournament keeps true of those who are in it: of all that was in it at the
-    beginning, each is there, or with one who is, in one plane, or behind one who is. *)
+(** What each comparison keeps true of those who are left: of all that there were at the beginning,
+    each is left, or with one who is, in one plane, or behind one who is. *)
 Definition members (e : entrant) : list surface := fst e :: snd e.
 Definition stands_for (e : entrant) (s : surface) : Prop := In s (members e) \/ t r (fst e) < t r s.
 Definition sound (e : entrant) : Prop :=
@@ -155,6 +164,35 @@ Proof.
   destruct (IH _ _ E S' O') as [A B]. split; auto.
 Qed.
 
+Lemma one_by_one_right l e : one_by_one a l = Some e ->
+  Forall sound l -> StronglySorted all_before l ->
+  sound e /\ forall s, Exists (fun e => stands_for e s) l -> stands_for e s.
+Proof.
+  destruct l as [|first rest]; [discriminate|]. simpl. revert first.
+  induction rest as [|other rest IH]; intros first E S O.
+  { inversion E; subst. inversion S; subst. split; auto. intros s H.
+    inversion H as [? ? K|? ? K]; subst; auto. inversion K. }
+  simpl in E. destruct (meet a first other) as [b|] eqn:Em.
+  2: { exfalso. clear - E. induction rest as [|x rest IH]; [discriminate E | now apply IH]. }
+  inversion S as [|? ? S1 S']; subst. inversion S' as [|? ? S2 S3]; subst.
+  inversion O as [|? ? O' B1]; subst. inversion O' as [|? ? O3 B2]; subst.
+  inversion B1 as [|? ? B12 B13]; subst.
+  destruct (meet_right _ _ _ Em S1 S2 B12) as [Sb [I St]].
+  destruct (IH b E) as [Se K]; [now constructor | |].
+  - constructor; auto. rewrite Forall_forall in *. intros y Y u v U V. apply I in U.
+    apply in_app_or in U. destruct U as [U|U]; [now apply (B13 y) | now apply (B2 y)].
+  - split; auto. intros s H. apply K.
+    inversion H as [? ? H1|? ? H1]; subst; [apply Exists_cons_hd, St; auto|].
+    inversion H1 as [? ? H2|? ? H2]; subst; [apply Exists_cons_hd, St; auto|].
+    now apply Exists_cons_tl.
+Qed.
+Lemma nearest_of_right l e : nearest_of a l = Some e ->
+  Forall sound l -> StronglySorted all_before l ->
+  sound e /\ forall s, Exists (fun e => stands_for e s) l -> stands_for e s.
+Proof.
+  unfold nearest_of. destruct (two_by_two a); [apply rounds_right | apply one_by_one_right].
+Qed.
+
 Lemma insert_sorted s l : In s scene -> incl l scene -> ~ In s l ->
   StronglySorted (fun x y => before x y = true) l ->
   StronglySorted (fun x y => before x y = true) (insert s l) /\
@@ -187,7 +225,7 @@ Proof.
 Qed.
 
 Lemma by_order_right s tied :
-  rounds a (length those) (map (fun s => (s, [])) (by_name those)) = Some (s, tied) ->
+  nearest_of a (map (fun s => (s, [])) (by_name those)) = Some (s, tied) ->
   moved_sees (Some s) /\
   match tied with [] => clearly_sees (Some s) | _ => forall o, ~ clearly_sees o end.
 Proof.
@@ -200,7 +238,7 @@ Proof.
   { clear E Sound P. induction S as [|x l S IH A]; simpl; constructor; auto.
     rewrite Forall_forall in *. intros e H. apply in_map_iff in H. destruct H as [y [H Y]]. subst.
     intros u v [U|[]] [V|[]]. subst. auto. }
-  destruct (rounds_right _ _ _ E Sound Sorted) as [[I T] St]. simpl in I, T.
+  destruct (nearest_of_right _ _ E Sound Sorted) as [[I T] St]. simpl in I, T.
   assert (Stand : forall x, In x those -> x = s \/ In x tied \/ t r s < t r x).
   { intros x X. destruct (St x) as [[H|H]|H]; simpl in *; auto.
     apply Exists_exists. exists (x, []).

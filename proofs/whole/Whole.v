@@ -14,7 +14,7 @@ Open Scope R_scope.
       kept. So the nearest is among those that are left, and whatever else is met is behind one
       that surely is, strictly ([Nearest.v]).
     - If one is left, and is sure, all else is behind it: BOUND.
-    - If all who are left are sure, a tournament by [order_of] finds the nearest, and all in its
+    - If all who are left are sure, comparing them by [order_of] finds the nearest, and all in its
       plane ([Tournament.v]).
     - Else integers say who is met, and who is the nearest of the moved ray; what is met at no edge,
       strictly before all else, is that ([Settle.v]). *)
@@ -62,7 +62,7 @@ Proof.
       [|exact Integers].
     apply andb_prop in O. destruct O as [O S]. rewrite forallb_forall in S.
     unfold by_order. rewrite <- E in *.
-    destruct (rounds _ _ _) as [[w tied]|] eqn:R; [|exact Integers].
+    destruct (nearest_of _ _) as [[w tied]|] eqn:R; [|exact Integers].
     destruct (by_order_right F O S w tied R) as [M C]. apply Entry; auto.
     destruct tied; auto.
 Qed.
@@ -104,7 +104,7 @@ Proof.
   { intros P. unfold is. destruct (sig_not_dec P); split; auto; try easy.
     intros _. now apply NNPP. }
   exists (Answers (fun _ => true) (fun _ => false) (fun _ => MinusInfinity) (fun _ => Infinity)
-    false (fun _ _ => UNDECIDED) (fun s => is (met r start end_ scene s))
+    false (fun _ _ => UNDECIDED) false (fun s => is (met r start end_ scene s))
     (fun s => negb (is (meets_within r s))) (fun s => is (meets_within moved s))
     (fun s s' => Rcompare (t r s) (t r s')) (fun s s' => Rcompare (t moved s) (t moved s'))
     (fun s => nearest_float (t r s))).
