@@ -6,6 +6,7 @@
 Require Import ZArith Reals Psatz.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place Film Dual Bounds Boxes.
+From Reftrace Require Import Window.
 Open Scope R_scope.
 Opaque rnd.
 
@@ -43,16 +44,8 @@ Definition place_constant := Rmax (Rmax 0 (constant' (film_error x0 (pixel ax) n
   (constant' (film_error y0 (pixel ay) n n') re' (pixel ay)).
 Definition place_slope' := Rmax (Rmax 0 (slope' S (pixel ax))) (slope' S (pixel ay)).
 
-Lemma counts : 1 <= n /\ 1 <= n' /\ n <= bpow radix2 40 /\ n' <= bpow radix2 40.
-Proof.
-  destruct sizes as [[A B] [C D]]. rewrite <- (IZR_Zpower radix2 40) by lia.
-  repeat split; apply IZR_le; simpl; lia.
-Qed.
-Lemma axes_ok : axis_ok ax /\ axis_ok ay.
-Proof.
-  destruct counts as [A [B _]]. split; (split; [apply pixels | split; [assumption|]]); simpl;
-    (eapply Rle_trans; [apply Rabs_pos | apply Rmax_l]).
-Qed.
+Notation counts := (Window.counts width height sizes).
+Notation axes_ok := (Window.axes_ok x0 x1 y0 y1 width height sizes pixels).
 Lemma S_some : 1 <= S /\ S <= 200.
 Proof. split; eapply k_S; try eassumption; apply m_range. Qed.
 
@@ -89,21 +82,42 @@ Proof.
   { apply Rmult_le_compat_l; [lra|]. apply Rmult_le_compat_l; lra. } lra.
 Qed.
 
+Lemma re_pos : 0 <= re'.
+Proof.
+  eapply Rle_trans; [|exact re_enough]. assert (B := bpow_gt_0 radix2 (-900)). assert (L := some_length).
+  destruct S_some as [HS _]. assert (P := u_pos). repeat (lra || apply Rmult_le_pos).
+Qed.
+Lemma place_bounds : let s a b := constant_of' re' a b in let t a := slope_of' S a in
+  98 / 100 * s ax ay <= place_constant /\ 98 / 100 * t ax <= place_slope' /\
+  98 / 100 * s ay ax <= place_constant /\ 98 / 100 * t ay <= place_slope' /\
+  0 <= place_constant /\ 0 <= place_slope'.
+Proof.
+  intros s t. destruct axes_ok as [Ax Ay]. destruct counts as [N1 [N2 _]]. destruct S_some as [HS _].
+  destruct (place_holds' ax Ax n n' N1 N2 S re' HS re_pos) as [Sx Cx].
+  destruct (place_holds' ay Ay n n' N1 N2 S re' HS re_pos) as [Sy Cy].
+  split; [|split; [|split; [|split; [|split]]]].
+  - eapply Rle_trans; [exact Cx|]. unfold place_constant. eapply Rle_trans; [apply Rmax_r | apply Rmax_l].
+  - eapply Rle_trans; [exact Sx|]. unfold place_slope'. eapply Rle_trans; [apply Rmax_r | apply Rmax_l].
+  - eapply Rle_trans; [|unfold place_constant; apply Rmax_r]. eapply Rle_trans; [|exact Cy].
+    right. unfold s, constant_of'; simpl. ring.
+  - eapply Rle_trans; [exact Sy|]. unfold place_slope'. apply Rmax_r.
+  - unfold place_constant. eapply Rle_trans; [apply Rmax_l | apply Rmax_l].
+  - unfold place_slope'. eapply Rle_trans; [apply Rmax_l | apply Rmax_l].
+Qed.
+Lemma duals_near : off_by 1 Dr (dual_right right up forward) <= 100 * (u * S) /\
+  off_by 1 Du (dual_up right up forward) <= 100 * (u * S) /\
+  off_by 1 Df (dual_depth right up forward) <= 100 * (u * S) /\ Rabs (1 - 1) <= / 100.
+Proof. now apply (exactly_near right up forward m S). Qed.
+
 Variables (i j : Z) (dx dy : R).
 Hypothesis i_pixel : (0 <= i < width)%Z.
 Hypothesis j_pixel : (0 <= j < height)%Z.
 Hypothesis shift : Rabs dx <= / 2 /\ Rabs dy <= / 2.
 
-Lemma in_picture_x : in_picture ax (IZR i) dx.
-Proof.
-  destruct counts as [A [B [C D]]]. apply window_holds; try assumption; try apply window_ok; try apply shift;
-    [exact (proj1 (proj1 pixels)) | apply IZR_le; lia | rewrite <- plus_IZR; apply IZR_le; lia].
-Qed.
-Lemma in_picture_y : in_picture ay (IZR j) dy.
-Proof.
-  destruct counts as [A [B [C D]]]. apply window_holds; try assumption; try apply window_ok; try apply shift;
-    [exact (proj1 (proj2 pixels)) | apply IZR_le; lia | rewrite <- plus_IZR; apply IZR_le; lia].
-Qed.
+Notation in_picture_both :=
+  (Window.in_picture_both x0 x1 y0 y1 width height sizes window_ok pixels i j dx dy i_pixel j_pixel shift).
+Notation in_picture_x := (proj1 in_picture_both).
+Notation in_picture_y := (proj2 in_picture_both).
 
 (** The ray's origin as [camera_rays] stores it; its direction is [forward]. *)
 Definition oh := fdirection (window_at x0 (film_at (IZR i) dx) (pixel ax)) (window_at y0 (film_at (IZR j) dy) (pixel ay)) right up o.
@@ -121,19 +135,14 @@ Proof.
   assert (Zp : 0 < Z) by (eapply Rlt_le_trans; [apply bpow_gt_0 | exact Z0]).
   destruct axes_ok as [Ax Ay]. destruct S_some as [HS HS']. assert (P := u_pos). destruct counts as [N1 [N2 _]].
   assert (E := eta_u6). assert (Pe := eta_pos). assert (T := u_tiny).
-  assert (RE : 0 <= re').
-  { eapply Rle_trans; [|exact re_enough]. assert (B := bpow_gt_0 radix2 (-900)). assert (L := some_length).
-    repeat (lra || apply Rmult_le_pos). }
+  assert (RE := re_pos).
   destruct axes_float as [Fr [Fu Ff]].
   assert (Sp := spread_enough right up forward S S_sum).
-  assert (Nr : off_by 1 Dr (dual_right right up forward) <= 100 * (u * S) /\
-    off_by 1 Du (dual_up right up forward) <= 100 * (u * S) /\ off_by 1 Df (dual_depth right up forward) <= 100 * (u * S)).
-  { unfold off_by. eapply dual_near_exactly; try eassumption; apply m_range. }
-  assert (One : Rabs (1 - 1) <= / 100) by (replace (1 - 1) with 0 by ring; rewrite Rabs_R0; lra).
+  destruct duals_near as [Nr0 [Nr1 [Nr2 One]]]. assert (Nr := conj Nr0 (conj Nr1 Nr2)).
   destruct (parallel_place right up forward o solid (conj Fr (conj Fu (conj Ff o_float))) m axes_within (proj1 m_range)
     Dr Du Df 1 S (dual_floats right up forward) Nr Sp HS One ax ay Ax Ay eq_refl HS' re' most o_within re_enough
     (IZR i) (IZR j) dx dy in_picture_x in_picture_y v Z Fv HZ Z0) as [Gx [Gy Gd]].
-  destruct (place_holds' ax Ax n n' N1 N2 S re' HS RE) as [Sx Cx]. destruct (place_holds' ay Ay n n' N1 N2 S re' HS RE) as [Sy Cy].
+  destruct place_bounds as [Cx' [Sx0 [Cy' [Sy0 _]]]].
   assert (G0 : forall a b, axis_ok a -> axis_ok b -> 0 <= constant_of' re' a b /\ 0 <= slope_of' S a).
   { intros a b A [_ [Nb _]]. assert (K := k_pos a A). destruct A as [_ [Na RX]]. unfold constant_of', slope_of', Rdiv.
     assert (0 <= Rabs (start a) * / pixel a) by (apply Rmult_le_pos; [apply Rabs_pos | lra]).
@@ -141,14 +150,8 @@ Proof.
     assert (0 <= re' * / pixel a) by (apply Rmult_le_pos; lra).
     split; [lra|]. repeat (lra || apply Rmult_le_pos). }
   destruct (G0 ax ay Ax Ay) as [Px Qx]. destruct (G0 ay ax Ay Ax) as [Py Qy].
-  assert (Cx' : 98 / 100 * constant_of' re' ax ay <= place_constant).
-  { eapply Rle_trans; [exact Cx|]. unfold place_constant. eapply Rle_trans; [apply Rmax_r | apply Rmax_l]. }
-  assert (Cy' : 98 / 100 * constant_of' re' ay ax <= place_constant).
-  { eapply Rle_trans; [|unfold place_constant; apply Rmax_r]. eapply Rle_trans; [|exact Cy]. right. unfold constant_of'; simpl. ring. }
-  assert (Sx' : 98 / 100 * slope_of' S ax * Z <= place_slope' * Z).
-  { apply Rmult_le_compat_r; [lra|]. eapply Rle_trans; [exact Sx|]. unfold place_slope'. eapply Rle_trans; [apply Rmax_r | apply Rmax_l]. }
-  assert (Sy' : 98 / 100 * slope_of' S ay * Z <= place_slope' * Z).
-  { apply Rmult_le_compat_r; [lra|]. eapply Rle_trans; [exact Sy|]. unfold place_slope'. apply Rmax_r. }
+  assert (Sx' : 98 / 100 * slope_of' S ax * Z <= place_slope' * Z) by (apply Rmult_le_compat_r; lra).
+  assert (Sy' : 98 / 100 * slope_of' S ay * Z <= place_slope' * Z) by (apply Rmult_le_compat_r; lra).
   assert (Qx' : 0 <= slope_of' S ax * Z) by (apply Rmult_le_pos; lra).
   assert (Qy' : 0 <= slope_of' S ay * Z) by (apply Rmult_le_pos; lra).
   split; [|split].
@@ -211,12 +214,9 @@ Proof.
   assert (Zp : 0 <= Z) by (generalize (bpow_gt_0 radix2 (-970)); lra).
   assert (One : near 1 1 (92 / 100 * (0 * Z))) by (eapply near_le; [apply near_refl | lra]).
   assert (E : eta <= u * 1 / 1000) by (generalize eta_u6 u_pos; lra).
-  assert (C0 : 0 <= place_constant) by (unfold place_constant; eapply Rle_trans; [apply Rmax_l | apply Rmax_l]).
-  assert (S0 : 0 <= place_slope') by (unfold place_slope'; eapply Rle_trans; [apply Rmax_l | apply Rmax_l]).
+  destruct place_bounds as [_ [_ [_ [_ [C0 S0]]]]].
   destruct axes_ok as [Ax Ay]. destruct S_some as [HS _]. destruct counts as [N1 [N2 _]]. assert (P := u_pos).
-  assert (RE : 0 <= re').
-  { eapply Rle_trans; [|exact re_enough]. assert (B := bpow_gt_0 radix2 (-900)). assert (L := some_length).
-    repeat (lra || apply Rmult_le_pos). }
+  assert (RE := re_pos).
   assert (Ps : 50 * u * far * 1 <= place place_constant place_slope' Z).
   { destruct (place_holds' ax Ax n n' N1 N2 S re' HS RE) as [_ Cx]. assert (Kp := k_pos ax Ax). unfold Rdiv in Cx.
     assert (0 <= Rabs (start ax) * / pixel ax) by (apply Rmult_le_pos; [apply Rabs_pos | lra]).
@@ -244,18 +244,12 @@ Theorem box_holds' a b c Va Vb Vc O (Za := vertex_size Va O) (Zb := vertex_size 
   Rmin (high_y a Za) (Rmin (high_y b Zb) (high_y c Zc)) <= - IZR j.
 Proof.
   intros Fa Wa Fb Wb Fc Wc Wo M. destruct (corners_around' a b c M) as [F [F' [G [G' _]]]].
-  destruct (corner a Va O Fa Wa Wo) as [a1 [a2 [a3 a4]]]. destruct (corner b Vb O Fb Wb Wo) as [b1 [b2 [b3 b4]]].
-  destruct (corner c Vc O Fc Wc Wo) as [c1 [c2 [c3 c4]]].
-  assert (L : forall x y z t, x <= t \/ y <= t \/ z <= t -> Rmin x (Rmin y z) <= t).
-  { intros x y z t [H|[H|H]].
-    - eapply Rle_trans; [apply Rmin_l | exact H].
-    - eapply Rle_trans; [apply Rmin_r|]. eapply Rle_trans; [apply Rmin_l | exact H].
-    - eapply Rle_trans; [apply Rmin_r|]. eapply Rle_trans; [apply Rmin_r | exact H]. }
-  repeat split; apply L.
-  - destruct F as [F|[F|F]]; auto.
-  - destruct F' as [F'|[F'|F']]; auto.
-  - destruct G as [G|[G|G]]; auto.
-  - destruct G' as [G'|[G'|G']]; auto.
+  apply (box_of_three low_x high_x low_y high_y
+    (fun v => vx (see v) - (IZR i + / 2)) (fun v => vy (see v) - (IZR j + / 2))).
+  - exact (conj F (conj F' (conj G G'))).
+  - exact (corner a Va O Fa Wa Wo).
+  - exact (corner b Vb O Fb Wb Wo).
+  - exact (corner c Vc O Fc Wc Wo).
 Qed.
 
 (** Nothing that is met is nearer, in -t, than the largest [nearest] of the corners. *)
@@ -269,16 +263,11 @@ Proof.
     destruct (size_holds v o V O WV Wo) as [HZ Z0]. set (Z := vertex_size V O) in *.
     assert (Zp : 0 < Z) by (eapply Rlt_le_trans; [apply bpow_gt_0 | exact Z0]).
     destruct S_some as [HS _]. assert (P := u_pos). assert (E := eta_u6).
-    assert (Nr : off_by 1 Dr (dual_right right up forward) <= 100 * (u * S) /\
-      off_by 1 Du (dual_up right up forward) <= 100 * (u * S) /\ off_by 1 Df (dual_depth right up forward) <= 100 * (u * S)).
-    { unfold off_by. eapply dual_near_exactly; try eassumption; apply m_range. }
-    assert (One : Rabs (1 - 1) <= / 100) by (replace (1 - 1) with 0 by ring; rewrite Rabs_R0; lra).
+    destruct duals_near as [_ [_ [Nr One]]].
     destruct (coordinate o o_float 1 S HS One v Z Fv HZ Z0 Df _ (proj2 (proj2 (dual_floats right up forward)))
-      (proj2 (proj2 Nr)) (proj2 (proj2 (spread_enough right up forward S S_sum)))) as [C1 C2].
+      Nr (proj2 (proj2 (spread_enough right up forward S S_sum)))) as [C1 C2].
     assert (Bd := near_abs _ _ _ _ C1 C2). assert (Et := eta_unit S HS Z Z0).
-    assert (RE : 0 <= re').
-    { eapply Rle_trans; [|exact re_enough]. assert (B' := bpow_gt_0 radix2 (-900)). assert (L := some_length).
-      repeat (lra || apply Rmult_le_pos). }
+    assert (RE := re_pos).
     assert (Wt := weight_holds S HS). assert (uS : u * 1 <= u * S) by (apply Rmult_le_compat_l; lra).
     assert (W1 : 127 * (u * S) * Z <= weight S * Z) by (apply Rmult_le_compat_r; lra).
     assert (SZ : 0 < S * Z) by (apply Rmult_lt_0_compat; lra). assert (T := u_tiny).
@@ -286,9 +275,9 @@ Proof.
     assert (u * (S * Z) <= / 1000000 * (S * Z)) by (apply Rmult_le_compat_r; lra).
     assert (u * Rabs (fdot Df (fsub v o)) <= u * (102 / 100 * (S * Z))) by (apply Rmult_le_compat_l; lra).
     unfold near_v. fold Z. apply (nearest_holds' _ (depth' right up forward o oh v)); try exact W; lra. }
-  destruct B as [B|[B|B]].
-  - eapply Rle_trans; [exact (G a Va Fa Wa B) | apply Rmax_l].
-  - eapply Rle_trans; [exact (G b Vb Fb Wb B)|]. eapply Rle_trans; [apply Rmax_l | apply Rmax_r].
-  - eapply Rle_trans; [exact (G c Vc Fc Wc B)|]. eapply Rle_trans; [apply Rmax_r | apply Rmax_r].
+  apply greatest_of_three. destruct B as [B|[B|B]].
+  - left. exact (G a Va Fa Wa B).
+  - right. left. exact (G b Vb Fb Wb B).
+  - right. right. exact (G c Vc Fc Wc B).
 Qed.
 End Orthographic.

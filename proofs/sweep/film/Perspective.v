@@ -6,6 +6,7 @@
 Require Import ZArith Reals Psatz.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place Film Dual Bounds Boxes.
+From Reftrace Require Import Window.
 Open Scope R_scope.
 Opaque rnd.
 
@@ -43,16 +44,8 @@ Definition slope_y := slope S (own_error y0 (pixel ay)) (film_error y0 (pixel ay
 (** The second number of [place]; the first is 0. *)
 Definition place_slope := Rmax (Rmax 0 slope_x) slope_y.
 
-Lemma counts : 1 <= n /\ 1 <= n' /\ n <= bpow radix2 40 /\ n' <= bpow radix2 40.
-Proof.
-  destruct sizes as [[A B] [C D]]. rewrite <- (IZR_Zpower radix2 40) by lia.
-  repeat split; apply IZR_le; simpl; lia.
-Qed.
-Lemma axes_ok : axis_ok ax /\ axis_ok ay.
-Proof.
-  destruct counts as [A [B _]]. split; (split; [apply pixels | split; [assumption|]]); simpl;
-    (eapply Rle_trans; [apply Rabs_pos | apply Rmax_l]).
-Qed.
+Notation counts := (Window.counts width height sizes).
+Notation axes_ok := (Window.axes_ok x0 x1 y0 y1 width height sizes pixels).
 Lemma S_some : 1 <= S. Proof. eapply k_S; try eassumption; apply m_range. Qed.
 
 Lemma re_enough : 47 * (u * (S * ray_length m ax ay)) <= re.
@@ -77,21 +70,34 @@ Proof.
   { rewrite <- Rmult_assoc. apply Rmult_le_compat_l; [|lra]. apply Rmult_le_pos; lra. } lra.
 Qed.
 
+Lemma re_pos : 0 <= re.
+Proof.
+  eapply Rle_trans; [|exact re_enough]. destruct axes_ok as [[_ [_ RX]] [_ [_ RY]]]. assert (H := S_some).
+  assert (P := u_pos). assert (M := m_range). assert (0 <= 1 + reach ax + reach ay) by lra.
+  unfold ray_length. repeat (lra || apply Rmult_le_pos).
+Qed.
+Lemma slopes : 98 / 100 * slope_of S re ax ay <= place_slope /\ 98 / 100 * slope_of S re ay ax <= place_slope.
+Proof.
+  destruct axes_ok as [Ax Ay]. destruct counts as [N1 [N2 _]].
+  assert (SX := slope_holds ax Ax n n' N1 N2 S re S_some re_pos).
+  assert (SY := slope_holds ay Ay n n' N1 N2 S re S_some re_pos).
+  simpl start in SX, SY. simpl pixel in SX, SY. fold slope_x in SX. fold slope_y in SY.
+  split; [apply Rle_trans with slope_x | apply Rle_trans with slope_y].
+  - eapply Rle_trans; [|exact SX]. right. unfold slope_of; simpl. ring.
+  - unfold place_slope. eapply Rle_trans; [apply Rmax_r | apply Rmax_l].
+  - eapply Rle_trans; [|exact SY]. right. unfold slope_of; simpl. ring.
+  - unfold place_slope. apply Rmax_r.
+Qed.
+
 Variables (i j : Z) (dx dy : R). (* the pixel, and where in it all rays pass *)
 Hypothesis i_pixel : (0 <= i < width)%Z.
 Hypothesis j_pixel : (0 <= j < height)%Z.
 Hypothesis shift : Rabs dx <= / 2 /\ Rabs dy <= / 2.
 
-Lemma in_picture_x : in_picture ax (IZR i) dx.
-Proof.
-  destruct counts as [A [B [C D]]]. apply window_holds; try assumption; try apply window_ok; try apply shift;
-    [exact (proj1 (proj1 pixels)) | apply IZR_le; lia | rewrite <- plus_IZR; apply IZR_le; lia].
-Qed.
-Lemma in_picture_y : in_picture ay (IZR j) dy.
-Proof.
-  destruct counts as [A [B [C D]]]. apply window_holds; try assumption; try apply window_ok; try apply shift;
-    [exact (proj1 (proj2 pixels)) | apply IZR_le; lia | rewrite <- plus_IZR; apply IZR_le; lia].
-Qed.
+Notation in_picture_both :=
+  (Window.in_picture_both x0 x1 y0 y1 width height sizes window_ok pixels i j dx dy i_pixel j_pixel shift).
+Notation in_picture_x := (proj1 in_picture_both).
+Notation in_picture_y := (proj2 in_picture_both).
 
 (** The ray as [camera_rays] stores it. *)
 Definition d := fdirection (window_at x0 (film_at (IZR i) dx) (pixel ax)) (window_at y0 (film_at (IZR j) dy) (pixel ay)) right up forward.
@@ -126,10 +132,7 @@ Proof.
   assert (Zp : 0 < Z) by (eapply Rlt_le_trans; [apply bpow_gt_0 | exact Z0]).
   destruct axes_ok as [Ax Ay]. assert (HS := S_some). assert (P := u_pos). destruct counts as [N1 [N2 _]].
   assert (T := u_tiny). assert (E := eta_u6). assert (Pe := eta_pos).
-  assert (RE : 0 <= re).
-  { eapply Rle_trans; [|exact re_enough].
-    destruct Ax as [_ [_ RX]], Ay as [_ [_ RY]]. assert (0 <= 1 + reach ax + reach ay) by lra.
-    unfold ray_length. assert (M := m_range). repeat (lra || apply Rmult_le_pos). }
+  assert (RE := re_pos).
   destruct axes_float as [Fr [Fu Ff]].
   assert (G : let x := film_position (fdot Dr (fsub v o)) (fdot Df (fsub v o)) x0 (pixel ax) dx in
     let y := film_position (fdot Du (fsub v o)) (fdot Df (fsub v o)) y0 (pixel ay) dy in
@@ -153,14 +156,7 @@ Proof.
   { intros a b A C. apply Rmult_le_pos; [|lra]. eapply Rle_trans; [|exact (G0 a b A)]. rewrite C.
     apply Rmult_le_pos; lra. }
   assert (Q1 := Q0 ax ay Ax eq_refl). assert (Q2 := Q0 ay ax Ay (Rplus_comm _ _)).
-  assert (SX := slope_holds ax Ax n n' N1 N2 S re HS RE). assert (SY := slope_holds ay Ay n n' N1 N2 S re HS RE).
-  simpl start in SX, SY. simpl pixel in SX, SY. fold slope_x in SX. fold slope_y in SY.
-  assert (A : 98 / 100 * slope_of S re ax ay <= place_slope).
-  { apply Rle_trans with slope_x; [|unfold place_slope; eapply Rle_trans; [apply Rmax_r | apply Rmax_l]].
-    eapply Rle_trans; [|exact SX]. right. unfold slope_of; simpl. ring. }
-  assert (B : 98 / 100 * slope_of S re ay ax <= place_slope).
-  { apply Rle_trans with slope_y; [|unfold place_slope; apply Rmax_r].
-    eapply Rle_trans; [|exact SY]. right. unfold slope_of; simpl. ring. }
+  destruct slopes as [A B].
   assert (AZ : 98 / 100 * slope_of S re ax ay * Z <= place_slope * Z) by (apply Rmult_le_compat_r; lra).
   assert (BZ : 98 / 100 * slope_of S re ay ax * Z <= place_slope * Z) by (apply Rmult_le_compat_r; lra).
   assert (W := weight_holds S HS). fold wt in W.
@@ -306,16 +302,12 @@ Proof.
     (IZR i + / 2) (IZR j + / 2) (common right up forward) Rp a b c M) as [F [F' [G [G' _]]]].
   destruct (corner_x a Za Ha Aa) as [a1 a2]. destruct (corner_x b Zb Hb Ab) as [b1 b2]. destruct (corner_x c Zc Hc Ac) as [c1 c2].
   destruct (corner_y a Za Ha Aa) as [a3 a4]. destruct (corner_y b Zb Hb Ab) as [b3 b4]. destruct (corner_y c Zc Hc Ac) as [c3 c4].
-  assert (L : forall x y z t, x <= t \/ y <= t \/ z <= t -> Rmin x (Rmin y z) <= t).
-  { intros x y z t [H|[H|H]].
-    - eapply Rle_trans; [apply Rmin_l | exact H].
-    - eapply Rle_trans; [apply Rmin_r|]. eapply Rle_trans; [apply Rmin_l | exact H].
-    - eapply Rle_trans; [apply Rmin_r|]. eapply Rle_trans; [apply Rmin_r | exact H]. }
-  repeat split; apply L.
-  - destruct F as [F|[F|F]]; auto.
-  - destruct F' as [F'|[F'|F']]; auto.
-  - destruct G as [G|[G|G]]; auto.
-  - destruct G' as [G'|[G'|G']]; auto.
+  apply (box_of_three low_x high_x low_y high_y
+    (fun v => vx (see v) - (IZR i + / 2) * vz (see v)) (fun v => vy (see v) - (IZR j + / 2) * vz (see v))).
+  - exact (conj F (conj F' (conj G G'))).
+  - exact (conj a1 (conj a2 (conj a3 a4))).
+  - exact (conj b1 (conj b2 (conj b3 b4))).
+  - exact (conj c1 (conj c2 (conj c3 c4))).
 Qed.
 
 (** What is seen of it, beyond the clip start, is not nearer than the largest [nearest] of its corners. *)
@@ -343,10 +335,10 @@ Proof.
     assert (A3 : bpow radix2 (-1022) = 2 * (u * bpow radix2 (-970))).
     { unfold u. replace (-1022)%Z with (-52 + -970)%Z by reflexivity. rewrite bpow_plus. field. }
     assert (0 < u * Z) by (apply Rmult_lt_0_compat; lra). lra. }
-  destruct B as [B|[B|B]].
-  - eapply Rle_trans; [exact (G a Za Ha B) | apply Rmax_l].
-  - eapply Rle_trans; [exact (G b Zb Hb B)|]. eapply Rle_trans; [apply Rmax_l | apply Rmax_r].
-  - eapply Rle_trans; [exact (G c Zc Hc B)|]. eapply Rle_trans; [apply Rmax_r | apply Rmax_r].
+  apply greatest_of_three. destruct B as [B|[B|B]].
+  - left. exact (G a Za Ha B).
+  - right. left. exact (G b Zb Hb B).
+  - right. right. exact (G c Zc Hc B).
 Qed.
 
 (** The edge functions, T and the nearness of the stored ray are the determinants of where it sees the

@@ -11,7 +11,7 @@
 Require Import ZArith Reals Psatz.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place Film Dual Bounds Boxes FitSteps.
-From Reftrace Require EdgeBounds EdgeRoundings EdgeFunctions Perspective.
+From Reftrace Require EdgeBounds EdgeRoundings EdgeFunctions Window Perspective.
 Open Scope R_scope.
 Opaque rnd.
 Module E := EdgeFunctions.
@@ -72,23 +72,13 @@ Hypothesis zy_in : 0 <= zy <= n'.
 Lemma slopes : let s a b := 98 / 100 * slope_of S re a b in
   s ax ay <= place_slope /\ s ay ax <= place_slope /\ 250 * (u * S) <= place_slope /\ 0 <= re /\ 1 <= S.
 Proof.
-  destruct (P.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
-  destruct (P.counts width height sizes) as [N1 [N2 _]]. assert (P := u_pos).
+  destruct (Window.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
+  destruct (Window.counts width height sizes) as [N1 [N2 _]]. assert (P := u_pos).
   assert (HS : 1 <= S) by (eapply P.S_some; eassumption).
-  assert (RE : 0 <= re).
-  { eapply Rle_trans; [|eapply P.re_enough; eassumption]. destruct Ax as [_ [_ RX]], Ay as [_ [_ RY]].
-    unfold ray_length. assert (M := m_range). assert (0 <= 1 + reach ax + reach ay) by lra.
-    repeat (lra || apply Rmult_le_pos). }
-  assert (SX := slope_holds ax Ax n n' N1 N2 S re HS RE).
-  assert (SY := slope_holds ay Ay n n' N1 N2 S re HS RE).
-  fold (P.slope_x m S x0 x1 y0 y1 width height) in SX. fold (P.slope_y m S x0 x1 y0 y1 width height) in SY.
-  assert (A : 98 / 100 * slope_of S re ax ay <= place_slope).
-  { eapply Rle_trans with (P.slope_x m S x0 x1 y0 y1 width height).
-    - eapply Rle_trans; [|exact SX]. right. unfold slope_of; simpl. ring.
-    - unfold P.place_slope. eapply Rle_trans; [apply Rmax_r | apply Rmax_l]. }
-  split; [exact A|]. split; [|split; [|split; assumption]].
-  - eapply Rle_trans with (P.slope_y m S x0 x1 y0 y1 width height); [|unfold P.place_slope; apply Rmax_r].
-    eapply Rle_trans; [|exact SY]. right. unfold slope_of; simpl. ring.
+  assert (RE : 0 <= re) by (eapply P.re_pos; eassumption).
+  assert (AB : 98 / 100 * slope_of S re ax ay <= place_slope /\ 98 / 100 * slope_of S re ay ax <= place_slope)
+    by (eapply P.slopes; eassumption).
+  destruct AB as [A B0]. split; [exact A|]. split; [exact B0|]. split; [|split; assumption].
   - eapply Rle_trans; [|exact A].
     assert (K : 0 < / pixel ax) by (apply Rinv_0_lt_compat; apply (pixel_pos ax Ax)).
     unfold slope_of, Rdiv. assert (L0 := Rabs_pos (start ax)). destruct Ax as [_ [_ RX]].
@@ -107,7 +97,7 @@ Theorem relative_near v Z (c := EB.relative zx zy (stored v)) (c' := E.moved zx 
   near (vz c) (vz c') (92 / 100 * (wt * Z)) /\ Rabs (vz c) <= 102 / 100 * (S * Z) /\ bpow radix2 (-960) <= Z.
 Proof.
   intros Hv. destruct slopes as [SX [SY [S0 [RE HS]]]]. cbv beta in SX, SY.
-  destruct (P.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
+  destruct (Window.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
   assert (Gw : near (w v) (vz (see v)) (92 / 100 * (wt * Z))).
   { assert (G := P.vertex_near right up forward o axes_float o_float lengths not_flat m axes_within m_range
     S S_sum
@@ -126,8 +116,8 @@ Proof.
   { eapply P.near_100; eassumption. }
   assert (REn : 47 * (u * (S * ray_length m ax ay)) <= re) by (eapply P.re_enough; eassumption).
   assert (Solid : volume right up forward <> 0) by (eapply P.solid; eassumption).
-  assert (X : in_picture ax (IZR i) dx) by (eapply P.in_picture_x; eassumption).
-  assert (Y : in_picture ay (IZR j) dy) by (eapply P.in_picture_y; eassumption).
+  destruct (Window.in_picture_both x0 x1 y0 y1 width height sizes window_ok pixels i j dx dy i_pixel j_pixel
+    shift) as [X Y].
   assert (A : 39 / 40 <= ray_depth right up forward d <= 41 / 40) by (eapply P.ray_facts; eassumption).
   assert (F4 : floats right /\ floats up /\ floats forward /\ floats o) by tauto.
   assert (Sp := spread_enough right up forward S S_sum). assert (FD := dual_floats right up forward).

@@ -6,7 +6,7 @@
 Require Import ZArith Reals Psatz.
 From Flocq Require Import Core.
 From Reftrace Require Import Geometry Trees Rounding Camera Place Film Dual Bounds Boxes FitSteps.
-From Reftrace Require EdgeBounds EdgeRoundings EdgeFunctions Orthographic.
+From Reftrace Require EdgeBounds EdgeRoundings EdgeFunctions Window Orthographic.
 Open Scope R_scope.
 Opaque rnd.
 Module E := EdgeFunctions.
@@ -153,31 +153,21 @@ Lemma bounds : let s a b := constant_of' re a b in let t a := slope_of' S a in
   250 * u <= place_constant /\ 0 <= place_slope /\ 0 <= re /\ 1 <= S.
 Proof.
   intros s t. unfold s, t.
-  destruct (O.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
-  destruct (O.counts width height sizes) as [N1 [N2 _]]. assert (P := u_pos).
+  destruct (Window.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
+  destruct (Window.counts width height sizes) as [N1 [N2 _]]. assert (P := u_pos).
   assert (HS : 1 <= S) by (eapply O.S_some; eassumption).
-  assert (RE : 0 <= re).
-  { eapply Rle_trans; [|eapply O.re_enough; eassumption]. assert (B := bpow_gt_0 radix2 (-900)).
-    repeat (lra || apply Rmult_le_pos). }
-  destruct (place_holds' ax Ax n n' N1 N2 S re HS RE) as [Sx Cx].
-  destruct (place_holds' ay Ay n n' N1 N2 S re HS RE) as [Sy Cy].
-  assert (A1 : 98 / 100 * constant_of' re ax ay <= place_constant).
-  { eapply Rle_trans; [exact Cx|]. unfold O.place_constant. eapply Rle_trans; [apply Rmax_r | apply Rmax_l]. }
-  assert (A2 : 98 / 100 * slope_of' S ax <= place_slope).
-  { eapply Rle_trans; [exact Sx|]. unfold O.place_slope'. eapply Rle_trans; [apply Rmax_r | apply Rmax_l]. }
-  assert (A3 : 98 / 100 * constant_of' re ay ax <= place_constant).
-  { eapply Rle_trans; [|unfold O.place_constant; apply Rmax_r]. eapply Rle_trans; [|exact Cy].
-    right. unfold constant_of'; simpl. ring. }
-  assert (A4 : 98 / 100 * slope_of' S ay <= place_slope).
-  { eapply Rle_trans; [exact Sy|]. unfold O.place_slope'. apply Rmax_r. }
-  repeat (split; [assumption|]). split; [|split; [|split; assumption]].
-  - eapply Rle_trans; [|exact A1]. unfold constant_of', Rdiv.
-    assert (K : 0 < / pixel ax) by apply (k_pos ax Ax).
-    assert (0 <= Rabs (start ax) * / pixel ax) by (apply Rmult_le_pos; [apply Rabs_pos | lra]).
-    assert (0 <= re * / pixel ax) by (apply Rmult_le_pos; lra).
-    assert (u * 2 <= u * (n + n')) by (apply Rmult_le_compat_l; lra).
-    assert (0 <= u * (Rabs (start ax) * / pixel ax)) by (apply Rmult_le_pos; lra). simpl in *. lra.
-  - unfold O.place_slope'. eapply Rle_trans; [apply Rmax_l | apply Rmax_l].
+  assert (RE : 0 <= re) by (eapply O.re_pos; eassumption).
+  assert (All : 98 / 100 * constant_of' re ax ay <= place_constant /\ 98 / 100 * slope_of' S ax <= place_slope /\
+    98 / 100 * constant_of' re ay ax <= place_constant /\ 98 / 100 * slope_of' S ay <= place_slope /\
+    0 <= place_constant /\ 0 <= place_slope) by (eapply O.place_bounds; eassumption).
+  destruct All as [A1 [A2 [A3 [A4 [_ A5]]]]].
+  repeat (split; [assumption|]). split; [|repeat (split; [assumption|]); assumption].
+  eapply Rle_trans; [|exact A1]. unfold constant_of', Rdiv.
+  assert (K : 0 < / pixel ax) by apply (k_pos ax Ax).
+  assert (0 <= Rabs (start ax) * / pixel ax) by (apply Rmult_le_pos; [apply Rabs_pos | lra]).
+  assert (0 <= re * / pixel ax) by (apply Rmult_le_pos; lra).
+  assert (u * 2 <= u * (n + n')) by (apply Rmult_le_compat_l; lra).
+  assert (0 <= u * (Rabs (start ax) * / pixel ax)) by (apply Rmult_le_pos; lra). simpl in *. lra.
 Qed.
 
 (** One rounding on top of what [vertex_near'] says: p is not much larger than [place] / 100 u. *)
@@ -217,7 +207,7 @@ Theorem relative_near' v Z (c := EB.relative zx zy (stored' v)) (c' := E.moved z
   near (vy c) (vy c') (95 / 100 * (place_constant + place_slope * Z)) /\ bpow radix2 (-960) <= Z.
 Proof.
   intros [Fv [VV [WV ->]]]. destruct bounds as [CX [SX [CY [SY [C0 [S0 [RE HS]]]]]]].
-  destruct (O.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
+  destruct (Window.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
   destruct (O.vertex_near' right up forward o axes_float o_float lengths not_flat well_apart m most
     axes_within
     m_range o_within S S_sum x0 x1 y0 y1 width height sizes window_ok pixels some_length i j dx dy i_pixel
@@ -226,14 +216,11 @@ Proof.
   assert (Z1 : bpow radix2 (-960) <= vertex_size VV most).
   { apply size_some; (eapply Rle_trans; [apply Rabs_pos|]); [apply WV | apply o_within]. }
   assert (Zp : 0 < vertex_size VV most) by (eapply Rlt_le_trans; [apply bpow_gt_0 | exact Z0]).
-  assert (One : Rabs (1 - 1) <= / 100) by (replace (1 - 1) with 0 by ring; rewrite Rabs_R0; lra).
-  assert (Nr : off_by 1 Dr (dual_right right up forward) <= 100 * (u * S) /\
-    off_by 1 Du (dual_up right up forward) <= 100 * (u * S) /\
-    off_by 1 Df (dual_depth right up forward) <= 100 * (u * S)).
-  { unfold off_by. eapply dual_near_exactly; try eassumption; apply m_range. }
+  destruct (Window.exactly_near right up forward m S axes_float lengths not_flat well_apart axes_within m_range
+    S_sum) as [N0 [N1 [_ One]]].
   set (Z := vertex_size VV most) in *. assert (P := u_pos). assert (T := u_tiny).
   assert (Sp := spread_enough right up forward S S_sum). assert (FD := dual_floats right up forward).
-  destruct Nr as [N0 [N1 _]], Sp as [K0 [K1 _]], FD as [F0 [F1 _]].
+  destruct Sp as [K0 [K1 _]], FD as [F0 [F1 _]].
   destruct (coordinate o o_float 1 S HS One v Z Fv HZ Z0 Dr _ F0 N0 K0) as [Cr Br].
   destruct (coordinate o o_float 1 S HS One v Z Fv HZ Z0 Du _ F1 N1 K1) as [Cu Bu].
   assert (SZ : 0 < S * Z) by (apply Rmult_lt_0_compat; lra).
@@ -332,7 +319,7 @@ Lemma determinants : exists k, k <> 0 /\
   denominator r tri = k * det (see a) (see b) (see c).
 Proof.
   assert (V0 : volume right up forward <> 0) by (eapply O.solid; eassumption).
-  destruct (O.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
+  destruct (Window.axes_ok x0 x1 y0 y1 width height sizes pixels) as [Ax Ay].
   assert (PX := pixel_pos ax Ax). assert (PY := pixel_pos ay Ay).
   exists (volume right up forward * (pixel ax * pixel ay)). split; [|split].
   - apply Rmult_integral_contrapositive. split; [exact V0|]. apply Rmult_integral_contrapositive. lra.
