@@ -1,8 +1,8 @@
 (** The interval of t = T / D contains it: [Fractions.interval] of bounds.py.
 
-    In come T and D as computed, with their bounds ([bounds] of Signs.v); out go the ends of an
-    interval. Where D is known not to be 0 it has T / D, exact, in it; else only its lower end is
-    known, for a t that is not negative. *)
+    It is computed from T and D and their bounds ([bounds] of Signs.v). Where D is known not to be 0,
+    the interval contains the exact T / D; else only its lower end is known, for a t that is not
+    negative. *)
 Require Import ZArith Reals Psatz String Bool.
 From Flocq Require Import Core BinarySingleNaN.
 From Reftrace Require Import Trees Rounding Magnitude Signs.

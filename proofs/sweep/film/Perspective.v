@@ -1,6 +1,6 @@
 (** A perspective camera, from its stored numbers to boxes: what [film.py] says of vertices holds.
 
-    In come floats: axes, position, window, pixel, corners. [has_sound_axes] is [lengths] and
+    Axes, position, window, pixel and corners are floats. [has_sound_axes] is [lengths] and
     [not_flat]; [ray_error_small] excludes windows so wide that a ray's direction drowns in its own
     rounding (some 2^40 times as wide as far). Nothing overflows: [rnd] has no largest float. *)
 Require Import ZArith Reals Psatz.
