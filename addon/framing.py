@@ -75,7 +75,7 @@ def framing(
     )
 
 
-def _extents(parts: Iterable[Floats], axes: Floats, slope: Floats) -> tuple[Floats]:
+def _extents(parts: Iterable[Floats], axes: Floats, slope: Floats) -> tuple[Floats, Floats]:
     """Return a point, and how far all points reach from it in ten directions of the camera.
 
     Along x, y, -x and -y; along the same, tilted by the slopes; and along z and -z.
