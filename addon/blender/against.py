@@ -28,11 +28,12 @@ from ..scene import Scene
 from ..tracer.settings import Settings
 from .compare import export_open_file
 from .drawing.drawings import Drawing, drawn_by_others
-from .drawing.judges import JUDGES
-from .drawing.temporary import go_to, temporary_scene, values_kept
-from .drawing.viewport import read
+from .drawing.picture import read
+from .drawing.workbench import WORKBENCH
 from .engine import export_for_render
 from .reading.export import export
+from .temporary import go_to, temporary_scene
+from .values import values_restored
 from .versions import set_format
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
@@ -52,7 +53,7 @@ def gather_against(
     """
     scene, manifest, _ = export_open_file(context)
     drawing = Drawing(
-        context.scene, context.view_layer.name, JUDGES["workbench"], True, None, scene, manifest
+        context.scene, context.view_layer.name, WORKBENCH, True, None, scene, manifest
     )
     return Case(
         scene,
@@ -85,7 +86,7 @@ def _frames(context: Any) -> list[Alternative]:
         return []
     out = []
     now = context.scene.frame_current
-    with values_kept(), temporary_scene(context.scene, context.view_layer.name) as tmp:
+    with values_restored(), temporary_scene(context.scene, context.view_layer.name) as tmp:
         for frame in (now - 1, now + 1):
             go_to(tmp, frame)
             scene, _, _ = export_for_render(tmp)

@@ -18,9 +18,9 @@ from ..report import animation as report
 from ..scene import SceneError
 from ..tracer.progress import Work, result_of, scaled
 from .compare import compare_to_folder, made_folder
-from .drawing.temporary import values_kept
 from .reading.camera import export_camera
 from .stepping import bake_bodies, visited
+from .values import values_restored
 
 _NOT_MADE_BY = "frames", "out", "scheduler", "verify", "placed"  # by which no frame is another
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
@@ -52,7 +52,7 @@ def compare_frames(
     todo = sorted(set(frames) - {row.frame for row in rows})
     report.write(folder, title, frames, rows)
     before = scene.frame_current, scene.frame_subframe
-    with values_kept():
+    with values_restored():
         try:
             for frame in visited(scene, todo):
                 scene.frame_set(frame)

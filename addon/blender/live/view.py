@@ -19,8 +19,8 @@ from ...scene import Camera
 from ...tracer.settings import Settings
 from . import shows
 from .camera import camera_of, coarser
-from .drawing import Layers, draw_words
-from .kept import KeptScene
+from .layers import Layers, draw_words
+from .scene import ViewScene
 
 AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
 COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels

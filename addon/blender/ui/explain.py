@@ -67,7 +67,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
     def execute(self, context: Any) -> set[str]:
         from ...explain import document
-        from ..drawing import ray_objects
+        from . import ray_objects
 
         found = derive_here(context, self.x, self.y, self.source, self.limit)
         if self.filepath:
@@ -103,7 +103,7 @@ class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
     bl_options = {"UNDO"}
 
     def execute(self, context: Any) -> set[str]:
-        from ..drawing import ray_objects
+        from . import ray_objects
 
         found = results.latest(Kind.PIXEL, context.scene).content
         collection = ray_objects.draw(context.scene, found)
@@ -117,12 +117,12 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        from ..drawing import ray_objects
+        from . import ray_objects
 
         return ray_objects.are_drawn()
 
     def execute(self, context: Any) -> set[str]:
-        from ..drawing import ray_objects
+        from . import ray_objects
 
         self.report({"INFO"}, f"{ray_objects.remove()} objects removed")
         return {"FINISHED"}

@@ -76,7 +76,7 @@ class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
     width: IntProperty(**_SCENE["width"])  # type: ignore[valid-type]
 
     def execute(self, context: Any) -> set[str]:
-        from ..drawing import scenario_scene
+        from . import scenario_scene
 
         scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
         changed = scene[scenario_scene.CHANGED].split("\n")

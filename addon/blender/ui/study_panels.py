@@ -153,7 +153,7 @@ class _Extremes:
         """Draw the button, the breaking points, and the way to each scene."""
         from ...study.extremes import written
         from ...study.scenarios.sweeps import BY_NAME
-        from ..drawing.scenario_scene import CHANGED
+        from .scenario_scene import CHANGED
 
         layout, shown = self.layout, context.window_manager.reference_tracer
         layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")

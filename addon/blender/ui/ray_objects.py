@@ -14,7 +14,7 @@ import numpy as np
 
 from ...explain.derivation import Derivation
 from ...explain.figure import Shape, shapes
-from .temporary import DRAWN
+from ..temporary import DRAWN
 
 NAME = "Reference Tracer Ray"
 

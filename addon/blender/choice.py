@@ -13,14 +13,14 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...framing import ANGLE, BACKWARD, UP, Choice, framing, shown_points
-from ...projections import ORTHOGRAPHIC
-from ...scene import Camera, SceneError, ViewWindow
-from ..drawing.camera_object import place_camera
-from ..drawing.temporary import temporary_scene
-from ..engine import export_for_render
-from ..stepping import bake_bodies, visited
-from .camera import pixel_height, resolution
+from ..framing import ANGLE, BACKWARD, UP, Choice, framing, shown_points
+from ..projections import ORTHOGRAPHIC
+from ..scene import Camera, SceneError, ViewWindow
+from .drawing.camera_object import place_camera
+from .engine import export_for_render
+from .reading.camera import pixel_height, resolution
+from .stepping import bake_bodies, visited
+from .temporary import temporary_scene
 
 _FAR = 1e18  # metres: farther away than anything, and its square is within float32
 

@@ -17,10 +17,10 @@ from ...scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
 from ...study.extremes import written
 from ...study.scenarios.sweeps import BY_NAME, Scenario
 from ...tracer.vector import transform_points
+from ..drawing.camera_object import LEAST_CLIP, add_camera
 from ..engine import ENGINE
 from ..reading.camera import window_of
-from ..ui.results import areas
-from .camera_object import LEAST_CLIP, add_camera
+from .results import areas
 
 CHANGED = "reference_tracer_float32"  # the custom property: lines of text
 
