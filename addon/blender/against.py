@@ -129,7 +129,7 @@ def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[
 
 def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
     """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
-    image = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
+    image: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
     try:
         opaque = np.ones((len(table), 1), np.float32)
         image.pixels.foreach_set(np.hstack((table, opaque)).ravel())

@@ -158,7 +158,8 @@ def _say(text: str) -> None:
 
 
 def _set_status(text: str | None) -> None:
-    for window in bpy.context.window_manager.windows:
+    manager: Any = bpy.context.window_manager
+    for window in manager.windows:
         window.workspace.status_text_set(text)
 
 

@@ -9,8 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.compare import export_open_file
-from reference_tracer.blender.ui import ray_objects
-from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui import ray_objects, results
 from reference_tracer.blender.ui.results import MARK, Kind
 from reference_tracer.explain import document, reproducer
 from reference_tracer.explain.candidates import gather_pixel

@@ -5,9 +5,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.blender.drawing.stand_ins import stand_ins
 from reference_tracer.blender.reading.view_volume import polygon
+from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.scene import Camera, Plane, ViewWindow
 from reference_tracer.tracer.camera import film_of

@@ -138,7 +138,7 @@ def _draw(scene: Any, layer: str, judge: Judge) -> None:
 
 def read(path: Path, colorspace: str = "") -> NDArray[np.float32]:
     """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below."""
-    image = bpy.data.images.load(str(path))
+    image: Any = bpy.data.images.load(str(path))
     try:
         if colorspace:
             image.colorspace_settings.name = colorspace

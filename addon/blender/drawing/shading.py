@@ -23,7 +23,8 @@ def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
     if like_for_like:
         return "OFF"
     if judge.needs_window:
-        return bpy.context.preferences.system.viewport_aa
+        preferences: Any = bpy.context.preferences
+        return preferences.system.viewport_aa
     return scene.display.render_aa
 
 

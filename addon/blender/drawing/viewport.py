@@ -17,7 +17,7 @@ def _without_anti_aliasing(scene: Any, layer: str) -> Iterator[None]:
     """
     import bpy
 
-    preferences = bpy.context.preferences
+    preferences: Any = bpy.context.preferences
     before = preferences.system.viewport_aa
     dirty = preferences.is_dirty
     preferences.system.viewport_aa = "OFF"

@@ -31,8 +31,8 @@ AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is p
 
 def is_busy() -> bool:
     """Return whether the user, or a render, is in the middle of something."""
-    windows = bpy.context.window_manager.windows
-    busy = any(w.modal_operators or w.screen.is_animation_playing for w in windows)
+    manager: Any = bpy.context.window_manager
+    busy = any(w.modal_operators or w.screen.is_animation_playing for w in manager.windows)
     return busy or bpy.app.is_job_running("RENDER")
 
 
@@ -75,8 +75,8 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
 
 def _view_of(space: int) -> tuple[Any, Any]:
     """Return the window and the `SpaceView3D` of a space's address."""
-    windows = bpy.context.window_manager.windows
-    spaces = ((w, a.spaces.active) for w in windows for a in w.screen.areas)
+    manager: Any = bpy.context.window_manager
+    spaces = ((w, a.spaces.active) for w in manager.windows for a in w.screen.areas)
     return next((w, s) for w, s in spaces if s.as_pointer() == space)
 
 

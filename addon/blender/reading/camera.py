@@ -120,7 +120,7 @@ def export_camera(scene: Any) -> Camera:
     data, render = obj.data, scene.render
     width, height = resolution(render)
     check_size(width, height)
-    region = None
+    region = Region(0, 0, width, height)
     if render.use_border:
         names = ("border_min_x", "border_max_x", "border_min_y", "border_max_y")
         region = border_region(width, height, *(getattr(render, name) for name in names))

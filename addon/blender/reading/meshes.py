@@ -48,7 +48,7 @@ def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
     left_out = len(is_kept) - int(is_kept.sum())
     if left_out:
         triangles = triangles[is_kept]
-        slots = None if slots is None else slots[is_kept]
+        slots = slots[is_kept]
         colors = None if colors is None else colors[is_kept]
     return Mesh(vertices, triangles, slots, colors, name), left_out
 
@@ -65,11 +65,11 @@ def _whole_mesh(obj: Any) -> Iterator[Any]:
         obj.to_mesh_clear()
 
 
-def _slots(mesh: Any) -> NDArray[np.int32] | None:
-    """Return each triangle's material slot, (n,); None where all show the first."""
+def _slots(mesh: Any) -> NDArray[np.int32]:
+    """Return each triangle's material slot, (n,)."""
     attribute = mesh.attributes.get("material_index")
-    if not attribute:
-        return None
+    if not attribute:  # all show the first
+        return np.zeros(len(mesh.loop_triangles), np.int32)
     if (attribute.domain, attribute.data_type) == ("FACE", "INT"):
         face = _integers(mesh.loop_triangle_polygons, "value", 1)
         slots = _integers(attribute.data, "value", 1)[face]

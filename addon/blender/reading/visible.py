@@ -188,7 +188,7 @@ def in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
-    """Add a feature, or widen the bounds of its entry: there is one for all of an object's instances."""
+    """Add a feature, or widen its bounds: it has one entry for all of an object's instances."""
     key = found.feature + found.detail
     if before := features.get(key):
         found = replace(found, by=tuple(dict.fromkeys((*before.by, *found.by))))
