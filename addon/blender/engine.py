@@ -93,7 +93,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def _fill(self, frame: Frame, settings: Settings, layer: str, picture: Sequence[Pass]) -> int:
         """Trace a frame and show its picture as it grows; return how many rows are shown."""
-        from ..tracer.render import steps
+        from ..rendering import steps
 
         began = time.monotonic()
         due = began + SHOW_EVERY

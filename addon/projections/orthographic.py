@@ -21,6 +21,7 @@ class Orthographic:
     in_files: ClassVar[bool | str] = True
     blender: ClassVar[str] = "ORTHO"
     is_parallel: ClassVar[bool] = True
+    is_linear: ClassVar[bool] = True  # a ray is linear in the film position
     formulas: ClassVar[dict[str, tuple[str, str]]] = {
         "o": ("e + (u right + v up)", ""),
         "d": ("forward", "the same for all pixels: t is the depth"),

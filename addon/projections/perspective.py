@@ -25,6 +25,7 @@ class Perspective:
     # Whether all rays are parallel: then the window is in metres, and the clip range may begin
     # behind the camera. Otherwise all rays begin in one point.
     is_parallel: ClassVar[bool] = False
+    is_linear: ClassVar[bool] = True  # a ray is linear in the film position
     # A ray's origin and direction, for readers: the formula's right side, and a remark.
     formulas: ClassVar[dict[str, tuple[str, str]]] = {
         "o": ("e", ""),

@@ -32,6 +32,11 @@ class Rays:
     origins: Vectors
     directions: Vectors
 
+    @property
+    def count(self) -> int:
+        """How many rays there are."""
+        return max(self.origins.shape[1], self.directions.shape[1])
+
     def take(self, index: NDArray[np.integer]) -> Rays:
         """Return the rays at `index`; what all share stays shared."""
         vectors = self.origins, self.directions

@@ -9,14 +9,14 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from ...methods import Method
+from ...methods import RECORDS
 from ..drawing import judges
 
 Item = tuple[str, str, str, int]  # identifier, name, description, number
 Unstored = tuple[str, str, str]  # identifier, name, description of what no .blend stores
 
 METHODS: tuple[Item, ...] = tuple(
-    (m.value, m.label, m.description, m.number) for m in reversed(Method)
+    (m.value, r.label, r.description, r.number) for m, r in reversed(RECORDS.items())
 )
 
 PRECISIONS: tuple[Item, ...] = (

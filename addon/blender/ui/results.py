@@ -107,8 +107,8 @@ def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoi
     if not count:
         return f"{sentence}; every other method breaks in each of {total} sweeps."
     return (
-        f"{sentence}; of the other methods, {Method(method).words} in {precision} holds in the "
-        f"most sweeps: {count} of {total}."
+        f"{sentence}; of the other methods, {Method(method).record.words} in {precision} holds in "
+        f"the most sweeps: {count} of {total}."
     )
 
 
