@@ -1,9 +1,9 @@
-"""The open scene for a comparison with a picture of which nobody says how it was made.
+"""Prepares the open scene for comparison with a picture that Blender need not have made.
 
-The scene may have been another then: a flag hides an object, or it was the frame beside. And the
-picture may have gone through one of Blender's view transforms. Blender itself transforms the
-colours that a traced scene can show, by saving a picture of them: a constant colour has no others.
-A scene with colours between corners has more, and gets none.
+The scene may have been another then: a flag hides an object, or it was the frame before or after.
+And the picture may have gone through one of Blender's view transforms. To know what these do,
+Blender saves a picture of the colours that the traced scene can show. This needs constant colours:
+with colours that change between corners, no view transform is tried.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ from .values import values_restored
 from .versions import set_format
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
-MOST = 16  # alternatives: each is traced where pixels are left open
+MOST = 16  # alternatives: each of them is traced where pixels have no cause
 MOST_COLORS = 4096
 
 
 def gather_against(
     context: Any, picture: Picture, settings: Settings, self_check: bool = False
 ) -> Case:
-    """Export the context's scene as a render has it, for a picture that Blender need not have made.
+    """Export the context's scene as a render has it, for a picture of unknown origin.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def gather_against(
 
 
 def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:
-    """Return scenes that differ from one, exported as a render has it, in one flag or the frame."""
+    """Return scenes that differ in one flag or the frame from one exported as a render has it."""
     other, viewport = export(context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
     out = []
@@ -113,13 +113,15 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
 
 
 def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Yield names and what becomes of the colours (n, 3), linear as sRGB's curve is undone."""
+    """Yield view transforms' names, and what they make of the colours (n, 3), sRGB's curve undone."""
     view = tmp.view_settings
     own = view.view_transform
     plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")
     more = f" with exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}, look '{view.look}'"
     yield f"'{own}'" + ("" if plain else more), _saved(tmp, table)
-    view.look, view.exposure, view.gamma = "None", 0.0, 1.0
+    view.look = "None"
+    view.exposure = 0.0
+    view.gamma = 1.0
     for name in COMMON:
         with suppress(TypeError):  # this Blender does not have it
             view.view_transform = name
@@ -144,7 +146,7 @@ def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
 
 
 def _looked_up(table: NDArray[np.float32], shown: NDArray[np.float64]) -> Any:
-    """Return the transform that gives each colour of a table (n, 3) what is shown of it."""
+    """Return the function that maps each colour of a table (n, 3) to what is shown of it."""
 
     def transform(color: NDArray[np.float64]) -> NDArray[np.float64]:
         flat = color.reshape(-1, 3)

@@ -1,6 +1,6 @@
 """`blender FILE --command reference_tracer compare|explain|trade|extremes`, for scripts.
 
-They are those of `reftrace`, for the file that is open.
+These are the commands of `reftrace`, for the file that is open.
 """
 
 from __future__ import annotations

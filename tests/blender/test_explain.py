@@ -74,7 +74,7 @@ def test_of_the_comparison(suzanne):
     assert latest().certified.seen[0] == compared.frame.instance_index[33, 60]
     assert latest().certified.t == compared.frame.t[33, 60]
     ops.explain(**PIXEL)
-    assert latest().seen is None or latest().seen.object != "Suzanne"
+    assert latest().seen is None  # now the ray meets nothing
 
 
 @pytest.mark.parametrize("suffix", [".md", ".html", ".json"])

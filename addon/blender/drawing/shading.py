@@ -16,7 +16,7 @@ from .judge import Judge
 
 
 def anti_aliasing(scene: Any, judge: Judge, like_for_like: bool) -> str:
-    """Return what smooths the edges of the picture that :func:`picture` makes; 'OFF' for nothing.
+    """Return what smooths the edges of the picture; 'OFF' for nothing.
 
     In a window that is the user's preference, whatever the scene says.
     """
@@ -45,15 +45,17 @@ def use_view_shading(scene: Any, shading: Any) -> None:
 
 
 def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
-    """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it.
+    """Yield what a picture *as it is* may show anywhere, and constant shading does not have.
 
-    Anti-aliasing alone can be checked: it mixes colours that the tracer sees.
+    Only anti-aliasing can be checked: it mixes colours that the tracer sees.
     """
-    shading, name = scene.display.shading, f"scene '{scene.name}'"
+    shading = scene.display.shading
+    name = f"scene '{scene.name}'"
     if not judge.solid:
         yield Unmodelled(name, "materials and light", f"of {judge.label}", None, Effect.LIGHT)
         return
-    detail, aa = "Blender's picture is made with it", Effect.NONE
+    detail = "Blender's picture is made with it"
+    smoothing = Effect.NONE
     studio = shading.light == "STUDIO"
     for feature, shown, effect in (
         (f"{shading.light.lower()} light", shading.light != "FLAT", Effect.LIGHT),
@@ -66,7 +68,7 @@ def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodel
         ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof, Effect.PICTURE),
     ):
         if shown:
-            aa = Effect.LIGHT
+            smoothing = Effect.LIGHT
             yield Unmodelled(name, feature, detail, None, effect)
     if anti_aliasing != "OFF":
-        yield Unmodelled(name, "anti-aliasing", detail, None, aa)
+        yield Unmodelled(name, "anti-aliasing", detail, None, smoothing)

@@ -98,7 +98,8 @@ def _within_border(camera: Camera, through: Any, space: Any, scene: Any) -> Came
         corners = np.array(through.data.view_frame(scene=scene), np.float64).T
         axes = camera.world_from_camera
         film = np.array(film_of(camera, axes[:3, :3] @ corners + axes[:3, 3:])[:2])
-        low, high = film.min(axis=1), film.max(axis=1)
-        ends = (low + ends * (high - low)) / (camera.width, camera.height)
+        low = film.min(axis=1)
+        extent = film.max(axis=1) - low
+        ends = (low + ends * extent) / (camera.width, camera.height)
     (x0, y0), (x1, y1) = np.clip(ends, 0, 1)
     return replace(camera, region=border_region(camera.width, camera.height, x0, x1, y0, y1))

@@ -113,7 +113,8 @@ class LongWork(Mixin):
         LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
-        self._began = self._shown = time.monotonic()
+        self._began = time.monotonic()
+        self._shown = self._began
         LongWork.running = self.bl_label
         return {"RUNNING_MODAL"}
 

@@ -157,7 +157,8 @@ class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
         from ..choice import frame_all
 
         camera = frame_all(context.scene, context.view_layer)
-        camera.name = camera.data.name = "Camera"
+        camera.name = "Camera"
+        camera.data.name = "Camera"
         return {"FINISHED"}
 
 

@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import MEASURED, PLAIN, Method
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .panels import NARROW, Part, both, draw_table, short_name, wrapped
+from .layout import NARROW, Part, both, draw_table, short_name, wrapped
 from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
