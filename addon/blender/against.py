@@ -113,7 +113,7 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
 
 
 def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Yield view transforms' names, and what they make of the colours (n, 3), sRGB's curve undone."""
+    """Yield each view transform's name and what it makes of colours (n, 3), sRGB's curve undone."""
     view = tmp.view_settings
     own = view.view_transform
     plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")

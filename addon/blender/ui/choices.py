@@ -112,11 +112,14 @@ SOURCES: tuple[Unstored, ...] = (
 )
 
 
+_SCENARIOS = tomllib.loads(
+    (Path(__file__).parents[2] / "study/scenarios/sweeps.toml").read_text(encoding="utf-8")
+)
+
+
 def _listed(kind: str) -> tuple[Unstored, ...]:
     """Return the study's scenarios of a kind."""
-    folder = Path(__file__).parents[2] / "study" / "scenarios"
-    listed = tomllib.loads((folder / "sweeps.toml").read_text(encoding="utf-8"))[kind]
-    return tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in listed)
+    return tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS[kind])
 
 
 SWEEPS = _listed("scenario")
