@@ -26,11 +26,10 @@ from numpy.typing import NDArray
 
 from ..certainty import Certainty, Reason
 from ..tracer.camera import Rays
-from ..tracer.candidates import Pairs
 from ..tracer.hits import Hits, Statistics, Ties
 from ..tracer.progress import Work
-from ..tracer.vector import Floats, Index, occurring
-from ..tracer.world import WorldTriangles
+from ..tracer.vector import Bools, Floats, Index, occurring
+from ..tracer.world import Pairs, WorldTriangles
 from . import exact, order
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
 from .measures import Prepared
@@ -45,7 +44,6 @@ if TYPE_CHECKING:
 BY_ORDER = 1 << 14
 BY_INTEGERS = 1 << 11
 
-Bools = NDArray[np.bool_]
 Met = list[exact.Hit | None]
 # Returns how the first of two candidates lies to the second, (p,) each: codes of `order.py`.
 Compare = Callable[[Index, Index], NDArray[np.int8]]
@@ -166,7 +164,7 @@ class Ladder:
             found = self._candidates(every, plane, fractions, np.ones(len(every), bool))
         self._found.append(found)
 
-    def _prepare(self, corners: NDArray[np.float64]) -> FromPoint | Parallel | None:
+    def _prepare(self, corners: Floats) -> FromPoint | Parallel | None:
         """Return what of triangles (3, 3, m) is the same for all the rays; None if nothing is."""
         o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
@@ -326,7 +324,7 @@ def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
     first = begin.copy()
     decided = np.ones(len(count), bool)
     coplanar_with = np.arange(len(of_ray))
-    for number in range(1, int(count.max(initial=0))):
+    for number in range(1, int(np.max(count, initial=0))):
         ray = np.flatnonzero(count > number)
         other = begin[ray] + number
         result = compare(first[ray], other)

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from ..scene import Region, Scene
 from ..tracer.camera import Rays, camera_rays, corner_rays, film_positions
 from ..tracer.frame_measures import PIXELS
-from ..tracer.hits import NOTHING, Hits, Measures
-from ..tracer.vector import Arrays, Floats, Index, Vectors, cross, gather, largest, parts
+from ..tracer.hits import NOTHING, Hits, Measures, Names
+from ..tracer.vector import Arrays, Bools, Floats, Index, Vectors, cross, gather, largest, parts
 from ..tracer.world import WorldTriangles, world_corners
 from .arithmetic import check_assumptions
 from .quotient import Quotients
@@ -64,14 +64,14 @@ class Prepared:
             return
         at = at[which]
         batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface[which])
-        found = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
-        hits.t[at] = [batch.t(hit) for hit in found]
-        for k in np.flatnonzero(np.isnan(hits.s[0, at])):
-            hits.s[:, at[k]] = found[k].weights
+        for ray, number, of in zip(at.tolist(), *pairs, strict=True):
+            hit = batch.hit(number, of)
+            assert hit, "the ray certainly hits it"
+            hits.t[ray] = batch.t(hit)
+            if np.isnan(hits.s[0, ray]):
+                hits.s[:, ray] = hit.weights
 
-    def meet(
-        self, rays: Rays, surface: Index
-    ) -> tuple[NDArray[np.float64], NDArray[np.bool_], Vectors]:
+    def meet(self, rays: Rays, surface: Index) -> tuple[Floats, Bools, Vectors]:
         """Return t of p rays, whether it surely is rounded correctly, and the barycentrics."""
         t, sure = self._quotients.meet(rays, surface)
         row = np.maximum(surface - self._planes, 0) if self._planes else surface
@@ -104,7 +104,7 @@ class Prepared:
         return s
 
 
-def _edges(rays: Rays, corners: NDArray[np.float64]) -> tuple[NDArray[np.float64], Floats]:
+def _edges(rays: Rays, corners: Floats) -> tuple[Floats, Floats]:
     """Return what the edges bc, ca, ab of triangles (3, 3, m) are to all rays: (9 or 18, m).
 
     And what a sum of edge functions must be above: as often as its last factor, which rays bound,
@@ -162,7 +162,7 @@ class Measured:
     dx: float = 0.0
     dy: float = 0.0
 
-    def __call__(self, ray: Index, instance: Index, triangle: Index) -> Measures:
+    def __call__(self, ray: Index, instance: Names, triangle: Names) -> Measures:
         """Return t, the nearest float64, and the barycentrics of k rays, (4, k).
 
         Parameters
@@ -198,7 +198,7 @@ class Measured:
         return hits.values
 
 
-def _surfaces(scene: Scene, instance: Index, triangle: Index) -> tuple[Surfaces, Index]:
+def _surfaces(scene: Scene, instance: Names, triangle: Names) -> tuple[Surfaces, Index]:
     """Return the surfaces of these names, (n,) each, and which of them each is."""
     planes = Surfaces.planes_of(scene)
     first = planes.first_plane

@@ -18,9 +18,9 @@ from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
 from .frame_measures import FrameMeasures
-from .hits import NOTHING, Hits, Measures, Statistics, Ties
+from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
 from .memory import TRACED, check_memory
-from .vector import Index
+from .vector import Floats, Index, Numbers
 
 _PIXELS = 1 << 15  # of which something is computed together
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
@@ -37,14 +37,14 @@ class Pass(NamedTuple):
     label: str = ""
     letters: str = "X"
     kind: str = "VALUE"
-    shown: Callable[[NDArray], NDArray] = np.asarray
+    shown: Callable[[Numbers], Numbers] = np.asarray
 
 
-def _finite(t: NDArray) -> NDArray:
+def _finite(t: Numbers) -> Numbers:
     return np.minimum(t, NO_HIT_DEPTH)
 
 
-def _from_1(index: NDArray) -> NDArray:
+def _from_1(index: Numbers) -> Numbers:
     return index + 1  # 0 is none
 
 
@@ -120,24 +120,24 @@ class Frame:
         return self.certainty.shape
 
     @property
-    def t(self) -> NDArray[np.float64]:
+    def t(self) -> Floats:
         """Ray parameter = depth along the view axis, (h, w) metres; inf: no hit."""
         return self.measures.of(slice(None))[0]
 
     depth = t  # as Blender's Z pass has it: directions are not normalised, for any camera
 
     @property
-    def barycentrics(self) -> NDArray[np.float64]:
+    def barycentrics(self) -> Floats:
         """Weights of the triangle's corners, (h, w, 3)."""
         return np.moveaxis(self.measures.of(slice(None))[1:], 0, -1)
 
     @property
-    def position(self) -> NDArray[np.float64]:
+    def position(self) -> Floats:
         """Where each ray ends in world space, (h, w, 3) metres; zero where nothing is hit."""
         return self._by_rows(self.positions)
 
     @property
-    def normal(self) -> NDArray[np.float64]:
+    def normal(self) -> Floats:
         """Geometric unit normals in world space, (h, w, 3), as `shading.normals` has them."""
         return self._by_rows(lambda rows: shading.normals(self.scene, self.hits(rows)))
 
@@ -149,7 +149,7 @@ class Frame:
     def hits(self, rows: slice = slice(None)) -> Hits:
         """Return what the centre rays of some rows met, row by row: views of the frame's arrays."""
 
-        def find(ray: Index, _instance: Index, _triangle: Index) -> Measures:
+        def find(ray: Index, _instance: Names, _triangle: Names) -> Measures:
             return self.measures.of(rows).reshape(4, -1)[:, ray]
 
         return Hits(
@@ -168,13 +168,14 @@ class Frame:
         self.measures.enter(rows, hits)
         self.ties = Ties.joined((self.ties, hits.ties.numbered(rows.start * self.shape[1])))
 
-    def positions(self, rows: slice) -> NDArray[np.float64]:
+    def positions(self, rows: slice) -> Floats:
         """Return where the rays of some rows end, (n, 3), as `position` has it."""
-        r, (y0, y1, _) = self.scene.camera.region, rows.indices(self.shape[0])
+        r = self.scene.camera.region
+        y0, y1, _ = rows.indices(self.shape[0])
         film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
         return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
 
-    def _by_rows(self, of: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
+    def _by_rows(self, of: Callable[[slice], Floats]) -> Floats:
         """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
         height, width = self.shape
         out = np.moveaxis(np.zeros((3, height, width)), 0, -1)  # as the tracer has vectors
@@ -187,7 +188,7 @@ class Frame:
     def depths(self) -> tuple[float, float]:
         """Return the depths of the nearest and the farthest hit, metres; 0 where there is none."""
         t = self.t[np.isfinite(self.t)]
-        return (float(t.min()), float(t.max())) if t.size else (0.0, 0.0)
+        return (float(np.min(t)), float(np.max(t))) if t.size else (0.0, 0.0)
 
     def wrong_against(self, certified: Frame) -> NDArray[np.bool_]:
         """Return which pixels, (h, w), see another surface than a certified frame of the scene.
@@ -202,6 +203,6 @@ class Frame:
         wrong.flat[pixel[certified.ties.may_see(pixel, *name)]] = False
         return wrong
 
-    def passes(self) -> dict[str, NDArray]:
+    def passes(self) -> dict[str, Numbers]:
         """Return every output by name, also those that are computed."""
         return {p.name: getattr(self, p.name) for p in PASSES}

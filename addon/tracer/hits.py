@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..certainty import Certainty, Reason, sentences
-from .vector import Floats, Index, Vectors, groups, spread
+from .vector import Bools, Floats, Index, Vectors, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
-Measures = NDArray[np.float64]  # (4, n): t and the three barycentrics of n rays
+Names = NDArray[np.int32]  # (n,) instances, or triangles
+Measures = Floats  # (4, n): t and the three barycentrics of n rays
 # Finds those of rays: their numbers (k,), and the instance and triangle that each sees, (k,).
-FindMeasures = Callable[[Index, Index, Index], Measures]
+FindMeasures = Callable[[Index, Names, Names], Measures]
 Name = tuple[int, int]  # instance and triangle
 NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 _TOGETHER = 1 << 17  # rows of ties looked at together
@@ -34,7 +35,7 @@ class Statistics:
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
-    stages: Counter[str] = field(default_factory=Counter)  # seconds of the parts of certified work
+    stages: dict[str, float] = field(default_factory=dict)  # seconds of the parts of certified work
     # Of the sweep: triangles with a pixel in their box (boxed), not dropped as a whole (reached);
     # pixels in which they were evaluated (computed), and that it did not decide (left).
     culling: Counter[str] = field(default_factory=Counter)
@@ -78,7 +79,7 @@ class Ties(Mapping[int, frozenset[Name]]):
         return cls(*np.zeros((2, 0), np.int64), *np.zeros((3, 0), np.int32))
 
     @classmethod
-    def of(cls, ray: NDArray, instance: NDArray, triangle: NDArray) -> Ties:
+    def of(cls, ray: Index, instance: Index, triangle: Index) -> Ties:
         """Return the ties of rows of a ray and a surface, those of one ray together, in order."""
         start = np.flatnonzero(np.diff(ray, prepend=-1))
         count = np.diff(start, append=len(ray))
@@ -89,9 +90,13 @@ class Ties(Mapping[int, frozenset[Name]]):
             own[1:] = (count[1:] != count[:-1]) | ~np.logical_and.reduceat(same, start)[1:]
         first = np.cumsum(count * own) - count * own
         kept = np.repeat(own, count)
-        names = (v[kept].astype(np.int32) for v in (instance, triangle))
-        first = first[own][np.cumsum(own) - 1]
-        return cls(ray[start].astype(np.int64), first, count.astype(np.int32), *names)
+        return cls(
+            ray[start].astype(np.int64),
+            first[own][np.cumsum(own) - 1],
+            count.astype(np.int32),
+            instance[kept].astype(np.int32),
+            triangle[kept].astype(np.int32),
+        )
 
     @classmethod
     def joined(cls, parts: Sequence[Ties]) -> Ties:
@@ -99,15 +104,20 @@ class Ties(Mapping[int, frozenset[Name]]):
         parts = [part for part in parts if len(part.ray)]
         if len(parts) < 2:
             return parts[0] if parts else cls.none()
-        ray, start, count, *names = map(
-            np.concatenate, zip(*(vars(p).values() for p in parts), strict=True)
-        )
-        sizes = [len(p.instance) for p in parts]
-        start += np.repeat(np.cumsum(sizes) - sizes, [len(p.ray) for p in parts])
+        ray = np.concatenate([p.ray for p in parts])
         order = np.argsort(ray, kind="stable")
-        return cls(ray[order], start[order], count[order], *names)
+        sizes = [len(p.instance) for p in parts]
+        before = np.repeat(np.cumsum(sizes) - sizes, [len(p.ray) for p in parts])
+        start = np.concatenate([p.start for p in parts]) + before
+        return cls(
+            ray[order],
+            start[order],
+            np.concatenate([p.count for p in parts])[order],
+            np.concatenate([p.instance for p in parts]),
+            np.concatenate([p.triangle for p in parts]),
+        )
 
-    def numbered(self, numbers: NDArray[np.integer] | int) -> Ties:
+    def numbered(self, numbers: Index | int) -> Ties:
         """Return the ties with ray i called numbers[i], which ascend, or i + numbers."""
         if isinstance(numbers, int) and not numbers:
             return self
@@ -119,7 +129,7 @@ class Ties(Mapping[int, frozenset[Name]]):
         some = slice(np.searchsorted(self.ray, ray))
         return replace(self, ray=self.ray[some], start=self.start[some], count=self.count[some])
 
-    def may_see(self, ray: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.bool_]:
+    def may_see(self, ray: Index, instance: Index, triangle: Index) -> Bools:
         """Return which of these rays are ambiguous and may be said to see these surfaces, (n,)."""
         out = np.zeros(len(ray), bool)
         at = np.searchsorted(self.ray, ray)
@@ -187,7 +197,8 @@ class Hits:
     def of(cls, t: Floats, instance: Index, triangle: Index, s: Vectors) -> Hits:
         """Return hits of a plain method: t (n,), the names (n,), and barycentrics s (3, n)."""
         certainty = np.full(len(t), Certainty.NOT_CERTIFIED, np.uint8)
-        return cls(instance, triangle, certainty, np.vstack((t, s)))
+        measures = np.vstack((t, s))
+        return cls(instance.astype(np.int32), triangle.astype(np.int32), certainty, measures)
 
     @classmethod
     def joined(cls, parts: Sequence[Hits]) -> Hits:
@@ -253,7 +264,7 @@ def no_measures(*shape: int) -> Measures:
 
 
 def _measures_at(
-    find: FindMeasures, own: Index, ray: Index, instance: Index, triangle: Index
+    find: FindMeasures, own: Index, ray: Index, instance: Names, triangle: Names
 ) -> Measures:
     """Find the measures of rays that have other numbers, `own`, where they are known."""
     return find(own[ray], instance, triangle)
@@ -263,8 +274,8 @@ def _measures_of(
     found: Sequence[Measures | FindMeasures],
     starts: Index,
     ray: Index,
-    instance: Index,
-    triangle: Index,
+    instance: Names,
+    triangle: Names,
 ) -> Measures:
     """Find the measures of rays that are numbered through several parts."""
     out = np.empty((4, len(ray)))

@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import PAIRS, Pairs, Plan, candidates, cull
+from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .triangle import TESTS
-from .world import batches, world_triangles
+from .vector import Bools, Floats, Index
+from .world import Pairs, batches, world_triangles
 
 # Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).
 TraceBand = Callable[[Region, float, float], Work[Hits]]
@@ -59,6 +59,7 @@ def trace_tile(
     """
     scene = plan.scene
     settings = plan.settings
+    assert settings, "the plan of a plain method has its settings"
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
@@ -123,13 +124,13 @@ def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None)
         _keep_nearest(hits, after, seen, found)
 
 
-def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
+def within_clip(camera: Camera, t: Floats) -> Bools:
     """Return whether each t (n,), which is the depth, lies in the camera's clip range."""
     with np.errstate(invalid="ignore", over="ignore"):  # NaN; an end that float32 does not have
         return (t >= camera.clip_start) & (t <= camera.clip_end)
 
 
-def _keep_nearest(hits: Hits, after: Hits | None, pixel: NDArray[np.intp], found: Hits) -> None:
+def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
     """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
@@ -142,12 +143,10 @@ def _keep_nearest(hits: Hits, after: Hits | None, pixel: NDArray[np.intp], found
         hits.enter(pixel, found)
 
 
-def _before(
-    first: Hits, rays: NDArray | slice, second: Hits, others: NDArray | slice
-) -> NDArray[np.bool_]:
+def _before(first: Hits, rays: Index | slice, second: Hits, others: Index | slice) -> Bools:
     """Return where hits of `rays` come before others, in the order of t, instance, triangle."""
-    t, instance, triangle = first.t[rays], first.instance[rays], first.triangle[rays]
-    other_t, other_instance = second.t[others], second.instance[others]
-    lower = triangle < second.triangle[others]
+    t, other_t = first.t[rays], second.t[others]
+    instance, other_instance = first.instance[rays], second.instance[others]
+    lower = first.triangle[rays] < second.triangle[others]
     lower = (instance < other_instance) | ((instance == other_instance) & lower)
     return (t < other_t) | ((t == other_t) & lower)

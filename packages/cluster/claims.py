@@ -126,7 +126,8 @@ class Claim:
         statistics.pairs_tested += own.pairs_tested
         statistics.reasons += own.reasons
         statistics.culling += own.culling
-        statistics.stages.update(own.stages)
+        for stage, seconds in own.stages.items():
+            statistics.stages[stage] = statistics.stages.get(stage, 0.0) + seconds
 
 
 def _decided(certainty: NDArray[np.uint8]) -> NDArray[np.int64]:
@@ -144,7 +145,7 @@ def _statistics(told: str) -> Statistics:
         pairs_tested=int(pairs),
         reasons=Counter({Reason[k]: int(n) for k, n in reasons.items()}),
         culling=Counter({k: int(n) for k, n in culling.items()}),
-        stages=Counter({k: float(n) for k, n in stages.items()}),
+        stages={k: float(n) for k, n in stages.items()},
     )
 
 

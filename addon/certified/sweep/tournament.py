@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...tracer.vector import Index
-from ..ladder import Bools, Compare
+from ...tracer.vector import Bools, Index
+from ..ladder import Compare
 from ..order import COPLANAR, FARTHER, UNDECIDED
 
 

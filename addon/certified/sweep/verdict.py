@@ -14,12 +14,11 @@ from numpy.typing import NDArray
 from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
-from ...tracer.candidates import Pairs
 from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics, Ties
 from ...tracer.progress import Steps, mapped
 from ...tracer.vector import Index, gather, grouped, groups, parts
-from ...tracer.world import WorldTriangles, world_corners
+from ...tracer.world import Pairs, WorldTriangles, world_corners
 from ..ladder import Ladder
 from ..measures import Known, Measured
 from .chunks import Numbering
