@@ -16,6 +16,7 @@ from ...certainty import Certainty
 from ...compare.cause import Cause, Causes
 from ...compare.causes import explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
+from ...methods import Method
 from ...rendering import steps
 from ...scene import Camera, Scene
 from ...tracer.coloring import Color
@@ -80,7 +81,7 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
         [shown.line] = frame.statistics.notes[:1] or proven
         return
     truth = Frame.empty(scene)
-    yield from scaled(steps(scene, Settings("certified"), truth), 0.0, 0.4)
+    yield from scaled(steps(scene, Settings(Method.CERTIFIED), truth), 0.0, 0.4)
     work = _traced(
         scene, settings, shown, lambda f, r: wrong_map(f.color[r], f.wrong_against(truth)[r])
     )
