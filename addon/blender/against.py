@@ -17,8 +17,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors, Floats
 from ..compare.case import Alternative, Case
 from ..compare.checks.hidden import with_object, without
 from ..compare.picture import Curve, Picture
@@ -112,7 +112,7 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
         )
 
 
-def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[np.float64]]]:
+def _shown(tmp: Any, table: Colors) -> Iterator[tuple[str, Floats]]:
     """Yield each view transform's name and what it makes of colours (n, 3), sRGB's curve undone."""
     view = tmp.view_settings
     own = view.view_transform
@@ -129,7 +129,7 @@ def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[
             yield f"'{name}'", _saved(tmp, table)
 
 
-def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
+def _saved(tmp: Any, table: Colors) -> Floats:
     """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
     image: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
     try:
@@ -145,10 +145,10 @@ def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
         bpy.data.images.remove(image)
 
 
-def _looked_up(table: NDArray[np.float32], shown: NDArray[np.float64]) -> Any:
+def _looked_up(table: Colors, shown: Floats) -> Any:
     """Return the function that maps each colour of a table (n, 3) to what is shown of it."""
 
-    def transform(color: NDArray[np.float64]) -> NDArray[np.float64]:
+    def transform(color: Floats) -> Floats:
         flat = color.reshape(-1, 3)
         found, index = np.unique(flat, axis=0, return_inverse=True)
         nearest = [int(np.abs(table - c).sum(axis=1).argmin()) for c in found]

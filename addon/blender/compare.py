@@ -11,15 +11,14 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import numpy as np
-from numpy.typing import NDArray
 
-from ..cli.arguments import words
+from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
 from ..compare.picture import Picture, Source
 from ..diagnosis import diagnosed
+from ..errors import words
 from ..manifest import Manifest
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
@@ -129,9 +128,7 @@ def _prepared(tmp: Any, judge: Judge, like_for_like: bool, view_shading: Any) ->
     return used
 
 
-def _picture(
-    pixels: NDArray[np.float32], judge: Judge, used: dict[str, Any], snapping: float
-) -> Picture:
+def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float) -> Picture:
     smooth = used["anti_aliasing"]
     return Picture(
         pixels,

@@ -53,7 +53,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     # The stubs have Blender's property of this name instead.
     def render(self, depsgraph: Any) -> None:  # type: ignore[override]
         """Render one view layer of one frame; a temporary scene is only exported."""
-        from ..cli.arguments import failure
+        from ..errors import failure
 
         work = _keep_export if is_temporary(depsgraph.scene) else self._trace
         if error := failure(work, depsgraph):

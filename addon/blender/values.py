@@ -12,13 +12,13 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors
 from .versions import curves
 
 
 @contextmanager
-def in_colors(objects: Sequence[Any], colors: NDArray[np.float32]) -> Iterator[None]:
+def in_colors(objects: Sequence[Any], colors: Colors) -> Iterator[None]:
     """Show objects in object colours (n, 3), for a while."""
     opaque = np.column_stack((colors, np.ones(len(colors)))).astype(np.float32)
     rows = dict(zip(objects, opaque, strict=True))

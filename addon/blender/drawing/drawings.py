@@ -14,8 +14,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Integers
 from ...compare.checks.unmodelled import covered
 from ...compare.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
 from ...compare.picture import Picture, numbered
@@ -55,11 +55,11 @@ class Drawing:
             with stand_ins(tmp, self.layer, self.exported, planes):
                 yield tmp
 
-    def picture(self, tmp: Any, like_for_like: bool) -> NDArray[np.float32]:
+    def picture(self, tmp: Any, like_for_like: bool) -> Colors:
         """Draw a temporary scene; raises what :func:`.picture.picture` does."""
         return picture(tmp, self.layer, self.judge, self.exported.camera, like_for_like)
 
-    def without(self, features: Sequence[Unmodelled]) -> NDArray[np.float32]:
+    def without(self, features: Sequence[Unmodelled]) -> Colors:
         """Draw the scene without some features that draw themselves."""
         with self.begun() as tmp, left_out(tmp, self.layer, features):
             return self.picture(tmp, self.like_for_like)
@@ -130,7 +130,7 @@ def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, M
     return shown, replace(manifest, unmodelled=tuple(unmodelled))
 
 
-def drawn_by_others(drawing: Drawing) -> NDArray[np.int32] | None:
+def drawn_by_others(drawing: Drawing) -> Integers | None:
     """Return what draws itself in each pixel, (h, w), by Blender's own drawing; None for nothing.
 
     Of a picture that Blender did not draw: nobody knows what is beneath.

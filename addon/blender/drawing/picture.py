@@ -13,8 +13,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors
 from ...compare.picture import SizeError
 from ...scene import Camera, SceneError
 from ..values import values_restored
@@ -72,9 +72,7 @@ def prepare_scene(scene: Any, like_for_like: bool) -> dict[str, Any]:
     }
 
 
-def picture(
-    scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool
-) -> NDArray[np.float32]:
+def picture(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
     """Return Blender's picture of a prepared temporary scene.
 
     Parameters
@@ -136,7 +134,7 @@ def _draw(scene: Any, layer: str, judge: Judge) -> None:
         bpy.ops.render.render(scene=scene.name, write_still=True)
 
 
-def read(path: Path, colorspace: str = "") -> NDArray[np.float32]:
+def read(path: Path, colorspace: str = "") -> Colors:
     """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below."""
     image: Any = bpy.data.images.load(str(path))
     try:

@@ -15,8 +15,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Floats
 from ...compare.bounds import SNAPPING
 from ..reading.camera import export_camera
 from .judge import Judge
@@ -44,7 +44,7 @@ def snapping_of(judge: Judge) -> float:
     return max(SNAPPING, float(2.0 ** -(np.round(-np.log2(least)) - 1)))
 
 
-def _covered(judge: Judge, moved: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _covered(judge: Judge, moved: Floats) -> Bools:
     """Draw a quad in each row, and return where it covers the centre of the second pixel, (n,).
 
     Parameters
@@ -60,7 +60,7 @@ def _covered(judge: Judge, moved: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 @contextmanager
-def _quads(moved: NDArray[np.float64]) -> Iterator[Any]:
+def _quads(moved: Floats) -> Iterator[Any]:
     """Give a scene with a row of pixels for each quad, for a while."""
     rows = len(moved)
     scene = bpy.data.scenes.new("Reference Tracer Rasteriser")

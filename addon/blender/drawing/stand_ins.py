@@ -13,8 +13,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Floats
 from ...scene import Plane, Scene
 from ..reading.colors import random_color
 from ..reading.view_volume import polygon
@@ -66,9 +66,7 @@ def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iter
             bpy.data.meshes.remove(obj.data)  # takes the object with it
 
 
-def _stand_in(
-    tmp: Any, corners: NDArray[np.float64], eye: NDArray[np.float64], color: NDArray[np.float32]
-) -> Any:
+def _stand_in(tmp: Any, corners: Floats, eye: Floats, color: Colors) -> Any:
     # Vertices are float32: the nearer one lies to the object's origin, the more digits it keeps. So
     # the origin is the corner that the camera sees largest.
     nearest = corners[np.argmin(((corners - eye) ** 2).sum(axis=1))]

@@ -12,8 +12,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors
 from ...manifest import Effect
 from ...scene import Camera, Scene, alike
 from ..reading.export import Parts, assemble
@@ -36,7 +36,7 @@ class ViewScene:
         self._meshes: dict[tuple[int, bool], Read] = {}
         self._scene: Scene | None = None
         self._parts = Parts()
-        self._background: NDArray[np.float32] = np.zeros(4, np.float32)
+        self._background: Colors = np.zeros(4, np.float32)
         self._look: tuple[object, ...] = ()  # settings of the view
 
     def outdated(self, scene: Any, space: Any) -> bool:

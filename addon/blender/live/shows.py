@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Colors
 from ...certainty import Certainty
-from ...compare.cause import Cause, Causes
-from ...compare.causes import explain
+from ...compare.cause import AGREE, UNEXPLAINED, Causes
+from ...compare.causes import CAUSES, explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
 from ...methods import Method
 from ...rendering import steps
@@ -38,8 +38,8 @@ class Picture:
     With a new array in `color` the whole picture is shown anew.
     """
 
-    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
-    rows_done: NDArray[np.bool_]  # (h,) whether the row's colours are known
+    color: Colors  # (h, w, 4) linear RGBA, alpha premultiplied
+    rows_done: Bools  # (h,) whether the row's colours are known
     space: int  # the address of the 3D view's space
     is_coarse: bool  # whether its pixels are larger than the view's
     line: str = ""  # said in the view's corner
@@ -55,9 +55,7 @@ class Picture:
 
 # Fills a picture in steps of some milliseconds; yields the share that is done.
 Steps = Callable[[Scene, Settings, Picture], Iterator[float]]
-Rows = Callable[
-    [Frame, slice], NDArray[np.float32]
-]  # what is shown of rows of a frame, linear RGBA
+Rows = Callable[[Frame, slice], Colors]  # what is shown of rows of a frame, linear RGBA
 
 
 def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
@@ -127,18 +125,18 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
         color[rows] = cause_map(frame.color[rows], causes.cause[rows])
         yield 0.9
     color.reshape(-1, 4)[causes.passed_over] = 1
-    shown.color = ringed(color, causes.cause != Cause.AGREE)
+    shown.color = ringed(color, causes.cause != AGREE)
     shown.line = _summary(causes)
 
 
 def _summary(causes: Causes) -> str:
     """Return how many pixels differ from Blender's viewport, and why."""
-    counts = {c: int((causes.cause == c).sum()) for c in Cause}
+    counts = {c: int((causes.cause == c).sum()) for c in CAUSES}
     passed = len(causes.passed_over)
-    found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c is not Cause.AGREE]
+    found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c != AGREE]
     if passed:
         found.append(f"{passed:,} not looked at (white)")
-    differ = sum(n for c, n in counts.items() if c.differs) + passed
+    differ = sum(n for c, n in counts.items() if c.explains or c == UNEXPLAINED) + passed
     line = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
     return f"{line}: {', '.join(found)}" if found else line
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors
 from ...scene import GREY
 from ..versions import OWN_BACKGROUND, WITHOUT_ATTRIBUTE
 
@@ -15,9 +15,7 @@ _SATURATION = 0.5
 _VALUE = 0.8
 
 
-def instance_colors(
-    obj: Any, holder: Any, shading: Any, materials: list[Any]
-) -> NDArray[np.float32]:
+def instance_colors(obj: Any, holder: Any, shading: Any, materials: list[Any]) -> Colors:
     """Return the colour of each material slot, at least one: (k, 4) float32 linear RGBA.
 
     Parameters
@@ -51,7 +49,7 @@ def slot_materials(obj: Any) -> list[Any]:
     ]
 
 
-def background(scene: Any) -> NDArray[np.float32]:
+def background(scene: Any) -> Colors:
     """Return what a pixel that sees nothing shows in a render of this scene, (4,) linear RGBA.
 
     This is Workbench's rule. With a transparent film or without a world, nothing is shown. Else it

@@ -13,8 +13,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
 from ..temporary import user_scene
@@ -37,7 +37,7 @@ class Parts:
     planes: tuple[Plane, ...] = ()
     objects: tuple[str, ...] = ()
 
-    def scene(self, camera: Camera, background: NDArray[np.float32]) -> Scene:
+    def scene(self, camera: Camera, background: Colors) -> Scene:
         """Return the scene that a camera sees."""
         return Scene(camera, self.meshes, self.instances, self.planes, background, self.objects)
 
@@ -131,7 +131,7 @@ def _outside(camera: Camera, shown: list[Shown], meshes: dict[int, Read]) -> set
     return {n for n, is_out in zip(whole, out, strict=True) if is_out}
 
 
-def _plane(index: int, matrix: NDArray[np.float64], color: NDArray[np.float32]) -> Plane:
+def _plane(index: int, matrix: Floats, color: Colors) -> Plane:
     """Return a plane through the object's origin, its normal the object's own +Z axis.
 
     The plane holds the object's X and Y axes, so under shear its normal is their cross product.

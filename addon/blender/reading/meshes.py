@@ -12,8 +12,8 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Integers
 from ...scene import Mesh, drop_non_finite
 
 Read = tuple[Mesh, int]  # with the number of triangles left out
@@ -65,7 +65,7 @@ def _whole_mesh(obj: Any) -> Iterator[Any]:
         obj.to_mesh_clear()
 
 
-def _slots(mesh: Any) -> NDArray[np.int32]:
+def _slots(mesh: Any) -> Integers:
     """Return each triangle's material slot, (n,)."""
     attribute = mesh.attributes.get("material_index")
     if not attribute:  # all show the first
@@ -78,9 +78,7 @@ def _slots(mesh: Any) -> NDArray[np.int32]:
     return np.maximum(slots, 0)
 
 
-def _corner_colors(
-    mesh: Any, triangles: NDArray[np.int32], loops: NDArray[np.int32]
-) -> NDArray[np.float32] | None:
+def _corner_colors(mesh: Any, triangles: Integers, loops: Integers) -> Colors | None:
     """Return the active colour attribute at each triangle's corners, (n, 3, 4) linear RGBA."""
     attribute = mesh.color_attributes.active_color
     if attribute is None:
@@ -89,13 +87,13 @@ def _corner_colors(
     return values.take(triangles if attribute.domain == "POINT" else loops, axis=0)
 
 
-def _integers(collection: Any, name: str, width: int) -> NDArray[np.int32]:
+def _integers(collection: Any, name: str, width: int) -> Integers:
     out = np.empty(len(collection) * width, np.int32)
     collection.foreach_get(name, out)
     return out
 
 
-def _floats(collection: Any, name: str, width: int) -> NDArray[np.float32]:
+def _floats(collection: Any, name: str, width: int) -> Colors:
     out = np.empty(len(collection) * width, np.float32)
     collection.foreach_get(name, out)
     return out.reshape(-1, width)

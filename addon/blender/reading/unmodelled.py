@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Floats
 from ...manifest import Effect, Unmodelled
 from ..temporary import ignored_features, is_temporary
 from ..versions import COMPOSITOR, STRIPS, radii
@@ -36,7 +36,7 @@ def is_hair(settings: Any) -> bool:
     return settings.type == "HAIR" and settings.render_type == "PATH"
 
 
-def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
+def world_bounds(obj: Any, matrix: Any) -> Floats:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
     corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
     reach = max(_reaches(obj), default=0.0)

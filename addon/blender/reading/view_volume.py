@@ -5,8 +5,8 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Floats
 from ...scene import Camera, Plane, ViewWindow
 from ...tracer.camera import dual_axes, pixel_size
 
@@ -17,7 +17,7 @@ MARGIN = 0.01  # of the clip range's ends, so that Blender's own clipping decide
 _SLACK = 2.0**-20
 
 
-def volume_corners(camera: Camera) -> NDArray[np.float64]:
+def volume_corners(camera: Camera) -> Floats:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
     w = _window(camera)
     out = []
@@ -29,10 +29,10 @@ def volume_corners(camera: Camera) -> NDArray[np.float64]:
 
 def outside(
     camera: Camera,
-    low: NDArray[np.floating],
-    high: NDArray[np.floating],
-    world_from_object: NDArray[np.float64],
-) -> NDArray[np.bool_]:
+    low: Floats,
+    high: Floats,
+    world_from_object: Floats,
+) -> Bools:
     """Return which of k boxes lie wholly beyond one of the view volume's six sides, (k,).
 
     A box that lies beyond an edge or a corner of the volume, but beyond no side, is not found. A
@@ -77,7 +77,7 @@ def _depths(camera: Camera) -> tuple[float, float]:
     return start - MARGIN * abs(start), end + MARGIN * abs(end)
 
 
-def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _sides(camera: Camera) -> tuple[Floats, Floats]:
     """Return normals (6, 3) and offsets (6,): n . (p - origin) + offset >= 0 within a side."""
     # The axes need not be orthonormal: a point's coordinates are its products with their dual.
     x, y, depth = dual_axes(camera)
@@ -89,7 +89,7 @@ def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.stack((*normals, depth, -depth)), np.array((*offsets, -start, end))
 
 
-def polygon(camera: Camera, plane: Plane) -> NDArray[np.float64]:
+def polygon(camera: Camera, plane: Plane) -> Floats:
     """Return the polygon in which a plane cuts the view volume: its corners in order, (k, 3) world.
 
     k is at most 6, and 0 where the plane misses the volume. The volume is somewhat larger than what

@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Floats
 from ...manifest import Unmodelled
 from ..temporary import ignored_features
 from ..versions import FILTERS
@@ -48,8 +48,8 @@ class Shown(NamedTuple):
     name: str
     owner: str
     key: int | None  # the mesh's address; None for an infinite plane
-    matrix: NDArray[np.float64]  # (4, 4) world_from_object
-    colors: NDArray[np.float32]  # (k, 4) linear RGBA of each material slot
+    matrix: Floats  # (4, 4) world_from_object
+    colors: Colors  # (k, 4) linear RGBA of each material slot
 
 
 # An object by its name, the address of its mesh, and the colour that it takes of what instances it:
@@ -98,7 +98,7 @@ class _Looking:
         self.shown: list[Shown] = []
         self.meshes: dict[int, Read | None] = {}  # None: it has no face
         self._modelled: set[_Look] = set()  # as a whole
-        self._colors: dict[_Look, NDArray[np.float32]] = {}
+        self._colors: dict[_Look, Colors] = {}
 
     def add(self, item: Any) -> None:
         """Take in a `bpy.types.DepsgraphObjectInstance`."""
@@ -159,7 +159,7 @@ class _Looking:
             _widen(entry.features, replace(feature, by=by))
         return bool(found)
 
-    def _colors_of(self, entry: Seen, obj: Any, holder: Any) -> NDArray[np.float32]:
+    def _colors_of(self, entry: Seen, obj: Any, holder: Any) -> Colors:
         shading = self._viewing.shading
         materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
         if shading.color_type == "MATERIAL" and not entry.is_plane:

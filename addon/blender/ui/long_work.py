@@ -178,7 +178,7 @@ class LongWork(Mixin):
 
 def failed(operator: Any, error: Exception) -> Answer:
     """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
-    from ...cli.arguments import EXPECTED, words
+    from ...errors import EXPECTED, words
 
     if not isinstance(error, EXPECTED):
         traceback.print_exception(error)

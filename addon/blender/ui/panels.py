@@ -116,12 +116,12 @@ class _Result(Part):
 
 def _counts(pixels: dict[str, Any]) -> list[tuple[str, str]]:
     """Return how many pixels agree and differ: by cause, and in and around surfaces."""
-    from ...compare.cause import Cause
+    from ...compare.causes import CAUSES
 
     counts = {"Agree": pixels["agree"], "Differ": pixels["differ"]}
-    for name, count in pixels["by_cause"].items():
-        if count:
-            counts[f"  {Cause[name.upper()].label.capitalize()}"] = count
+    for cause in sorted(CAUSES):
+        if count := pixels["by_cause"].get(cause.key):
+            counts[f"  {cause.label.capitalize()}"] = count
     for part in ("interior", "boundary"):
         counts[f"Differ, {part.capitalize()}"] = pixels[part]["differ"]
     return [(label, f"{count:,} px") for label, count in counts.items()]

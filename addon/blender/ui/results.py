@@ -19,9 +19,7 @@ import bpy
 from ...methods import Method
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
+    from ...arrays import Colors
     from ...compare.comparison import Comparison
     from ...study.extremes import BreakingPoint, ExtremesRow
     from ...study.trade import Trade
@@ -139,7 +137,7 @@ def forget() -> None:
     _latest.clear()
 
 
-def show(name: str, color: NDArray[np.float32]) -> Any:
+def show(name: str, color: Colors) -> Any:
     """Put linear RGBA (h, w, 4) into our image of this name; make it if there is none."""
     import numpy as np
 

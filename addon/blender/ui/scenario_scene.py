@@ -11,8 +11,8 @@ from typing import Any
 import bpy
 import numpy as np
 from mathutils import Matrix
-from numpy.typing import NDArray
 
+from ...arrays import Floats
 from ...scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
 from ...study.extremes import written
 from ...study.scenarios.sweeps import BY_NAME, Scenario
@@ -74,7 +74,7 @@ def _number(text: str, scenario: Scenario) -> float:
     return value
 
 
-def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, NDArray[np.float64]]:
+def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, Floats]:
     """Return an instance's mesh and matrix as float32 holds them.
 
     Where it cannot hold the matrix, the mesh is stored where it appears.
@@ -100,7 +100,7 @@ def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, NDAr
     return Mesh(vertices, mesh.triangles[keep], name=mesh.name), small
 
 
-def _placed(points: NDArray[np.floating], matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+def _placed(points: Floats, matrix: Floats) -> Floats:
     """Return points (n, 3) in world space."""
     with np.errstate(over="ignore", invalid="ignore"):
         placed = transform_points(matrix, points.astype(np.float64).T).T
@@ -117,7 +117,7 @@ def _set_up(scene: Any, wanted: Scene) -> None:
     scene.world.color = wanted.background[:3]
 
 
-def _add_object(scene: Any, mesh: Mesh, matrix: NDArray[np.float64], instance: Instance) -> None:
+def _add_object(scene: Any, mesh: Mesh, matrix: Floats, instance: Instance) -> None:
     data: Any = bpy.data.meshes.new(mesh.name)
     data.from_pydata(mesh.vertices.tolist(), [], mesh.triangles.tolist())
     material: Any = bpy.data.materials.new(mesh.name)
@@ -136,9 +136,7 @@ def _add_object(scene: Any, mesh: Mesh, matrix: NDArray[np.float64], instance: I
     obj.matrix_parent_inverse = Matrix(matrix.tolist())
 
 
-def _changes(
-    wanted: Scene, stored: list[tuple[Mesh, NDArray[np.float64]]], scene: Any
-) -> list[str]:
+def _changes(wanted: Scene, stored: list[tuple[Mesh, Floats]], scene: Any) -> list[str]:
     """Return what changed when a scene was stored in float32, one fact in each line."""
     lines = []
     for (mesh, matrix), instance in zip(stored, wanted.instances, strict=True):
