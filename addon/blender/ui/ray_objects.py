@@ -1,7 +1,7 @@
-"""A derivation as objects in the 3D view, in a collection of their own that one click removes.
+"""Draws a derivation as objects in the 3D view, in a collection that one click removes.
 
-They are marked, and no picture has them: a comparison's temporary scene leaves their collection
-out, and they are hidden from renders.
+The objects are marked, and no picture shows them: a comparison's temporary scene leaves their
+collection out, and they are hidden from renders.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from ...explain.derivation import Derivation
 from ...explain.figure import Shape, shapes
-from .temporary import DRAWN
+from ..temporary import DRAWN
 
 NAME = "Reference Tracer Ray"
 
@@ -34,7 +34,7 @@ def draw(scene: Any, derivation: Derivation) -> Any:
 
 
 def are_drawn() -> bool:
-    """Return whether there is one, or some of it."""
+    """Return whether a derivation is drawn, or some of it is left."""
     return any(_own(bpy.data.collections)) or any(_own(bpy.data.objects))
 
 
@@ -43,7 +43,8 @@ def remove() -> int:
 
     What the user has put into the collection goes up to where the collection was.
     """
-    collections, own = _own(bpy.data.collections), _own(bpy.data.objects)
+    collections = _own(bpy.data.collections)
+    own = _own(bpy.data.objects)
     for collection in collections:
         parent = _parent(collection)
         for obj in collection.objects:
@@ -64,7 +65,7 @@ def _own(blocks: Any) -> list[Any]:
 
 
 def _parent(collection: Any) -> Any:
-    """Return a collection that this one is in; that of the first scene, if there is none."""
+    """Return a collection that this one is in; if there is none, that of the first scene."""
     tops = [s.collection for s in bpy.data.scenes]
     everywhere = [*tops, *bpy.data.collections]
     return next((c for c in everywhere if collection in c.children.values()), tops[0])
@@ -78,13 +79,15 @@ def _material(color: tuple[float, ...]) -> Any:
 
 
 def _object(shape: Shape, material: Any) -> Any:
-    """Return an object whose origin is at a vertex: far away, float32 then still has digits."""
+    """Return an object with its origin at a vertex: so float32 still has digits far away."""
     origin = np.float32(shape.vertices[0]).astype(np.float64)
     mesh = bpy.data.meshes.new(shape.name)
     mesh.from_pydata((shape.vertices - origin).tolist(), shape.edges, shape.faces)
     mesh.materials.append(material)
-    obj = bpy.data.objects.new(shape.name, mesh)
+    obj: Any = bpy.data.objects.new(shape.name, mesh)
     obj[DRAWN] = True
-    obj.location, obj.color = origin, shape.color
-    obj.show_in_front, obj.hide_render = shape.in_front, True
+    obj.location = origin
+    obj.color = shape.color
+    obj.show_in_front = shape.in_front
+    obj.hide_render = True
     return obj

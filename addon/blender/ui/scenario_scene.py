@@ -1,7 +1,7 @@
-"""A scenario of the extremes -> a scene in Blender, as closely as float32 allows.
+"""Builds a scenario of the extremes as a scene in Blender, as closely as float32 allows.
 
-The study's scenes are float64, and some have numbers that Blender cannot store. What storing it
-changed is said, and kept as a custom property of the new scene.
+The study's scenes are float64, and some have numbers that Blender cannot store. What changed when
+it was stored is said, and a custom property of the new scene keeps it.
 """
 
 from __future__ import annotations
@@ -11,16 +11,16 @@ from typing import Any
 import bpy
 import numpy as np
 from mathutils import Matrix
-from numpy.typing import NDArray
 
+from ...arrays import Floats
 from ...scene import Camera, Instance, Mesh, Scene, SceneError, drop_non_finite
 from ...study.extremes import written
 from ...study.scenarios.sweeps import BY_NAME, Scenario
 from ...tracer.vector import transform_points
+from ..drawing.camera_object import LEAST_CLIP, add_camera
 from ..engine import ENGINE
 from ..reading.camera import window_of
-from ..ui.results import areas
-from .camera_object import LEAST_CLIP, add_camera
+from .results import areas
 
 CHANGED = "reference_tracer_float32"  # the custom property: lines of text
 
@@ -74,12 +74,13 @@ def _number(text: str, scenario: Scenario) -> float:
     return value
 
 
-def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, NDArray[np.float64]]:
+def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, Floats]:
     """Return an instance's mesh and matrix as float32 holds them.
 
     Where it cannot hold the matrix, the mesh is stored where it appears.
     """
-    mesh, matrix = wanted.meshes[instance.mesh], instance.world_from_object
+    mesh = wanted.meshes[instance.mesh]
+    matrix = instance.world_from_object
     with np.errstate(over="ignore", under="ignore"):
         small = matrix.astype(np.float32).astype(np.float64)
         vertices = mesh.vertices.astype(np.float32)
@@ -99,10 +100,11 @@ def _storable(wanted: Scene, instance: Instance, title: str) -> tuple[Mesh, NDAr
     return Mesh(vertices, mesh.triangles[keep], name=mesh.name), small
 
 
-def _placed(points: NDArray, matrix: NDArray) -> NDArray[np.float64]:
+def _placed(points: Floats, matrix: Floats) -> Floats:
     """Return points (n, 3) in world space."""
     with np.errstate(over="ignore", invalid="ignore"):
-        return transform_points(matrix, points.astype(np.float64).T).T
+        placed = transform_points(matrix, points.astype(np.float64).T).T
+    return np.asarray(placed, np.float64)
 
 
 def _set_up(scene: Any, wanted: Scene) -> None:
@@ -115,16 +117,18 @@ def _set_up(scene: Any, wanted: Scene) -> None:
     scene.world.color = wanted.background[:3]
 
 
-def _add_object(scene: Any, mesh: Mesh, matrix: NDArray, instance: Instance) -> None:
-    data = bpy.data.meshes.new(mesh.name)
+def _add_object(scene: Any, mesh: Mesh, matrix: Floats, instance: Instance) -> None:
+    data: Any = bpy.data.meshes.new(mesh.name)
     data.from_pydata(mesh.vertices.tolist(), [], mesh.triangles.tolist())
-    data.materials.append(material := bpy.data.materials.new(mesh.name))
+    material: Any = bpy.data.materials.new(mesh.name)
+    data.materials.append(material)
     material.diffuse_color = instance.colors[0]
-    obj = bpy.data.objects.new(mesh.name, data)
+    obj: Any = bpy.data.objects.new(mesh.name, data)
     scene.collection.objects.link(obj)
     diagonal = np.diag(np.diagonal(matrix[:3, :3]))
     if (matrix[:3, :3] == diagonal).all():
-        obj.location, obj.scale = matrix[:3, 3], np.diagonal(matrix)[:3]
+        obj.location = matrix[:3, 3]
+        obj.scale = np.diagonal(matrix)[:3]
         return
     # Location, rotation and scale have no shear: the matrix to a parent has.
     obj.parent = bpy.data.objects.new(f"{mesh.name} Matrix", None)
@@ -132,8 +136,8 @@ def _add_object(scene: Any, mesh: Mesh, matrix: NDArray, instance: Instance) -> 
     obj.matrix_parent_inverse = Matrix(matrix.tolist())
 
 
-def _changes(wanted: Scene, stored: list, scene: Any) -> list[str]:
-    """Return what storing a scene in float32 changed, a fact a line."""
+def _changes(wanted: Scene, stored: list[tuple[Mesh, Floats]], scene: Any) -> list[str]:
+    """Return what changed when a scene was stored in float32, one fact in each line."""
     lines = []
     for (mesh, matrix), instance in zip(stored, wanted.instances, strict=True):
         whole = wanted.meshes[instance.mesh]
@@ -151,10 +155,12 @@ def _changes(wanted: Scene, stored: list, scene: Any) -> list[str]:
 
 
 def _camera_changes(camera: Camera, scene: Any) -> list[str]:
-    data, lines = scene.camera.data, []
+    data = scene.camera.data
+    lines = []
     if moved := np.abs(np.array(scene.camera.location, np.float64) - camera.origin).max():
         lines.append(f"camera moved by up to {moved:.1e} m, at {np.abs(camera.origin).max():.1e} m")
-    w, now = camera.window, window_of(scene)
+    w = camera.window
+    now = window_of(scene)
     for what, should, is_now, unit in (
         ("view window's width", w.right - w.left, now.right - now.left, ""),
         ("view window's height", w.top - w.bottom, now.top - now.bottom, ""),

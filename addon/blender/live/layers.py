@@ -1,7 +1,7 @@
-"""Rows of a picture -> textures of the graphics card, drawn pixel on pixel; and words.
+"""Draws pictures in a 3D view, pixel on pixel, as textures of the graphics card; and words.
 
-What is drawn is scene linear: Blender brings it to the screen by the scene's view transform, as it
-does with its own. `gpu` is asked for only where something is drawn: a server has no display.
+Colours are scene linear: Blender brings them to the screen by the scene's view transform, as it
+does with its own. `gpu` is imported only where something is drawn: a server has no display.
 """
 
 from __future__ import annotations
@@ -14,12 +14,12 @@ import numpy as np
 
 from .shows import Picture
 
-Place = tuple[float, float, float, float]  # left, bottom; a pixel's width, height: of the region's
+Place = tuple[float, float, float, float]  # left, bottom, a pixel's width and height, of the region
 BAND = 1 << 17  # pixels of a texture: it is made in some 2 ms
 _LETTER = 0.55  # mean width of Blender's font, in its size
 _SIZE = 14  # of words, points
 
-# A texture's own pixels, never a mean of two: so Blender's image shader would have it.
+# A texture's own pixels, never a mean of two, as Blender's image shader would draw.
 _PLACED = """
 void main() { place = at; gl_Position = ModelViewProjectionMatrix * vec4(pos, 0.0, 1.0); }
 """
@@ -48,19 +48,19 @@ def pixel_shader() -> Any:
 
 
 class Layers:
-    """Pictures on the graphics card, one over the other; what lies below a whole one goes."""
+    """Pictures on the graphics card, one over the other; a whole one replaces those below it."""
 
     def __init__(self) -> None:
         self._textures: list[Textures] = []
         self._shader: Any = None
 
     def add(self, picture: Picture, place: Place) -> None:
-        """Have a picture drawn over the others, if it is not."""
+        """Have a picture drawn over the others, unless it is one of them."""
         if not any(t.color is picture.color for t in self._textures):
             self._textures.append(Textures(picture, place))
 
     def draw(self, width: int, height: int, until: float) -> bool:
-        """Draw what is done over a region, in pixels; True if something could not be by a time."""
+        """Draw what is done over a region, in pixels; return whether the time was too short."""
         self._shader = self._shader or pixel_shader()
         left = [textures.upload(until) for textures in self._textures]
         whole = [n for n, textures in enumerate(self._textures) if not textures.missing]
@@ -71,18 +71,19 @@ class Layers:
 
 
 class Textures:
-    """What of a picture is on the graphics card: bands of rows, from the lowest."""
+    """The rows of a picture that are on the graphics card, in bands from the lowest up."""
 
     def __init__(self, picture: Picture, place: Place) -> None:
         height, width = picture.color.shape[:2]
         step = max(1, BAND // width)
         self.color = picture.color
-        self._rows_done, self._place = picture.rows_done, place
+        self._rows_done = picture.rows_done
+        self._place = place
         self.missing = [slice(y, min(y + step, height)) for y in range(0, height, step)]
         self._bands: list[tuple[int, Any]] = []  # the first row of each
 
     def upload(self, until: float) -> bool:
-        """Make textures of rows that are done, one at least; True if some are left.
+        """Make textures of rows that are done, one at least; return whether some are left.
 
         `until` is when to stop, as `time.perf_counter()` has it.
         """
@@ -105,8 +106,9 @@ class Textures:
 
         left, bottom, across, up = np.multiply(self._place, (width, height) * 2)
         for row, texture in self._bands:
-            w, h = texture.width, texture.height
-            corners = (0, 0), (w, 0), (0, h), (w, h)
+            w = texture.width
+            h = texture.height
+            corners = [(0, 0), (w, 0), (0, h), (w, h)]
             pos = [(left + i * across, bottom + (row + j) * up) for i, j in corners]
             batch = batch_for_shader(shader, "TRI_STRIP", {"pos": pos, "at": corners})
             shader.uniform_sampler("image", texture)
