@@ -54,8 +54,8 @@ from reference_tracer.explain.derivation import derive
 assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
 """
 SEES_METHOD_IN_BLENDER = """
-from reference_tracer.blender.ui.properties import METHOD_ITEMS
-assert ("never", "Never", "Misses", 77) in METHOD_ITEMS
+from reference_tracer.blender.ui.choices import METHODS
+assert ("never", "Never", "Misses", 77) in METHODS
 """
 PASS = {
     "tracer/frame.py": (
@@ -64,9 +64,9 @@ PASS = {
         '    Pass("rows_done"),\n',
         '    Pass("twice", "Twice"),\n',
     ),
-    "blender/ui/properties.toml": (
-        "]\n\n# identifier, name, description\nsources",
-        '  ["Twice", "Twice", "Two times t", 0x400],\n',
+    "blender/ui/choices.py": (
+        ")\n\n# Which export of the scene",
+        '    ("Twice", "Twice", "Two times t", 0x400),\n',
     ),
 }
 SEES_PASS = """
@@ -74,8 +74,8 @@ frame = render(scene, Settings("textbook"))
 assert np.array_equal(frame.passes()["twice"], 2 * frame.t)
 """
 SEES_PASS_IN_BLENDER = """
-from reference_tracer.blender.ui.properties import PASS_ITEMS
-assert PASS_ITEMS[-1][:2] == ("Twice", "Twice")
+from reference_tracer.blender.ui.choices import PASSES
+assert PASSES[-1][:2] == ("Twice", "Twice")
 """
 CAMERA = {
     "projections/mirrored.py": (

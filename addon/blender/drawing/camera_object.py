@@ -1,4 +1,4 @@
-"""`scene.Camera` -> a camera in Blender: the way back of `camera.py`, as far as float32 goes."""
+"""Makes a camera in Blender from a `scene.Camera`, as closely as float32 allows."""
 
 from __future__ import annotations
 
@@ -18,20 +18,24 @@ _LEAST_LENS = 1.0  # millimetres: Blender's least focal length
 def add_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera to a Blender scene, make it the active one, and set the picture's size.
 
-    Blender itself sets what it cannot have to the nearest that it can, such as a pixel's shape of
-    more than 200 to 1 or a clip start below `LEAST_CLIP`: `window_of` says what is shown.
+    Blender takes the nearest value that it can have, as for pixels of more than 200 to 1 or a clip
+    start below `LEAST_CLIP`: `window_of` says what is shown.
     """
-    render, (across, up) = scene.render, pixel_size(camera)
-    render.resolution_x, render.resolution_y = camera.width, camera.height
-    render.resolution_percentage = 100
+    render = scene.render
+    across, up = pixel_size(camera)
     tall = up / across
-    render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1 / tall), max(1.0, tall)
+    render.resolution_x = camera.width
+    render.resolution_y = camera.height
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = max(1.0, 1 / tall)
+    render.pixel_aspect_y = max(1.0, tall)
     return place_camera(scene, camera)
 
 
 def place_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera for the picture that a Blender scene has, and make it the active one."""
-    w, data = camera.window, bpy.data.cameras.new(camera.name)
+    w = camera.window
+    data: Any = bpy.data.cameras.new(camera.name)
     extent = w.right - w.left
     data.sensor_fit = "HORIZONTAL"
     data.type = camera.projection.blender
@@ -40,8 +44,10 @@ def place_camera(scene: Any, camera: Camera) -> Any:
     else:
         data.lens = max(_SENSOR / extent, _LEAST_LENS)
         data.sensor_width = max(_SENSOR, _LEAST_LENS * extent)
-    data.shift_x, data.shift_y = (w.left + w.right) / 2 / extent, (w.bottom + w.top) / 2 / extent
-    data.clip_start, data.clip_end = camera.clip_start, camera.clip_end
+    data.shift_x = (w.left + w.right) / 2 / extent
+    data.shift_y = (w.bottom + w.top) / 2 / extent
+    data.clip_start = camera.clip_start
+    data.clip_end = camera.clip_end
     obj = bpy.data.objects.new(camera.name, data)
     scene.collection.objects.link(obj)
     obj.matrix_world = Matrix(camera.world_from_camera.tolist())

@@ -1,6 +1,6 @@
-"""The panels that look closer: at a pixel's maths, at what tracing costs, at where methods break.
+"""The panels of the pixel inspector, the trade and the extremes.
 
-The pixel inspector's is in the sidebar of images, too.
+The pixel inspector is in the sidebar of images, too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import MEASURED, PLAIN, Method
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .panels import NARROW, both, draw_table, short_name, wrapped
+from .layout import NARROW, Part, both, draw_table, short_name, wrapped
 from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
@@ -21,18 +21,18 @@ _DIGITS = 18  # of an exact number: what a sidebar has room for, with its expone
 _COLUMNS = 3  # of buttons
 
 
-class _Inspector:
+class _Inspector(Part):
     bl_label = "Pixel Inspector"
 
     def draw(self, context: Any) -> None:
         """Draw the buttons, and the latest pixel's key numbers."""
         layout = self.layout
-        on = REFERENCE_TRACER_OT_inspect.running
+        is_on = REFERENCE_TRACER_OT_inspect.running
         layout.operator(
             REFERENCE_TRACER_OT_inspect.bl_idname,
             icon="EYEDROPPER",
-            text="Click a Pixel (Esc: End)" if on else None,
-            depress=on,
+            text="Click a Pixel (Esc: End)" if is_on else None,
+            depress=is_on,
         )
         layout.prop(context.window_manager.reference_tracer, "draw_ray")
         row = layout.row(align=True)
@@ -95,7 +95,7 @@ def _numbers(layout: Any, test: Any) -> None:
 
 
 def _number(layout: Any, name: str, value: str, off: str) -> None:
-    """Draw a number with its error; an exact one may be longer than there is room."""
+    """Draw a number with its error; an exact number may be too long for the panel."""
     split = layout.split(factor=0.17 if value else 0.83)  # without a value: a head
     split.label(text=name)
     if value and off:
@@ -107,15 +107,17 @@ def _number(layout: Any, name: str, value: str, off: str) -> None:
 
 
 class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
-    bl_space_type, bl_region_type, bl_category = "IMAGE_EDITOR", "UI", "Reference Tracer"
+    bl_space_type = "IMAGE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Reference Tracer"
 
 
-class _Trade:
+class _Trade(Part):
     bl_label = "Trade"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        """Draw the button, and what was measured: the methods, then what no other row beats."""
+        """Draw the button and what was measured: the methods, then the rows that no other beats."""
         layout = self.layout
         layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
         found = results.latest(Kind.TRADE, context.scene)
@@ -124,7 +126,8 @@ class _Trade:
         trade = found.content
         wrapped(layout, context, found.lines[0], "INFO")
         layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
-        box, rows = layout.box(), trade.whole
+        box = layout.box()
+        rows = trade.whole
         box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
         _measured(box, rows, ("seconds", "wrong_pixels", "peak_bytes"))
         box = layout.box()
@@ -147,46 +150,53 @@ def _measured(layout: Any, rows: list[Any], names: tuple[str, ...]) -> None:
     draw_table(layout, table, NARROW)
 
 
-class _Extremes:
+class _Extremes(Part):
     bl_label = "Extremes"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
         """Draw the button, the breaking points, and the way to each scene."""
-        from ...study.extremes import written
-        from ...study.scenarios.sweeps import BY_NAME
-        from ..drawing.scenario_scene import CHANGED
+        from .scenario_scene import CHANGED
 
-        layout, shown = self.layout, context.window_manager.reference_tracer
+        layout = self.layout
+        shown = context.window_manager.reference_tracer
         layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        found = results.latest(Kind.BREAKING_POINTS, context.scene)
-        if found:
+        if found := results.latest(Kind.BREAKING_POINTS, context.scene):
             wrapped(layout, context, found.lines[0], "INFO")
             layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
-        if found and found.content:
-            wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
-            layout.row().prop(shown, "precision", expand=True)
-            _breaking_points(layout.box(), found.content, shown.precision)
-        box = layout.box()
-        box.prop(shown, "scenario", text="")
-        scenario = BY_NAME[shown.scenario]
-        wrapped(box, context, scenario.explanation)
-        box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
-        operator = studies.REFERENCE_TRACER_OT_extreme_scene
-        grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
-        for scale in scenario.scales:
-            button = grid.operator(operator.bl_idname, text=written(scale))
-            button.scenario, button.scale = scenario.name, repr(float(scale))
+            if found.content:
+                wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
+                layout.row().prop(shown, "precision", expand=True)
+                _breaking_points(layout.box(), found.content, shown.precision)
+        _scene_buttons(layout.box(), context, shown)
         if changed := context.scene.get(CHANGED):
             wrapped(layout, context, "This scene is one of the study's, stored in float32:", "INFO")
             for line in changed.split("\n"):
                 wrapped(layout, context, line)
 
 
-def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
-    """Draw a table: below each scenario's title a value for each method in a precision.
+def _scene_buttons(box: Any, context: Any, shown: Any) -> None:
+    """Draw the choice of a scenario, and a button for the scene at each of its scales."""
+    from ...study.extremes import written
+    from ...study.scenarios.sweeps import BY_NAME
 
-    What is certified is so in float64; it has a column where it breaks, which it should not.
+    box.prop(shown, "scenario", text="")
+    scenario = BY_NAME[shown.scenario]
+    wrapped(box, context, scenario.explanation)
+    box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
+    grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
+    for scale in scenario.scales:
+        button = grid.operator(
+            studies.REFERENCE_TRACER_OT_extreme_scene.bl_idname, text=written(scale)
+        )
+        button.scenario = scenario.name
+        button.scale = repr(float(scale))
+
+
+def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
+    """Draw a table: below each scenario's title, where each method breaks in a precision.
+
+    The certified method, which is float64, has a column only if it breaks, which it should not.
     """
     from ...study.scenarios.sweeps import BY_NAME
 
