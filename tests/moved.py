@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from functools import lru_cache
 from itertools import combinations, product
 
-from reference_tracer.study.moved_rays import (
+from reference_tracer.tracer.hits import NOWHERE, Name
+
+from .moved_rays import (
     Surface,
     Vector,
     cross,
@@ -16,8 +18,7 @@ from reference_tracer.study.moved_rays import (
     nearest_of_moved,
     sub,
 )
-from reference_tracer.study.oracle import Sight
-from reference_tracer.tracer.hits import NOWHERE, Name
+from .oracle import Sight
 
 
 def touched(sight: Sight) -> frozenset[Name]:

@@ -28,6 +28,7 @@ import numpy as np
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
+from ..tracer.vector import Index
 from ..tracer.world import WorldTriangles, batches, world_triangles
 from .exact import IntegerBatch
 from .ties import seen_and_ties
@@ -39,12 +40,16 @@ class Seen(NamedTuple):
     name: Name  # instance and triangle; NOWHERE for nothing
     t: float  # metres along the view axis; inf for nothing
     ties: frozenset[Name]  # of an ambiguous ray, all that it may be said to see; else empty
+    crossings: int  # of the moved ray with surfaces, within the clip range
 
 
-def definition(scene: Scene) -> Iterator[Seen]:
-    """Yield what each ray of the camera's region sees, row by row from the lowest."""
+def definition(scene: Scene, pixels: Index | None = None) -> Iterator[Seen]:
+    """Yield what the rays of a camera's pixels see, row by row from the lowest.
+
+    `pixels` (n,) are the numbers of some of them; by default all.
+    """
     camera = scene.camera
-    rays = camera_rays(camera, *film_positions(camera.region))
+    rays = camera_rays(camera, *film_positions(camera.region, pixel=pixels))
     triangles, names = _surfaces(scene)
     planes = [(plane.point, plane.normal) for plane in scene.planes]
     clip = camera.clip_start, camera.clip_end
@@ -53,11 +58,11 @@ def definition(scene: Scene) -> Iterator[Seen]:
         exact = [surfaces.hit(ray, number) for number in range(len(names))]
         met = [(name, hit) for name, hit in zip(names, exact, strict=True) if hit]
         seen, ties = seen_and_ties(met)
+        name, t = NOWHERE, np.inf
         if seen >= 0:
             name, hit = met[seen]
-            yield Seen(name, surfaces.t(hit), ties)
-        else:
-            yield Seen(NOWHERE, np.inf, ties)
+            t = surfaces.t(hit)
+        yield Seen(name, t, ties, sum(hit.is_hit() for _, hit in met))
 
 
 def _surfaces(scene: Scene) -> tuple[WorldTriangles, list[Name]]:

@@ -33,7 +33,7 @@ _UNITS = {  # what the numbers of a row are, for the reader of the JSON
     "refused": "triangles and rays that are not finite in this precision",
     "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
     "exact": "share of the pairs of a ray and a triangle that integer arithmetic decided",
-    "judged": "rays that an independent oracle in integers decided, with every triangle",
+    "judged": "rays that were held against the definition, in integers, with every surface",
     "across": "the second scale, of a row of a map",
 }
 _SHORT = {m.value: m.record.short for m in MEASURED}

@@ -1,20 +1,20 @@
 """Finds what each method makes of each scenario, and the scale at which it breaks.
 
-The plain methods are held against the certified picture. The certified picture is held against what
-has no part in it: the oracle, on a sample of the rays with every triangle; and, where it is known
-whether a ray must cross the scene's surfaces an even or an odd number of times, all rays.
+The plain methods are held against the certified picture. The certified picture is held against its
+definition, in integers, on a sample of the rays with every surface; and, where it is known whether
+a ray must cross the scene's surfaces an even or an odd number of times, on all rays.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
 
 from ..arrays import Bools
+from ..certified.definition import definition
 from ..rendering import render
 from ..tracer.camera import Rays
 from ..tracer.frame import Frame
@@ -24,7 +24,6 @@ from ..tracer.progress import Work, result_of, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.triangle import TESTS
 from ..tracer.world import Pairs
-from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
 from .truth import CERTIFIED, Truth, crossings, keys, largest_t_error, pixel_rays, sample, truth_of
 
@@ -48,10 +47,10 @@ class ExtremesRow:
     refused: int  # triangles and rays that are not finite in this precision, and so are left out
     order: int = 0  # those of the wrong that see what is truly crossed, but is not the nearest
     # In ulp of the certified t (float64), over rays that see the same surface; None without one.
-    # For the certified row, against the oracle's exact t: at most 1/2.
+    # For the certified row, against the exact t, rounded once: 0.
     largest_t_error: float | None = None
     exact: float | None = None  # certified: share of the pairs that integers decided
-    judged: int = 0  # certified: rays about which the oracle was asked
+    judged: int = 0  # certified: rays that were held against the definition
     seen: int = 0  # rays whose certified ray sees a surface
     across: float | None = None  # the second scale of a map's row
 
@@ -132,7 +131,7 @@ def measure(
     rays : int, optional
         About as many of each scene, instead of its own number.
     judged : int
-        Rays of each scene about which the oracle is asked.
+        Rays of each scene that are held against the definition.
     every : Every, optional
         Where the rows are found, if not here.
 
@@ -226,15 +225,15 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
         missed |= count % 2 != scenario.odd
     errors = []
     pixels = sample(frame, judged)
-    for pixel, sight in zip(pixels.tolist(), scene_sights(frame.scene, pixels), strict=True):
+    for pixel, exact in zip(pixels.tolist(), definition(frame.scene, pixels), strict=True):
         given = int(frame.instance_index.flat[pixel]), int(frame.triangle_index.flat[pixel])
-        right = given == sight.seen
-        missed[pixel] = count[pixel] < sight.crossings or (not right and not sees[pixel])
+        right = given == exact.name
+        missed[pixel] = count[pixel] < exact.crossings or (not right and not sees[pixel])
         wrong[pixel] = not right and sees[pixel]
-        doubled[pixel] = count[pixel] > sight.crossings
-        if right and sight.t is not None:
+        doubled[pixel] = count[pixel] > exact.crossings
+        if right and exact.t < np.inf:
             t = float(frame.t.flat[pixel])
-            errors.append(float(abs(Fraction(t) - sight.t) / Fraction(float(np.spacing(t)))))
+            errors.append(abs(t - exact.t) / float(np.spacing(exact.t)))
     statistics = frame.statistics
     return replace(
         _row(scenario, scale, truth, frame, CERTIFIED),

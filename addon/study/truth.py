@@ -1,6 +1,6 @@
 """Finds a scene's certified picture, and every triangle that each certified ray crosses.
 
-The oracle, which has no part in either, is asked about a sample of the rays.
+A sample of the rays is held against the definition, in integers, with every surface.
 """
 
 from __future__ import annotations

@@ -13,12 +13,12 @@ from reference_tracer.certified import order, ties
 from reference_tracer.certified.sweep import sweep
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Scene
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.hits import Statistics, Ties
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 from ..moved import may, touched
+from ..oracle import scene_sights
 
 pytestmark = pytest.mark.filterwarnings("error")
 LEAST = 16 << 20  # the least memory that there is a setting for

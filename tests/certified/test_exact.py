@@ -10,10 +10,10 @@ import pytest
 from reference_tracer.certified.exact import Hit, IntegerBatch, sign_of_difference
 from reference_tracer.certified.integers import integers
 from reference_tracer.certified.ties import seen_and_ties
-from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
 
 from ..moved import may
+from ..oracle import sights
 from ..tracer.rational import functions, plane_functions, rational, rounded
 
 pytestmark = pytest.mark.filterwarnings("error")

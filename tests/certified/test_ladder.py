@@ -13,7 +13,6 @@ import pytest
 from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.certified.ladder import Ladder
-from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.hits import NOWHERE, Hits, Statistics
@@ -21,6 +20,7 @@ from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import WorldTriangles
 
 from ..moved import may, touched
+from ..oracle import EDGE, intersect_pairs, sights
 from ..rays import nearest_hits
 from ..tracer.rational import t_of
 

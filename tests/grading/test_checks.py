@@ -7,11 +7,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.triangle import TESTS
 from reference_tracer_grading.checks import SCALES, Group, make_checks
 from reference_tracer_grading.known import known
+
+from ..oracle import intersect_pairs
 
 HITS = {Group.FRONT, Group.BACK, Group.WHOLE, Group.SCALED}
 

@@ -12,7 +12,6 @@ from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.study.tradeoff import (
     MORE_REPEATS,
     REPEATS,
@@ -27,6 +26,8 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision, Settings
+
+from ..oracle import scene_sights
 
 pytestmark = pytest.mark.slow
 

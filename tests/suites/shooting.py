@@ -14,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.methods import Method
-from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.triangle import TESTS
+
+from ..oracle import intersect_pairs
 
 AT_ONCE = 1 << 20  # pairs looked at by the cull, some tens of MiB
 DECIDED = 1 << 17  # pairs decided together

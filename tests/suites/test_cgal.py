@@ -15,9 +15,9 @@ from itertools import permutations
 import numpy as np
 import pytest
 from reference_tracer.certified.any_rays import decide
-from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
 from reference_tracer.tracer.camera import Rays
 
+from ..oracle import EDGE, intersect_pairs, sights
 from ..rays import nearest_hits
 from .meshes import bumpy_sphere, corners_of
 

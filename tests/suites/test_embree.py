@@ -21,10 +21,10 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, drop_non_finite
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.settings import Settings
 
+from ..oracle import scene_sights
 from ..rays import nearest_hits
 from .meshes import EMBREE_CENTRE, corners_of, embree_sphere, grid
 from .shooting import crossings

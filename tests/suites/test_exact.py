@@ -11,9 +11,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from reference_tracer.certified.any_rays import decide
-from reference_tracer.study.oracle import EDGE, intersect_pairs
 from reference_tracer.tracer.camera import Rays
 
+from ..oracle import EDGE, intersect_pairs
 from ..rays import nearest_hits
 from .families import FAMILIES, at_any_size, generic, whole_numbers
 

@@ -12,10 +12,10 @@ import trimesh
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, ViewWindow
-from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.settings import Settings
 
+from ..oracle import intersect_pairs
 from ..rays import nearest_hits
 from .meshes import corners_of, stairs
 from .shooting import crossings

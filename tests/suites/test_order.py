@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays
 
 from ..moved import may, touched
+from ..oracle import sights
 from ..rays import nearest_hits
 from .families import FAMILIES, SIZES, at_any_size
 

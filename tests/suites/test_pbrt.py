@@ -18,10 +18,10 @@ import numpy as np
 import pytest
 from reference_tracer.certified.any_rays import decide
 from reference_tracer.methods import Method
-from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.vector import cross, dot
 
+from ..oracle import intersect_pairs
 from ..rays import nearest_hits
 from .meshes import bumpy_sphere, corners_of, on_sphere, snapped
 from .shooting import crossings, decided

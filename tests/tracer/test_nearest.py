@@ -10,7 +10,6 @@ from reference_tracer.certified.sweep import boxes, chunks, rasterise, resolve, 
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import candidates, plane, world
 from reference_tracer.tracer import nearest as visibility
 from reference_tracer.tracer import render as loop
@@ -23,6 +22,7 @@ from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import WorldTriangles
 
 from ..moved import touched
+from ..oracle import scene_sights
 from .pictures import names_of
 from .rational import t_of_pixels
 

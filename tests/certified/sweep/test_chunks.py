@@ -12,11 +12,11 @@ from reference_tracer.certified.sweep.chunks import Chunk, Expanded, chunks, exp
 from reference_tracer.certified.sweep.film import Film
 from reference_tracer.certified.sweep.small_triangles import SmallTriangles
 from reference_tracer.scene import Instance, Mesh, Scene
-from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.world import Batch, refused, world_triangles
 
+from ...oracle import OUTSIDE, intersect_pairs
 from ...tracer.exact_film import ExactFilm
 from ...tracer.hostile import hostile_camera, hostile_triangles
 from ...tracer.hostile_scenes import hostile_scene, offsets, scaled_camera

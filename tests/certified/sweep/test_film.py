@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from reference_tracer.certified.sweep.film import Film, Vertices
 from reference_tracer.scene import Camera
-from reference_tracer.study.oracle import OUTSIDE, intersect_pairs
 from reference_tracer.tracer.candidates import has_sound_axes
 
+from ...oracle import OUTSIDE, intersect_pairs
 from ...tracer.exact_film import ExactFilm
 from ...tracer.hostile import hostile_camera, hostile_triangles
 from ...tracer.hostile_scenes import offsets, scaled_camera

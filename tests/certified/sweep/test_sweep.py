@@ -21,13 +21,13 @@ from reference_tracer.certified.sweep import (
 from reference_tracer.certified.sweep.edge_functions import set_up
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, Region, Scene
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
 from ...moved import may, touched
+from ...oracle import scene_sights
 from ...tracer.hostile_scenes import brute_force, hostile_scene, offsets, scaled
 from ...tracer.rational import t_of_pixels
 

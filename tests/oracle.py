@@ -16,12 +16,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from reference_tracer.arrays import Bools, Index
+from reference_tracer.scene import Scene
+from reference_tracer.tracer.camera import camera_rays, film_positions
+from reference_tracer.tracer.hits import NOTHING, NOWHERE, Name
+from reference_tracer.tracer.vector import Vectors, transform_points
 
-from ..arrays import Bools, Index
-from ..scene import Scene
-from ..tracer.camera import camera_rays, film_positions
-from ..tracer.hits import NOTHING, NOWHERE, Name
-from ..tracer.vector import Vectors, transform_points
 from .moved_rays import (
     THE_RULE,
     Surface,

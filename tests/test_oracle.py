@@ -10,7 +10,14 @@ import pytest
 import trimesh
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
-from reference_tracer.study.oracle import (
+from reference_tracer.tracer.camera import camera_rays
+from reference_tracer.tracer.hits import NOTHING, NOWHERE
+from reference_tracer.tracer.nearest import film_positions
+from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.vector import transform_points
+
+from .moved import may, touched
+from .oracle import (
     EDGE,
     INSIDE,
     OUTSIDE,
@@ -19,13 +26,6 @@ from reference_tracer.study.oracle import (
     scene_sights,
     sights,
 )
-from reference_tracer.tracer.camera import camera_rays
-from reference_tracer.tracer.hits import NOTHING, NOWHERE
-from reference_tracer.tracer.nearest import film_positions
-from reference_tracer.tracer.settings import Settings
-from reference_tracer.tracer.vector import transform_points
-
-from ..moved import may, touched
 
 TINY = Fraction(1, 2**2000)  # beside integers of a few digits
 

@@ -25,8 +25,7 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from numpy.typing import NDArray
-
-from ..tracer.hits import NOWHERE, Name
+from reference_tracer.tracer.hits import NOWHERE, Name
 
 Vector = Sequence[Any] | NDArray[Any]  # three integers, or three arrays of them
 THE_RULE: tuple[Vector, ...] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))  # d + (x, x^2, x^3)
