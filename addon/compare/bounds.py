@@ -114,8 +114,8 @@ def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
     error `view` (n,) besides.
     """
     near, far = camera.clip_start, camera.clip_end
-    depth = np.asarray(depth, np.float64)
-    step = camera.projection.depth_step((far - near) * U32, depth, near, far)
+    z = np.asarray(depth, np.float64)
+    step = camera.projection.depth_step((far - near) * U32, z, near, far)
     return _DEPTH_STEPS * step + 2 * view
 
 
