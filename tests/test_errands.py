@@ -109,6 +109,36 @@ from reference_tracer.explain.writers import to_dict
 assert to_dict(derivation)["camera"]["orthographic"] == "mirrored"
 known_points(new.camera)
 """
+COLUMN = {
+    "study/trade.py": (
+        "    best_pixels: bool = False",
+        "    hits: int = 0\n",
+        ")\nTIMED",
+        '    Column("hits", "hits", False, lambda r: f"{r.hits} hit", unit="pixels"),\n',
+    ),
+    "study/tradeoff.py": (
+        "    rounds: list[float] = field",
+        "    hits: int = 0\n",
+        "            rounds=tuple(self.rounds),",
+        "            hits=self.hits,\n",
+        "        choice.coverage_error =",
+        "        choice.hits = int((frame.triangle_index >= 0).sum())\n",
+    ),
+}
+SEES_COLUMN = """
+from reference_tracer.report import trade
+from reference_tracer.study.tradeoff import measure
+from reference_tracer.tracer.progress import result_of
+found = result_of(measure(scene, 8, 1))
+assert found.whole[-1].hits > 9
+said = f"{found.whole[-1].hits} hit"
+held = trade.to_dict(found)
+assert held["units"]["hits"] == "pixels" and held["rows"][0]["hits"] == found.rows[0].hits
+page = trade.page_table(found)
+assert "hits" in page["head"] and any(said in row for row in page["rows"])
+assert " hits\\n" in trade.table(found) + "\\n" and said in trade.table(found)
+assert f"hits {said}" in trade.pictures(found)["tradeoff"]
+"""
 CAUSE = {
     "compare/checks/comet.py": (
         "",
@@ -270,6 +300,12 @@ def test_a_camera_type_is_a_file_and_a_record(tmp_path):
     files = {f.replace("mirrored.py", "") for f in CAMERA}
     assert files == named("a camera's type") and len(CAMERA) == 2
     seen(tmp_path, CAMERA, SEES_CAMERA)
+
+
+def test_a_trades_column_is_its_field_and_its_record(tmp_path):
+    """The tables, the JSON, the page, the plot and the check of a cluster's rows have it, too."""
+    assert COLUMN.keys() == named("a trade's column")
+    seen(tmp_path, COLUMN, SEES_COLUMN)
 
 
 def test_a_pass_is_its_property_and_its_record(tmp_path):

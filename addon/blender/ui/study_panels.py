@@ -61,7 +61,7 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
     box.label(text=tested)
     for number, test in enumerate(derivation.tests, 1):
-        judged = test.verdicts[Arithmetic.EXACT]
+        judged = test.judgements[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:
@@ -129,23 +129,25 @@ class _Trade(Part):
         box = layout.box()
         rows = trade.whole
         box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
-        draw_table(box, [("", "s", "Wrong", "MiB"), *(_method(r) for r in rows)], NARROW)
+        _measured(box, rows, ("seconds", "wrong_pixels", "peak_bytes"))
         box = layout.box()
         box.label(text=f"Nearest to {trade.converged} × {trade.converged} rays a pixel")
         best = sorted((r for r in trade.rows if r.best_coverage), key=lambda r: r.seconds)
-        draw_table(box, [("", "Size", "s", "RMS"), *(_coverage(r) for r in best)], NARROW)
+        _measured(box, best, ("seconds", "coverage_error"))
         wrapped(layout, context, "* no other is faster with as few wrong pixels")
 
 
-def _method(row: Any) -> tuple[str, ...]:
-    star = " *" if row.best_pixels else ""
-    memory = f"{row.peak_bytes / 2**20:.1f}"
-    return short_name(row), f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
+def _measured(layout: Any, rows: list[Any], names: tuple[str, ...]) -> None:
+    """Draw some columns of a trade's rows; with the size, where the rows are not of one size."""
+    from ...study.trade import COLUMNS
 
-
-def _coverage(row: Any) -> tuple[str, ...]:
-    size = f"{row.width}, {row.samples}²"
-    return short_name(row), size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"
+    columns = [c for c in COLUMNS if c.name in names]
+    sizes = len({r.size for r in rows}) > 1
+    table = [["", *["Size"] * sizes, *(c.short for c in columns)]]
+    for r in rows:
+        size = [f"{r.width}, {r.samples}²"] * sizes
+        table.append([short_name(r), *size, *(c.shown(r) for c in columns)])
+    draw_table(layout, table, NARROW)
 
 
 class _Extremes(Part):
