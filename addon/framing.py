@@ -77,7 +77,7 @@ def framing(
     eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
     middle = (right - left) / 2
     at, clip = center + axes @ (*middle, -eye), ((near - eye) / 2, (far - eye) * 2)
-    return _camera("framing", axes, at, width, height, half, aspect, False, clip)
+    return _camera("framing", axes, at, width, height, half, aspect, PERSPECTIVE, clip)
 
 
 def shown_points(
@@ -124,8 +124,11 @@ class Choice:
             If eye and target are one point, or the picture has no pixel.
         """
         check_size(width, height)
-        is_parallel = self.ortho_scale is not None
-        half = self.ortho_scale / 2 if is_parallel else np.tan(np.radians(self.angle or ANGLE) / 2)
+        projection = PERSPECTIVE if self.ortho_scale is None else ORTHOGRAPHIC
+        if self.ortho_scale is None:
+            half = np.tan(np.radians(self.angle or ANGLE) / 2)
+        else:
+            half = self.ortho_scale / 2
         target = (0, 0, 0) if self.target is None else self.target
         backward = np.subtract(self.eye, target, dtype=np.float64)
         distance = float(np.linalg.norm(backward))
@@ -133,15 +136,14 @@ class Choice:
             raise SceneError("--eye and --target are the same point: move one of them.")
         aspect, clip = width / (tall * height), (distance * 1e-3, distance * 1e3)
         axes = axes_of(backward, UP)
-        return _camera("--eye", axes, self.eye, width, height, half, aspect, is_parallel, clip)
+        return _camera("--eye", axes, self.eye, width, height, half, aspect, projection, clip)
 
 
-def _camera(name, axes, at, width, height, half, aspect, is_parallel, clip) -> Camera:
+def _camera(name, axes, at, width, height, half, aspect, projection, clip) -> Camera:
     """Return a camera whose picture is 2 `half` high, at depth 1 or in metres."""
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes, at
     window = ViewWindow(-half * aspect, half * aspect, -half, half)
-    projection = ORTHOGRAPHIC if is_parallel else PERSPECTIVE
     return Camera(matrix, window, width, height, projection, *clip, name=name)
 
 

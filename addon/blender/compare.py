@@ -84,7 +84,8 @@ def gather_case(
         used["shading_of"] = "3D view" if view_shading else "scene"
         used["anti_aliasing"] = smooth = anti_aliasing(tmp, engine, like_for_like)
         exported, manifest, certificate = export_for_judge(tmp, layer, engine)
-        certificate.check()
+        if certificate:
+            certificate.check()
         there = [o.name_full for o in scene.objects]
         if like_for_like and used["color_type"] == "RANDOM":
             engine.check_random(exported, manifest.owners)

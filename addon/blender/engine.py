@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..tracer.frame import Frame, Pass
     from .drawing.judges import Judge
 
-    Certified = tuple[Scene, Manifest, CameraCertificate]
+    Certified = tuple[Scene, Manifest, CameraCertificate | None]
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..certainty import check_assumptions
-from ..scene import ViewWindow
+from ..scene import SceneError, ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import NOTHING, Hits, Name
@@ -53,8 +53,8 @@ def rounding(scene: Scene) -> Rounding:
     """Return the bounds of a scene's picture."""
     camera, w = scene.camera, scene.camera.window
     x, y = abs(w.left) + abs(w.right), abs(w.bottom) + abs(w.top)
-    last = camera.origin if camera.projection.is_parallel else camera.forward
-    ray = _RAY * np.abs([x * camera.right, y * camera.up, last]).sum(axis=0) + _SLACK
+    frame = np.stack((camera.right, camera.up, camera.forward, camera.origin))
+    ray = _RAY * camera.projection.terms(x, y, frame) + _SLACK
     aside = (np.abs(dual_axes(camera)) * ray).sum(axis=1).max()
     pixels = aside * camera.projection.slant(max(x, y)) / min(pixel_size(camera))
     corner = (_CORNER * reaches(scene) + _SLACK).sum(axis=0).max(initial=0.0)
@@ -64,9 +64,15 @@ def rounding(scene: Scene) -> Rounding:
 def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     """Return in how many pixels another surface would be seen had nothing been rounded, in words.
 
-    A SceneError says that rounding may move what is seen first behind the eye.
+    A SceneError says that rounding may move what is seen first behind the eye, or that the camera's
+    rays are no fractions.
     """
     check_assumptions()
+    if not scene.camera.projection.is_linear:
+        raise SceneError(
+            f"The unrounded rays of an {scene.camera.projection.name} camera are sines and "
+            "cosines, which no fractions are: --check-rounding is for other cameras."
+        )
     off, camera, asked, others, cracks = rounding(scene), scene.camera, 0, [], {}
     # By how much depths may be other ones; and rays beside themselves, as a moved corner moves no
     # point of its triangle farther than itself, and nothing that is seen by more than at the least

@@ -91,16 +91,20 @@ def view_error(scene: Scene, hits: Hits, positions: NDArray[np.float64]) -> NDAr
 
 
 def pixel_error(
-    camera: Camera, depth: NDArray[np.float64], view: NDArray[np.float64]
+    camera: Camera,
+    depth: NDArray[np.float64],
+    view: NDArray[np.float64],
+    y: NDArray[np.float64] | float = 0.0,
 ) -> NDArray[np.float64]:
     """Return how far Blender's sample may lie from the pixel's centre, (n,) pixels.
 
-    Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film.
+    Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film, at
+    its height `y` (n,) there, in window units.
     """
     width, height = pixel_size(camera)
     steepest, projection = max(map(abs, vars(camera.window).values())), camera.projection
     moved = view * projection.slant(steepest)
-    moved = moved / projection.scale(np.maximum(depth, camera.clip_start))
+    moved = moved / projection.scale(np.maximum(depth, camera.clip_start), y)
     film = _FILM * U32 * max(camera.width, camera.height)
     return SNAPPING + film + moved / min(width, height)
 
@@ -170,13 +174,15 @@ def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDArr
     It is the largest of the surfaces seen in the 3 x 3 pixels around, and of those farther off that
     float32 may move as far as this. Some rows are looked at together.
     """
-    own = np.zeros(frame.shape)  # of the surface that the pixel itself shows
+    own, camera = np.zeros(frame.shape), scene.camera  # of what the pixel itself shows
     for number, rows in enumerate(all_rows):
         hits = frame.hits(rows)
         seen = np.flatnonzero(hits.instance != NOTHING)
         hits = hits.take(seen)
         view = view_error(scene, hits, frame.positions(rows)[seen])
-        own[rows].reshape(-1)[seen] = pixel_error(scene.camera, hits.t, view)
+        row = seen // frame.shape[1] + (camera.region.y0 + rows.start + 0.5)
+        y = camera.window.bottom + row * pixel_size(camera)[1]
+        own[rows].reshape(-1)[seen] = pixel_error(camera, hits.t, view, y)
         yield number / len(all_rows)
     return (yield from spread_error(own))
 

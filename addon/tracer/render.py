@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..certainty import AssumptionError, check_assumptions
 from ..certified.any_rays import trace_rays
+from ..certified.plain import plain
 from ..certified.rounding import rounding
 from ..methods import Method
 from ..scene import Camera, Region, Scene
@@ -36,7 +37,7 @@ except ModuleNotFoundError as missing:
     # same, later. Whatever else is missing is an error.
     if missing.name not in {f"{__package__}.certified.sweep{end}" for end in ("", ".sweep")}:
         raise
-    from ..certified.plain import plain as certified
+    certified = plain
 
 # Rows of a tile: enough to share work between rows, few enough that a cancelled picture has some.
 ROWS = 32
@@ -154,7 +155,8 @@ def here(scene: Scene, settings: Settings, reach: float, statistics: Statistics)
     """Prepare to trace bands in this process; yields 0, as nothing is traced yet."""
     if not settings.method.is_plain:
         statistics.refused, statistics.rounding = refused(scene), str(rounding(scene))
-        return lambda band, dx, dy: certified(scene, band, settings.memory // 2, dx, dy, statistics)
+        find = certified if scene.camera.projection.is_linear else plain
+        return lambda band, dx, dy: find(scene, band, settings.memory // 2, dx, dy, statistics)
     made = yield from plan(scene, settings, reach)
     statistics.refused = made.refused
     return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics)

@@ -9,10 +9,9 @@ from mathutils import Matrix
 
 from ...scene import Camera
 from ...tracer.camera import pixel_size
+from ..versions import set_camera_kind
 
 LEAST_CLIP = 1e-6  # metres: Blender's own limit
-_SENSOR = 36.0  # millimetres; what Blender's own cameras have
-_LEAST_LENS = 1.0  # millimetres: Blender's least focal length
 
 
 def add_camera(scene: Any, camera: Camera) -> Any:
@@ -32,15 +31,11 @@ def add_camera(scene: Any, camera: Camera) -> Any:
 def place_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera for the picture that a Blender scene has, and make it the active one."""
     w, data = camera.window, bpy.data.cameras.new(camera.name)
-    extent = w.right - w.left
     data.sensor_fit = "HORIZONTAL"
-    data.type = camera.projection.blender
-    if camera.projection.is_parallel:
-        data.ortho_scale = extent
-    else:
-        data.lens = max(_SENSOR / extent, _LEAST_LENS)
-        data.sensor_width = max(_SENSOR, _LEAST_LENS * extent)
-    data.shift_x, data.shift_y = (w.left + w.right) / 2 / extent, (w.bottom + w.top) / 2 / extent
+    of_type = set_camera_kind(data, camera.projection.blender)
+    settings = camera.projection.settings((w.left, w.right, w.bottom, w.top))
+    for name, value in settings.items():
+        setattr(of_type, name, value)
     data.clip_start, data.clip_end = camera.clip_start, camera.clip_end
     obj = bpy.data.objects.new(camera.name, data)
     scene.collection.objects.link(obj)

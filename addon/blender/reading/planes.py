@@ -31,7 +31,8 @@ _SLACK = 2.0**-20
 
 def volume_corners(camera: Camera) -> NDArray[np.float64]:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
-    w, out = _window(camera), []
+    camera, out = _linear(camera), []
+    w = _window(camera)
     for depth, y, x in product(_depths(camera), (w.bottom, w.top), (w.left, w.right)):
         across = camera.projection.scale(depth) * (x * camera.right + y * camera.up)
         out.append(camera.origin + across + depth * camera.forward)
@@ -73,6 +74,15 @@ def outside(
     return found
 
 
+def _linear(camera: Camera) -> Camera:
+    """Return a camera with flat sides whose view volume holds this one's; if it is such, itself."""
+    w = camera.window
+    edges = w.left, w.right, w.bottom, w.top
+    own = camera.projection.volume(edges, camera.clip_start, camera.clip_end)
+    projection, edges, start = own
+    return replace(camera, projection=projection, window=ViewWindow(*edges), clip_start=start)
+
+
 def _window(camera: Camera) -> ViewWindow:
     w, (x, y) = camera.window, pixel_size(camera)
     return ViewWindow(
@@ -87,6 +97,7 @@ def _depths(camera: Camera) -> tuple[float, float]:
 
 def _sides(camera: Camera) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return normals (6, 3) and offsets (6,): n . (p - origin) + offset >= 0 within a side."""
+    camera = _linear(camera)
     # The axes need not be orthonormal: a point's coordinates are its products with their dual.
     x, y, depth = dual_axes(camera)
     w = _window(camera)

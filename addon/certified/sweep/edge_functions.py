@@ -111,7 +111,7 @@ def set_up(
     sure = (amount > error) & np.isfinite(amount)
     coefficients[:, :3] *= np.where(volume < 0, -1.0, 1.0)
     least = amount - error
-    if film.camera.projection.is_parallel:
+    if film.camera.projection.shares_direction:
         depths = [gather(vertices.depth, corner) for corner in corners]
         base, *rest = depths
         b, c = (d - base for d in rest)

@@ -81,7 +81,7 @@ class Film:
     @cached_property
     def is_sound(self) -> bool:
         """Whether the bounds hold; where they do not, they are infinite."""
-        parallel = self.camera.projection.is_parallel
+        parallel = self.camera.projection.shares_direction
         return has_sound_axes(self.camera) and (parallel or self.ray_error <= 0.25)
 
     @cached_property
@@ -93,7 +93,7 @@ class Film:
         c = self.camera
         reach = self._reach[0] + self._reach[1]
         axes = np.abs((c.right, c.up, c.forward)).max()
-        parallel = c.projection.is_parallel
+        parallel = c.projection.shares_direction
         length = np.abs(c.origin).max() + axes * reach if parallel else axes * (1 + reach)
         return 24 * _EPS * self._spread * length
 
@@ -107,7 +107,7 @@ class Film:
         constant, slope = 0.0, 0.0
         for start, size, reach in zip(window, pixel_size(c), self._reach, strict=True):
             film = SAFETY * _EPS * (abs(start / size) + c.width + c.height)
-            if c.projection.is_parallel:
+            if c.projection.shares_direction:
                 slope = max(slope, (SAFETY + 8) * _EPS * self._spread / size)
                 constant = max(constant, film + 2 * self.ray_error / size)
             else:  # |w| <= spread * size; an error along the axis moves a ray by its film position
@@ -121,7 +121,7 @@ class Film:
         """c: w of a vertex is off by at most c size."""
         if not self.is_sound:
             return np.inf
-        return 0.0 if self.camera.projection.is_parallel else SAFETY * _EPS * self._spread
+        return 0.0 if self.camera.projection.shares_direction else SAFETY * _EPS * self._spread
 
     @cached_property
     def depth_error(self) -> tuple[float, float]:
@@ -130,7 +130,7 @@ class Film:
 
     def nearest(self, depth: Floats, size: Floats) -> Floats:
         """Return the most that the nearness of what is seen of vertices can be."""
-        if self.camera.projection.is_parallel:
+        if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return (constant + slope * size) - depth
         before = np.maximum(depth - self.weight * size, self.camera.clip_start)
@@ -138,7 +138,7 @@ class Film:
 
     def certain_nearness(self, depth: Floats) -> Floats:
         """Return the nearness of vertices that are `certain`."""
-        return -depth if self.camera.projection.is_parallel else 1 / depth
+        return -depth if self.camera.projection.shares_direction else 1 / depth
 
     def certain_error(self, nearness: Floats) -> Floats | float:
         """Return by how much that of a ray may be another, of vertices as near as this or less.
@@ -146,7 +146,7 @@ class Film:
         Where a vertex is certain, `weight` size / w is at most DELTA / 4 pixels of the picture's
         size, and for parallel rays the slope of `place` times size at most DELTA / 2.
         """
-        if self.camera.projection.is_parallel:
+        if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return constant + slope * (DELTA / self.place[1])
         far = max(self.camera.width, self.camera.height)

@@ -63,6 +63,6 @@ def _widened(camera: Camera) -> Camera:
     view = U32 * WIDENED * (np.abs(camera.origin).sum() + np.abs(ends))
     off = depth_resolution(camera, ends, view)
     start = camera.clip_start - off[0]
-    if not camera.projection.is_parallel:
+    if not camera.projection.sees_behind:
         start = max(start, camera.clip_start / 2)
     return replace(camera, clip_start=start, clip_end=camera.clip_end + off[1])

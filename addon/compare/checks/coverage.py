@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...tracer import plane, shading
-from ...tracer.camera import camera_rays, film_of
+from ...tracer.camera import camera_rays, film_beside
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, Pairs, test_pairs, test_planes, within_clip
 from ...tracer.progress import Work
@@ -92,8 +92,8 @@ def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
     """Corners on the film, each (2, p) pixels from the pixel's centre; NaN behind the eye."""
     out = []
     for corner in some.corners:
-        x, y, _ = film_of(probe.plan.scene.camera, corner.astype(np.float64))
-        out.append(np.stack((x - probe.px[some.pixel], y - probe.py[some.pixel])))
+        px, py = probe.px[some.pixel], probe.py[some.pixel]
+        out.append(film_beside(probe.plan.scene.camera, corner.astype(np.float64), px, py))
     return out
 
 
