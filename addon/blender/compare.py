@@ -70,12 +70,14 @@ def gather_case(
     settings = settings or stored.settings()
     if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
         settings = replace(settings, samples=1)
-    engine = judge_named(judge or stored.judge, bpy.app.background)
+    camera = export_camera(scene)  # first, as its errors name the user's scene, say what to do
+    is_panorama = not camera.projection.is_linear
+    engine = judge_named(judge or stored.judge, bpy.app.background, is_panorama)
     of_view = engine.needs_window and not like_for_like
     view_shading = solid_shading(context) if of_view else None
     checked = stored.self_check if self_check is None else self_check
     later = None
-    r = export_camera(scene).region  # first, as its errors name the user's scene, say what to do
+    r = camera.region
     check_memory(r.width, r.height, COMPARED, 2 * ALWAYS)  # before Blender draws
     with temporary_scene(scene, layer, engine) as tmp:
         if view_shading:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-AUTO = "AUTO"  # the viewport in a window, Workbench in background
+AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 
 @dataclass(frozen=True)
@@ -34,6 +34,7 @@ class Judge:
     filter_radius: float = 2.0
     solid: bool = True
     random_instances: bool = True
+    panoramas: bool = False
 
     @property
     def needs_window(self) -> bool:
@@ -75,19 +76,23 @@ def choices() -> dict[str, Judge]:
     return {name: judge for name, judge in JUDGES.items() if judge.number is not None}
 
 
-def judge_named(name: str, background: bool) -> Judge:
+def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge:
     """Return the judge that a name, or AUTO, means with or without a window.
 
     Raises
     ------
     SceneError
-        If there is none of that name.
+        If there is none of that name, or it cannot draw the picture's panorama.
     """
+    from ...scene import SceneError
+
     key = name.lower()
     if name == AUTO:
         key = "workbench" if background else "viewport"
+        key = next(j.name for j in JUDGES.values() if j.panoramas) if is_panorama else key
     if key not in JUDGES:
-        from ...scene import SceneError
-
         raise SceneError(f"There is no judge '{name}': choose one of auto, {', '.join(JUDGES)}.")
+    if is_panorama and not JUDGES[key].panoramas:
+        able = " or ".join(j.label for j in JUDGES.values() if j.panoramas)
+        raise SceneError(f"{JUDGES[key].label} draws no panoramas: compare with {able}.")
     return JUDGES[key]
