@@ -22,25 +22,10 @@ FILTERS = {"SURFACE": "surf", "GREASEPENCIL": "grease_pencil", "GPENCIL": "greas
 
 
 def lens(data: Any) -> Any:
-    """Return what has the panoramic settings of a `bpy.types.Camera`: Cycles' own part up to 4.5."""
-    return data if hasattr(data, "panorama_type") else getattr(data, "cycles", data)
-
-
-def camera_kind(data: Any) -> str:
-    """Return a camera's type; of a panorama, its kind."""
-    return getattr(lens(data), "panorama_type", "PANO") if data.type == "PANO" else data.type
-
-
-def set_camera_kind(data: Any, kind: str) -> Any:
-    """Set what :func:`camera_kind` returns; return what has the settings of that type."""
-    types = data.bl_rna.properties["type"].enum_items.keys()
-    if kind in types:
-        data.type = kind
+    """Return what has the settings of a camera's type: of panoramas Cycles' own part up to 4.5."""
+    if data.type != "PANO" or hasattr(data, "panorama_type"):
         return data
-    data.type = "PANO"
-    own = lens(data)
-    own.panorama_type = kind
-    return own
+    return getattr(data, "cycles", data)
 
 
 def curves(action: Any) -> list[Any]:

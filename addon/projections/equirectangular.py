@@ -13,11 +13,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
-from .orthographic import Orthographic
 from .projection import Edges, Floats, Projection
 
 # pi / 2 as a sum: integers below 2^20 times each of the first two, of 33 digits, are exact.
@@ -26,16 +25,16 @@ _TERMS = 18  # of the series: the first that is left out is below 2^-60
 # Radians: far above the rounding of an angle that is found here, where it is not near pi / 2.
 _ANGLE = 1e-9
 _RANGES = "longitude_min", "longitude_max", "latitude_min", "latitude_max"
-_WIDEST = 1.5  # radians: the half angle of a cone that is used
+_WIDEST, _NEAR_POLE = 1.5, 1e-6  # radians: a cone is narrower, and farther from the poles
 
 
-def sine_cosine(angle: Any) -> tuple[Any, Any]:
-    """Return the sine and the cosine of angles (n,), radians, at most 2^20 of them.
+def sine(angle: Any, quarters: int = 0) -> Any:
+    """Return the sine of angles (n,), radians, plus so many right angles: 1 for the cosine.
 
     Each operation is one of IEEE 754, so that all machines find the same bits, however many angles
-    are asked for together; a library's own sine may differ.
+    are asked for together; a library's own sine may differ. The angle is at most 2^20.
 
-    Each is off by less than 2^-51, 4 u with u = 2^-53; of a float32 it is rounded once more. With k
+    It is off by less than 2^-51, 4 u with u = 2^-53; of a float32 it is rounded once more. With k
     the nearest integer to angle / (pi / 2), the rest r = angle - k pi / 2 is off by two roundings
     of numbers below 0.79, u / 2 each. Horner's rule for
 
@@ -45,20 +44,14 @@ def sine_cosine(angle: Any) -> tuple[Any, Any]:
     rounds each difference by u / 2; what is inside counts by r^2 / 6 < 0.11 and r^2 / 2 < 0.31. So
     the sine's bracket is off by 0.8 u, and the sine by 1.2 u; the cosine by 1.4 u.
     """
-    exact = np.asarray(angle, np.float64)
-    turns = np.floor(exact * (2 / np.pi) + 0.5)
-    rest = exact
+    rest = angle.astype(np.float64)
+    turns = np.floor(rest * (2 / np.pi) + 0.5)
     for part in _QUARTER:
         rest = rest - turns * part
     square = rest * rest
-    sine, cosine = rest * _series(square, 2), _series(square, 1)
-    quarter = turns % 4
-    is_odd = quarter % 2 == 1
-    found = np.where(is_odd, cosine, sine), np.where(is_odd, sine, cosine)
-    signs = np.where(quarter >= 2, -1.0, 1.0), np.where(is_odd != (quarter >= 2), -1.0, 1.0)
-    both = (sign * value for sign, value in zip(signs, found, strict=True))
-    sine, cosine = (value.astype(np.asarray(angle).dtype)[()] for value in both)
-    return sine, cosine
+    quarter = (turns + quarters) % 4
+    found = np.where(quarter % 2 == 1, _series(square, 1), rest * _series(square, 2))
+    return np.where(quarter < 2, found, -found).astype(angle.dtype)
 
 
 def _series(square: Floats, first: int) -> Floats:
@@ -73,12 +66,12 @@ def _series(square: Floats, first: int) -> Floats:
 class Equirectangular(Projection):
     """A panorama. The window is in radians: longitudes, latitudes."""
 
-    name: ClassVar[str] = "equirectangular"
-    in_files: ClassVar[bool | str] = "equirectangular"
-    blender: ClassVar[str] = "EQUIRECTANGULAR"
-    is_linear: ClassVar[bool] = False
-    farthest: ClassVar[float] = 1024.0  # many turns, and few enough for `sine_cosine`
-    formulas: ClassVar[dict[str, tuple[str, str]]] = {
+    name = "equirectangular"
+    in_files = "equirectangular"
+    blender = "EQUIRECTANGULAR"
+    is_linear = False
+    farthest = 1024.0  # many turns, and few enough for `sine`
+    formulas = {
         "o": ("e", ""),
         "d": (
             "cos v sin u right + sin v up + cos v cos u forward",
@@ -88,18 +81,8 @@ class Equirectangular(Projection):
 
     def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
         """Return the eye, and directions of unit length."""
-        (east, ahead), (north, level) = sine_cosine(x), sine_cosine(y)
-        return eye, level * east * right + north * up + level * ahead * forward
-
-    def enclosing(
-        self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any
-    ) -> tuple[Any, Any]:
-        """Return rays with components that no direction exceeds, negative and positive.
-
-        What the axes are multiplied by is at most 1, but for less than ten roundings.
-        """
-        most = (np.abs(right) + np.abs(up) + np.abs(forward)) * (1 + 2.0**-40)
-        return eye, most * np.array([-1.0, 1.0])
+        east, north, ahead = _direction(x, y)
+        return eye, east * right + north * up + ahead * forward
 
     def terms(self, x: float, y: float, frame: Floats) -> Floats:
         """Return (x + y + 2) times the axes' own terms, for a bound of 8 u times that.
@@ -122,18 +105,17 @@ class Equirectangular(Projection):
         """Return longitudes at most half a turn from the window's middle, latitudes, distances."""
         x, y, depth = xyz
         level = np.hypot(x, depth)
-        longitude = _beside(np.arctan2(x, depth), middle)
-        return longitude, np.arctan2(y, level), np.hypot(level, y)
+        longitude = np.arctan2(x, depth)
+        turns = np.round((longitude - middle) / (2 * np.pi))
+        return longitude - 2 * np.pi * turns, np.arctan2(y, level), np.hypot(level, y)
 
     def beside(self, xyz: Floats, x: Floats, y: Floats) -> tuple[Floats, Floats]:
         """Return where points appear on the plane that touches the sphere of directions there."""
-        (east, ahead), (north, level) = sine_cosine(x), sine_cosine(y)
-        across = xyz[0] * ahead - xyz[2] * east
-        outward = xyz[0] * east + xyz[2] * ahead
-        depth = xyz[1] * north + outward * level
+        quarter = np.pi / 2
+        axes = (x + quarter, np.zeros_like(y)), (x, y + quarter), (x, y)
+        right, up, depth = ((xyz * _direction(*axis)).sum(axis=0) for axis in axes)
         depth = np.where(depth > 0, depth, np.nan)
-        size = np.maximum(np.abs(level), _ANGLE)
-        return across / depth / size, (xyz[1] * level - outward * north) / depth
+        return right / self.scale(depth, y), up / depth
 
     def box(
         self, xyz: Floats, error: Floats, clip_start: float, edges: Edges, eps: float
@@ -150,52 +132,52 @@ class Equirectangular(Projection):
           (`candidates.has_sound_axes`: the inverse's rows are at most 16 long, the axes 2);
         - `_ANGLE` for the rounding here.
 
-        Around the pole of the film, a cone of half angle r at latitude b spans longitudes of
-        +- arcsin(sin r / cos b), or all, where it holds the pole. The film may go on behind the
-        poles, or around more than once: what may then be seen twice spans all of it.
+        A cone of half angle r at latitude b spans longitudes of +- arcsin(sin r / cos b), unless it
+        holds a pole. The film may go on behind the poles, or around more than once: what may be
+        seen in two places has no bounds on that side.
         """
         left, right, bottom, top = edges
-        sizes = np.sqrt((xyz * xyz).sum(axis=0))
-        units = xyz / sizes
-        axis = units.sum(axis=1)
-        axis = axis / np.sqrt((axis * axis).sum(axis=0))
-        chord = np.sqrt(((units - axis[:, None]) ** 2).sum(axis=0)).max(axis=0)
-        off = 512 * eps * (max(abs(left), abs(right)) + max(abs(bottom), abs(top)) + 6)
+        sizes = _length(xyz)
+        axis = (xyz / sizes).sum(axis=1)
+        axis = axis / _length(axis)
+        chord = _length(xyz / sizes - axis[:, None]).max(axis=0)
+        off = 512 * eps * (np.abs(edges).sum() + 6)
         turned = 4 * error / sizes.min(axis=0)
         wide = 2 * np.arcsin(chord / 2) + turned + off + _ANGLE
-        wide = np.where((wide < _WIDEST) & (turned < 0.5), wide, np.nan)
-
-        level = np.hypot(axis[0], axis[2])
-        latitude = np.arctan2(axis[1], level)
-        low, high = latitude - wide, latitude + wide
-        pole = np.pi / 2 - 1e-6
-        above, below = high > pole - max(top - pole, 0), low < max(-pole - bottom, 0) - pole
-        half = np.arcsin(np.minimum(np.sin(wide) / level, 1)) + _ANGLE
-        middle = _beside(np.arctan2(axis[0], axis[2]), (left + right) / 2)
-        once = (middle - half > right - 2 * np.pi) & (middle + half < left + 2 * np.pi)
-        half = np.where(once & ~above & ~below, half, np.inf)
-        low, high = np.where(below, -np.inf, low), np.where(above, np.inf, high)
         farthest = (sizes.max(axis=0) + 2 * error) * (1 + off)
         nearest = (xyz * axis[:, None]).sum(axis=0).min(axis=0) - 2 * error - off * farthest
-        return [middle - half, low], [middle + half, high], nearest, farthest
 
-    def volume(self, edges: Edges, start: float, end: float) -> tuple[Projection, Edges, float]:
-        """Return a box around the eye, as large as the clip range reaches."""
-        return Orthographic(), (-end, end, -end, end), -end
+        longitude, latitude, _ = self.film(axis, (left + right) / 2)
+        beyond = max(top - np.pi / 2, -np.pi / 2 - bottom, 0)
+        wide = np.where((wide < _WIDEST) & (turned < 0.5), wide, np.nan)
+        low, high, pole = latitude - wide, latitude + wide, np.pi / 2 - beyond - _NEAR_POLE
+        half = np.arcsin(np.sin(wide) / np.cos(latitude)) + _ANGLE
+        once = (longitude - half > right - 2 * np.pi) & (longitude + half < left + 2 * np.pi)
+        half = np.where(once & (low > -pole) & (high < pole), half, np.nan)
+        low, high = np.where(low > -pole, low, np.nan), np.where(high < pole, high, np.nan)
+        return [longitude - half, low], [longitude + half, high], nearest, farthest
 
     def window(
         self, data: Any, lens: Any, sensor: float, around: Callable[[float], Edges]
     ) -> Edges:
         """Return the ranges of longitude and latitude; shifts count in lengths of these."""
-        west, east, south, north = (float(getattr(lens, name)) for name in _RANGES)
-        x, y = data.shift_x * (east - west), data.shift_y * (north - south)
-        return west + x, east + x, south + y, north + y
+        x = data.shift_x * (lens.longitude_max - lens.longitude_min)
+        y = data.shift_y * (lens.latitude_max - lens.latitude_min)
+        longitudes = lens.longitude_min + x, lens.longitude_max + x
+        return *longitudes, lens.latitude_min + y, lens.latitude_max + y
 
-    def settings(self, edges: Edges) -> dict[str, float]:
+    def settings(self, edges: Edges) -> dict[str, Any]:
         """Return the ranges of longitude and latitude."""
-        return dict(zip(_RANGES, edges, strict=True))
+        kind = {"type": "PANO", "panorama_type": self.blender}
+        return kind | dict(zip(_RANGES, edges, strict=True))
 
 
-def _beside(angle: Floats, middle: float) -> Floats:
-    """Return angles, radians, at most half a turn from a middle."""
-    return angle - 2 * np.pi * np.round((angle - middle) / (2 * np.pi))
+def _direction(x: Any, y: Any) -> tuple[Any, Any, Any]:
+    """Return what right, up and forward are multiplied by at longitudes x and latitudes y, (n,)."""
+    level = sine(y, 1)
+    return level * sine(x), sine(y), level * sine(x, 1)
+
+
+def _length(v: Floats) -> Floats:
+    """Return the length of vectors (3, ...)."""
+    return np.sqrt((v * v).sum(axis=0))

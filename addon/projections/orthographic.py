@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -15,12 +15,12 @@ from .projection import Edges, Floats, Projection, shifts
 class Orthographic(Projection):
     """Rays along the view axis, beside one another. The window is in metres."""
 
-    name: ClassVar[str] = "orthographic"
-    in_files: ClassVar[bool | str] = True
-    blender: ClassVar[str] = "ORTHO"
-    shares_direction: ClassVar[bool] = True
-    sees_behind: ClassVar[bool] = True
-    formulas: ClassVar[dict[str, tuple[str, str]]] = {
+    name = "orthographic"
+    in_files = True
+    blender = "ORTHO"
+    shares_direction = True
+    sees_behind = True
+    formulas = {
         "o": ("e + (u right + v up)", ""),
         "d": ("forward", "the same for all pixels: t is the depth"),
     }
@@ -70,6 +70,6 @@ class Orthographic(Projection):
         """Return the window as wide as the camera's scale."""
         return around(data.ortho_scale)
 
-    def settings(self, edges: Edges) -> dict[str, float]:
+    def settings(self, edges: Edges) -> dict[str, Any]:
         """Return the scale and the shift."""
-        return {"ortho_scale": edges[1] - edges[0]} | shifts(edges)
+        return {"type": self.blender, "ortho_scale": edges[1] - edges[0]} | shifts(edges)

@@ -27,6 +27,7 @@ class Projection:
     # A ray's origin and direction, for readers: the formula's right side, and a remark.
     formulas: ClassVar[dict[str, tuple[str, str]]]
     # Whether o and d are linear in the film position. Only then the sweep can find what is seen.
+    # Else all rays begin in the eye, and what the axes are multiplied by is at most 1.
     is_linear: ClassVar[bool] = True
     shares_direction: ClassVar[bool] = False  # else all rays share their origin, the eye
     sees_behind: ClassVar[bool] = False  # the clip range may begin behind the camera
@@ -35,15 +36,6 @@ class Projection:
     def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
         """Return origins and directions of the rays through film positions (x, y)."""
         raise NotImplementedError
-
-    def enclosing(
-        self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any
-    ) -> tuple[Any, Any]:
-        """Return rays that enclose all others by component, from the film's corners (4,).
-
-        Where rays are linear in x and y these are the corners' own, as rounding is monotone.
-        """
-        return self.ray(eye, x, y, right, up, forward)
 
     def terms(self, x: float, y: float, frame: Floats) -> Floats:
         """Return the sum of the absolute terms of a ray, by component, (3,).
@@ -75,10 +67,6 @@ class Projection:
         """Return how far from film positions (n,) points appear, where lines are straight."""
         u, v, _ = self.film(xyz, 0.0)
         return u - x, v - y
-
-    def volume(self, edges: Edges, start: float, end: float) -> tuple[Projection, Edges, float]:
-        """Return a linear type, with window and clip start, whose view volume holds this one's."""
-        return self, edges, start
 
     def box(
         self, xyz: Floats, error: Floats, clip_start: float, edges: Edges, eps: float
@@ -113,20 +101,31 @@ class Projection:
     def window_range(
         self, value: Floats, depth: Floats, error: Floats, front: Floats, clip_start: float
     ) -> tuple[Floats, Floats]:
-        """Return where m triangles, from `front` on, lie on the window: lowest, highest, (m,) each.
+        """Return where m polygons, from `front` on, lie on the window: lowest, highest, (m,) each.
 
-        `value` and `depth`, (3, m), are the corners' right or up, and depth, metres, off by at most
+        `value` and `depth`, (k, m), are the corners' right or up, and depth, metres, off by at most
         `error` (m,); `front` (m,) is the least depth of what can be seen of each.
         """
-        raise NotImplementedError
+        smallest, largest = value.min(axis=0) - error, value.max(axis=0) + error
+        end = np.maximum(depth.max(axis=0) + error, front)
+        low = np.where(smallest < 0, smallest / front, smallest / end)
+        high = np.where(largest > 0, largest / front, largest / end)
+        # Where no corner is near the eye plane, the corners' own quotients bound.
+        whole = depth.min(axis=0) - error >= clip_start
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            quotient = value / depth
+            margin = error * (1 + np.abs(quotient)) / (depth - error)
+            low = np.where(whole, (quotient - margin).min(axis=0), low)
+            high = np.where(whole, (quotient + margin).max(axis=0), high)
+        return low, high
 
     def sides(self, across: Floats, depth: Floats, edges: Floats) -> tuple[Floats, Floats]:
-        """Return normals (4, 3) and offsets (4,) of the view volume's sides.
+        """Return normals (4, 3) and offsets (4,) of the view volume's sides: here a pyramid's.
 
         `across` (4, 3), towards each side, and `depth` (3,) are rows of the inverse of the axes;
         `edges` (4,) is where the window ends on each side.
         """
-        raise NotImplementedError
+        return across - edges[:, None] * depth, np.zeros(4)
 
     def depths(self, rng: np.random.Generator, ends: Floats, count: int) -> Floats:
         """Return depths all over a clip range, (count,): as many near the camera as far away."""
@@ -160,12 +159,12 @@ class Projection:
         """
         raise NotImplementedError
 
-    def settings(self, edges: Edges) -> dict[str, float]:
-        """Return the settings of the Blender camera that has this window, its sensor horizontal."""
+    def settings(self, edges: Edges) -> dict[str, Any]:
+        """Return the settings of a Blender camera with this window; its sensor is horizontal."""
         raise NotImplementedError
 
 
-def shifts(edges: Edges) -> dict[str, float]:
+def shifts(edges: Edges) -> dict[str, Any]:
     """Return the shift of a Blender camera whose flat film has these edges."""
     left, right, bottom, top = edges
     extent = right - left

@@ -1,8 +1,9 @@
 """Camera -> ray origins and directions, in world space.
 
 A ray is x = o + t d. Directions come from the camera's own axes, d = x right + y up + forward,
-and are not normalised, so that t is the depth along the view axis (`projections/` has other types). They are never the difference
+and are not normalised, so that t is the depth along the view axis. They are never the difference
 of a world-space pixel and the camera's position, which would lose most digits far from the origin.
+Other types of cameras are in `projections/`.
 
 The textbook (Exercise 1, perspective camera) has the length of a pixel as
 tan(opening angle) / (half the resolution), where the opening angle of the course's code is *half*
@@ -72,7 +73,6 @@ def camera_rays(
     px: NDArray[np.floating],
     py: NDArray[np.floating],
     dtype: np.dtype | type = np.float64,
-    enclosing: bool = False,
 ) -> Rays:
     """Return the rays through film positions.
 
@@ -82,8 +82,6 @@ def camera_rays(
         Pixels of the whole picture; pixel (i, j) has its centre at (i + 0.5, j + 0.5).
     dtype
         In which every step is computed.
-    enclosing
-        Return rays that enclose all those between these by component.
     """
 
     def cast(value: object) -> NDArray:
@@ -96,8 +94,7 @@ def camera_rays(
         right, up, forward, origin = (
             cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
         )
-        made = camera.projection.enclosing if enclosing else camera.projection.ray
-        return Rays(*made(origin, x, y, right, up, forward))
+        return Rays(*camera.projection.ray(origin, x, y, right, up, forward))
 
 
 def dual_axes(camera: Camera) -> NDArray[np.float64]:
@@ -110,12 +107,16 @@ def dual_axes(camera: Camera) -> NDArray[np.float64]:
 def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:
     """Return rays that enclose those of all pixels, by component.
 
-    They are those of the picture's corner pixels, or others where rays are not linear. What is
-    computed for these holds for all rays, and does not depend on the region that is traced.
+    What is computed for these holds for all rays, and does not depend on the region that is traced.
+    Where rays are linear they are those of the picture's corner pixels, as rounding is monotone;
+    else the axes' sums, for what an axis is multiplied by is at most 1, but for a few roundings.
     """
+    if not camera.projection.is_linear:
+        most = np.abs((camera.right, camera.up, camera.forward)).sum(axis=0) * (1 + 2.0**-40)
+        return Rays(camera.origin[:, None], np.stack((-most, most), axis=1))
     px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5]) + dx
     py = np.array([0.5, camera.height - 0.5] * 2) + dy
-    return camera_rays(camera, px, py, enclosing=True)
+    return camera_rays(camera, px, py)
 
 
 def film_of(

@@ -9,7 +9,7 @@ from mathutils import Matrix
 
 from ...scene import Camera
 from ...tracer.camera import pixel_size
-from ..versions import set_camera_kind
+from ..versions import lens
 
 LEAST_CLIP = 1e-6  # metres: Blender's own limit
 
@@ -32,10 +32,10 @@ def place_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera for the picture that a Blender scene has, and make it the active one."""
     w, data = camera.window, bpy.data.cameras.new(camera.name)
     data.sensor_fit = "HORIZONTAL"
-    of_type = set_camera_kind(data, camera.projection.blender)
     settings = camera.projection.settings((w.left, w.right, w.bottom, w.top))
+    data.type = settings.pop("type")
     for name, value in settings.items():
-        setattr(of_type, name, value)
+        setattr(lens(data), name, value)
     data.clip_start, data.clip_end = camera.clip_start, camera.clip_end
     obj = bpy.data.objects.new(camera.name, data)
     scene.collection.objects.link(obj)

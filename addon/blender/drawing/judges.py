@@ -88,11 +88,9 @@ def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge
 
     key = name.lower()
     if name == AUTO:
-        key = "workbench" if background else "viewport"
-        key = next(j.name for j in JUDGES.values() if j.panoramas) if is_panorama else key
+        key = "cycles" if is_panorama else "workbench" if background else "viewport"
     if key not in JUDGES:
         raise SceneError(f"There is no judge '{name}': choose one of auto, {', '.join(JUDGES)}.")
     if is_panorama and not JUDGES[key].panoramas:
-        able = " or ".join(j.label for j in JUDGES.values() if j.panoramas)
-        raise SceneError(f"{JUDGES[key].label} draws no panoramas: compare with {able}.")
+        raise SceneError(f"{JUDGES[key].label} draws no panoramas: compare with Cycles.")
     return JUDGES[key]

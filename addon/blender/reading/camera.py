@@ -17,7 +17,7 @@ from ...compare.certificate import CameraCertificate, certify, known_points
 from ...projections import PROJECTIONS, Projection
 from ...projections.projection import Edges
 from ...scene import Camera, Region, SceneError, ViewWindow, check_size
-from ..versions import camera_kind, lens
+from ..versions import lens
 
 
 def border_region(
@@ -101,7 +101,9 @@ def projection_of(obj: Any, scene: Any) -> Projection:
             "make a camera object active."
         )
     projections = {p.blender: p for p in PROJECTIONS.values()}
-    if (kind := camera_kind(obj.data)) not in projections:
+    kind = getattr(lens(obj.data), "panorama_type", "PANO")
+    kind = kind if obj.data.type == "PANO" else obj.data.type
+    if kind not in projections:
         *first, last = PROJECTIONS
         raise SceneError(
             f"Camera '{obj.name}' is of type {kind.lower()}; Reference Tracer models "

@@ -17,6 +17,7 @@ import bpy
 import numpy as np
 from numpy.typing import NDArray
 
+from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Plane, Scene, ViewWindow
 from ...tracer.camera import dual_axes, pixel_size
 from ..drawing.temporary import STANDS_FOR, leave_out
@@ -75,12 +76,12 @@ def outside(
 
 
 def _linear(camera: Camera) -> Camera:
-    """Return a camera with flat sides whose view volume holds this one's; if it is such, itself."""
-    w = camera.window
-    edges = w.left, w.right, w.bottom, w.top
-    own = camera.projection.volume(edges, camera.clip_start, camera.clip_end)
-    projection, edges, start = own
-    return replace(camera, projection=projection, window=ViewWindow(*edges), clip_start=start)
+    """Return a camera whose view volume holds this one's, with flat sides: of a panorama a box."""
+    if camera.projection.is_linear:
+        return camera
+    end = camera.clip_end
+    window = ViewWindow(-end, end, -end, end)
+    return replace(camera, projection=ORTHOGRAPHIC, window=window, clip_start=-end)
 
 
 def _window(camera: Camera) -> ViewWindow:

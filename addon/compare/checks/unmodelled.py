@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from ...manifest import Effect
 from ...scene import Camera
-from ...tracer.camera import film_of
 from ...tracer.candidates import pixel_bounds
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
@@ -153,19 +152,8 @@ def settle_drawn(pixels: OpenPixels) -> Work[None]:
 
 def covered(camera: Camera, bounds: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
-    r = camera.region
-    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8)
+    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8).T
+    (x0, x1, y0, y1), r = pixel_bounds(camera, corners[..., None], 0.5)[:, 0], camera.region
     out = np.zeros((r.height, r.width), bool)
-    if not camera.projection.is_linear:
-        x0, x1, y0, y1 = (int(v[0]) - of for v, of in zip(pixel_bounds(camera, corners.T[..., None]), (r.x0, r.x0, r.y0, r.y0)))
-        out[y0:y1, x0:x1] = True
-        return out
-    px, py, depth = film_of(camera, corners)
-    if depth.max() < camera.clip_start or depth.min() > camera.clip_end:
-        return out
-    if not camera.projection.sees_behind and depth.min() <= camera.clip_start:
-        return ~out  # around the eye: anywhere
-    x0, x1 = int(max(np.floor(px.min()) - r.x0, 0)), int(np.ceil(min(px.max(), r.x1)) - r.x0)
-    y0, y1 = int(max(np.floor(py.min()) - r.y0, 0)), int(np.ceil(min(py.max(), r.y1)) - r.y0)
-    out[y0 : max(y1, 0), x0 : max(x1, 0)] = True
+    out[y0 - r.y0 : y1 - r.y0, x0 - r.x0 : x1 - r.x0] = True
     return out

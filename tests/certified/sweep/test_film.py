@@ -104,7 +104,9 @@ def test_rays_are_off_by_no_more_than_is_claimed(make):
         exact = ExactFilm(camera, film.dx, film.dy)
         x, y = some_pixels(camera, 6, rng)
         o, d = exact.rays(x, y)
-        stored, base = (o, camera.origin) if camera.projection.shares_direction else (d, np.zeros(3))
+        stored, base = (
+            (o, camera.origin) if camera.projection.shares_direction else (d, np.zeros(3))
+        )
         right, up, ahead = exact.of(rational(stored) - rational(base)[:, None])
         errors = [abs(ahead - (0 if camera.projection.shares_direction else 1))]
         for value, start, size, pixel, beside in (
