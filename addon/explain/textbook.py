@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..projections.sine import sine
 from ..scene import Camera
 from ..tracer.camera import pixel_size
 from ..tracer.nearest import within_clip
@@ -61,6 +62,23 @@ _OPERATIONS = {
 }
 
 
+_SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
+_UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
+
+
+def _sine(angle: Number, quarters: int) -> Number:
+    """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
+    if not isinstance(angle, Fraction):
+        return sine(angle, quarters)
+    size, k = abs(angle.numerator) * _UNIT // angle.denominator, 2 - quarters
+    term, total = _UNIT if quarters else size, 0
+    sign = -1 if angle < 0 and not quarters else 1
+    while term:
+        total, sign = total + sign * term, -sign
+        term, k = term * size * size // (_UNIT * _UNIT * k * (k + 1)), k + 2
+    return Fraction(total, _UNIT)
+
+
 def evaluate(text: str, names: Mapping[str, Number | Vector]) -> Number | Vector:
     """Return what a formula comes to; `names` has the value of each letter in it.
 
@@ -93,6 +111,8 @@ def _operand(tokens: list[str], names: Mapping[str, Number | Vector]) -> Number 
     token = tokens.pop()
     if token == "−":
         return -_operand(tokens, names)
+    if token in _SINES:
+        return _sine(_operand(tokens, names), _SINES[token])
     if token != "(":
         return names[token]
     value = _evaluate(tokens, names)

@@ -13,53 +13,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from .projection import Edges, Floats, Projection
+from .projection import Edges, Floats, Formulas, Projection, Vectors
+from .sine import sine
 
-# pi / 2 as a sum: integers below 2^20 times each of the first two, of 33 digits, are exact.
-_QUARTER = 1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21
-_TERMS = 18  # of the series: the first that is left out is below 2^-60
 # Radians: far above the rounding of an angle that is found here, where it is not near pi / 2.
 _ANGLE = 1e-9
 _RANGES = "longitude_min", "longitude_max", "latitude_min", "latitude_max"
 _WIDEST, _NEAR_POLE = 1.5, 1e-6  # radians: a cone is narrower, and farther from the poles
-
-
-def sine(angle: Any, quarters: int = 0) -> Any:
-    """Return the sine of angles (n,), radians, plus so many right angles: 1 for the cosine.
-
-    Each operation is one of IEEE 754, so that all machines find the same bits, however many angles
-    are asked for together; a library's own sine may differ. The angle is at most 2^20.
-
-    It is off by less than 2^-51, 4 u with u = 2^-53; of a float32 it is rounded once more. With k
-    the nearest integer to angle / (pi / 2), the rest r = angle - k pi / 2 is off by two roundings
-    of numbers below 0.79, u / 2 each. Horner's rule for
-
-        sin r = r (1 - r^2 / (2 3) (1 - r^2 / (4 5) (1 - ...)))
-        cos r = 1 - r^2 / (1 2) (1 - r^2 / (3 4) (1 - ...))
-
-    rounds each difference by u / 2; what is inside counts by r^2 / 6 < 0.11 and r^2 / 2 < 0.31. So
-    the sine's bracket is off by 0.8 u, and the sine by 1.2 u; the cosine by 1.4 u.
-    """
-    rest = angle.astype(np.float64)
-    turns = np.floor(rest * (2 / np.pi) + 0.5)
-    for part in _QUARTER:
-        rest = rest - turns * part
-    square = rest * rest
-    quarter = (turns + quarters) % 4
-    found = np.where(quarter % 2 == 1, _series(square, 1), rest * _series(square, 2))
-    return np.where(quarter < 2, found, -found).astype(angle.dtype)
-
-
-def _series(square: Floats, first: int) -> Floats:
-    """Return 1 - r^2 / (k (k + 1)) (1 - r^2 / ((k + 2) (k + 3)) (1 - ...)) for k = `first`."""
-    out = np.ones_like(square)
-    for k in range(first + _TERMS - 2, 0, -2):
-        out = 1 - square / (k * (k + 1)) * out
-    return out
 
 
 @dataclass(frozen=True)
@@ -71,7 +35,7 @@ class Equirectangular(Projection):
     blender = "EQUIRECTANGULAR"
     is_linear = False
     farthest = 1024.0  # many turns, and few enough for `sine`
-    formulas = {
+    formulas: ClassVar[Formulas] = {
         "o": ("e", ""),
         "d": (
             "cos v sin u right + sin v up + cos v cos u forward",
@@ -101,7 +65,7 @@ class Equirectangular(Projection):
         """Return 1: the error across a ray counts."""
         return 1.0
 
-    def film(self, xyz: Floats, middle: float) -> tuple[Floats, Floats, Floats]:
+    def film(self, xyz: Vectors, middle: float) -> tuple[Floats, Floats, Floats]:
         """Return longitudes at most half a turn from the window's middle, latitudes, distances."""
         x, y, depth = xyz
         level = np.hypot(x, depth)
@@ -109,7 +73,7 @@ class Equirectangular(Projection):
         turns = np.round((longitude - middle) / (2 * np.pi))
         return longitude - 2 * np.pi * turns, np.arctan2(y, level), np.hypot(level, y)
 
-    def beside(self, xyz: Floats, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    def beside(self, xyz: Vectors, x: Floats, y: Floats) -> tuple[Floats, Floats]:
         """Return where points appear on the plane that touches the sphere of directions there."""
         quarter = np.pi / 2
         axes = (x + quarter, np.zeros_like(y)), (x, y + quarter), (x, y)
@@ -118,7 +82,7 @@ class Equirectangular(Projection):
         return right / self.scale(depth, y), up / depth
 
     def box(
-        self, xyz: Floats, error: Floats, clip_start: float, edges: Edges, eps: float
+        self, xyz: Vectors, error: Floats, clip_start: float, edges: Edges, eps: float
     ) -> tuple[list[Floats], list[Floats], Floats, Floats]:
         """Return longitudes, latitudes and distances of a cone around each polygon.
 
@@ -178,6 +142,6 @@ def _direction(x: Any, y: Any) -> tuple[Any, Any, Any]:
     return level * sine(x), sine(y), level * sine(x, 1)
 
 
-def _length(v: Floats) -> Floats:
+def _length(v: Vectors) -> Floats:
     """Return the length of vectors (3, ...)."""
     return np.sqrt((v * v).sum(axis=0))

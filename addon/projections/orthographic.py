@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from .projection import Edges, Floats, Projection, shifts
+from .projection import Edges, Floats, Formulas, Projection, shifts
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Orthographic(Projection):
     blender = "ORTHO"
     shares_direction = True
     sees_behind = True
-    formulas = {
+    formulas: ClassVar[Formulas] = {
         "o": ("e + (u right + v up)", ""),
         "d": ("forward", "the same for all pixels: t is the depth"),
     }
@@ -54,7 +54,7 @@ class Orthographic(Projection):
 
     def depths(self, rng: np.random.Generator, ends: Floats, count: int) -> Floats:
         """Return depths spread evenly."""
-        return rng.uniform(*ends, count)
+        return rng.uniform(ends[0], ends[1], count)
 
     def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Any:
         """Return the step: all are equal."""

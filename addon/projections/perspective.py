@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
-from .projection import Edges, Projection, shifts
+from .projection import Edges, Formulas, Projection, shifts
 
 _SENSOR = 36.0  # millimetres; what Blender's own cameras have
 _LEAST_LENS = 1.0  # millimetres: Blender's least focal length
@@ -19,7 +19,7 @@ class Perspective(Projection):
     name = "perspective"
     in_files = False
     blender = "PERSP"
-    formulas = {
+    formulas: ClassVar[Formulas] = {
         "o": ("e", ""),
         "d": ("u right + v up + forward", "not normalised: t is the depth"),
     }

@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+Vectors = NDArray[np.floating]  # (3, ...)
+Formulas = dict[str, tuple[str, str]]  # of "o" and "d": the right side, and a remark
 Edges = tuple[float, float, float, float]  # of a view window: left, right, bottom, top
 
 
@@ -24,8 +26,8 @@ class Projection:
     name: ClassVar[str]
     in_files: ClassVar[bool | str]  # their "orthographic"; of a third type, its name
     blender: ClassVar[str]  # `versions.camera_kind` of Blender's camera
-    # A ray's origin and direction, for readers: the formula's right side, and a remark.
-    formulas: ClassVar[dict[str, tuple[str, str]]]
+    # A ray's origin and direction, for readers.
+    formulas: ClassVar[Formulas]
     # Whether o and d are linear in the film position. Only then the sweep can find what is seen.
     # Else all rays begin in the eye, and what the axes are multiplied by is at most 1.
     is_linear: ClassVar[bool] = True
@@ -54,7 +56,7 @@ class Projection:
         """Return how far an error of 1 in every coordinate moves a point on a window's plane."""
         return 1 + reach
 
-    def film(self, xyz: Floats, middle: float) -> tuple[Floats, Floats, Floats]:
+    def film(self, xyz: Vectors, middle: float) -> tuple[Floats, Floats, Floats]:
         """Return where points appear on the film, and their t, (n,) each; NaN where nowhere.
 
         `xyz` (3, n) is right, up, depth, in metres; `middle` is the x of the window's middle.
@@ -63,13 +65,13 @@ class Projection:
         scale = self.scale(np.where(depth > 0, depth, np.nan))
         return x / scale, y / scale, depth
 
-    def beside(self, xyz: Floats, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    def beside(self, xyz: Vectors, x: Floats, y: Floats) -> tuple[Floats, Floats]:
         """Return how far from film positions (n,) points appear, where lines are straight."""
         u, v, _ = self.film(xyz, 0.0)
         return u - x, v - y
 
     def box(
-        self, xyz: Floats, error: Floats, clip_start: float, edges: Edges, eps: float
+        self, xyz: Vectors, error: Floats, clip_start: float, edges: Edges, eps: float
     ) -> tuple[list[Floats], list[Floats], Floats, Floats]:
         """Return what rays that hit polygons have at least and at most: their film position, and t.
 
@@ -129,7 +131,8 @@ class Projection:
 
     def depths(self, rng: np.random.Generator, ends: Floats, count: int) -> Floats:
         """Return depths all over a clip range, (count,): as many near the camera as far away."""
-        return np.exp(rng.uniform(*np.log(ends), count))
+        start, end = np.log(ends)
+        return np.exp(rng.uniform(start, end, count))
 
     def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Any:
         """Return the step of a depth buffer at a depth; `step` is that of equal steps, metres."""

@@ -84,7 +84,7 @@ def camera_rays(
         In which every step is computed.
     """
 
-    def cast(value: object) -> NDArray:
+    def cast(value: object) -> NDArray[np.floating]:
         return np.asarray(value, dtype=dtype)
 
     width, height = pixel_size(camera)
@@ -121,7 +121,7 @@ def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:
 
 def film_of(
     camera: Camera, points: Vectors
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray]:
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return where world points (3, n) appear on the film, in pixels, and their t, (n,) each.
 
     What a perspective camera does not have in front of it appears nowhere: NaN.

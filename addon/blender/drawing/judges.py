@@ -13,7 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
+AUTO = "AUTO"
+AUTO_IS = "The viewport in a window, Workbench in background; Cycles of a panorama"
 
 
 @dataclass(frozen=True)

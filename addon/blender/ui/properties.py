@@ -37,12 +37,7 @@ PRECISIONS, SHADINGS, COLORS, PASS_ITEMS, SOURCES = (
     for items in ("precisions", "shadings", "colors", "passes", "sources")
 )
 JUDGE_ITEMS = (
-    (
-        judges.AUTO,
-        "Automatic",
-        "The viewport in a window, Workbench in background; Cycles of a panorama",
-        0,
-    ),
+    (judges.AUTO, "Automatic", judges.AUTO_IS, 0),
     *((j.name.upper(), j.label, j.description, j.number) for j in judges.choices().values()),
 )
 SHOW_ITEMS = (

@@ -108,7 +108,8 @@ def test_rays_are_off_by_no_more_than_is_claimed(make):
             (o, camera.origin) if camera.projection.shares_direction else (d, np.zeros(3))
         )
         right, up, ahead = exact.of(rational(stored) - rational(base)[:, None])
-        errors = [abs(ahead - (0 if camera.projection.shares_direction else 1))]
+        along = camera.projection.shares_direction
+        errors = [abs(ahead - (0 if along else 1))]
         for value, start, size, pixel, beside in (
             (right, exact.start[0], exact.size[0], x, film.dx),
             (up, exact.start[1], exact.size[1], y, film.dy),
