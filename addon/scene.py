@@ -34,8 +34,8 @@ class SceneError(ValueError):
 class ViewWindow:
     """What the whole picture shows, along the camera's right and up axes.
 
-    On the plane at depth 1 (perspective), in metres (orthographic), or in radians of longitude and
-    latitude (equirectangular).
+    On the plane at depth 1 (perspective), in metres (orthographic), or, of a panorama, in radians
+    of longitude and latitude.
     """
 
     left: float
