@@ -28,7 +28,7 @@ from ..scene import Scene
 from ..tracer.settings import Settings
 from .compare import export_open_file
 from .drawing.drawings import Drawing, drawn_by_others
-from .drawing.judges import JUDGES
+from .drawing.judges import AUTO, judge_named
 from .drawing.temporary import go_to, temporary_scene, values_kept
 from .drawing.viewport import read
 from .engine import export_for_render
@@ -51,9 +51,8 @@ def gather_against(
         If the scene cannot be traced.
     """
     scene, manifest, _ = export_open_file(context)
-    drawing = Drawing(
-        context.scene, context.view_layer.name, JUDGES["workbench"], True, None, scene, manifest
-    )
+    judge = judge_named(AUTO, True, not scene.camera.projection.is_linear)
+    drawing = Drawing(context.scene, context.view_layer.name, judge, True, None, scene, manifest)
     return Case(
         scene,
         manifest,

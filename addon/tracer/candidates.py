@@ -94,7 +94,7 @@ def pixel_bounds(
     magnitude = magnitude[0] + magnitude[1] + magnitude[2]
     eps = float(np.finfo(corners.dtype).eps)
     error = SAFETY * eps * magnitude + _TINY
-    error = error.reshape(-1, count)
+    error = error.reshape(len(corners), count)
     error = error.max(axis=0)
     w, sizes, starts = camera.window, pixel_size(camera), (camera.window.left, camera.window.bottom)
     # A film position near its start comes from cancelling against it.
@@ -105,7 +105,7 @@ def pixel_bounds(
     x, y = (size * slack for size, slack in zip(sizes, slacks, strict=True))
     edges = w.left - x, w.right + x, w.bottom - y, w.top + y
     smallest, largest, nearest, farthest = camera.projection.box(
-        xyz.reshape(3, -1, count), error, camera.clip_start, edges, eps
+        xyz.reshape(3, len(corners), count), error, camera.clip_start, edges, eps
     )
     bounds = np.empty((4, count), np.int32)
     ends = (region.x0, region.x1), (region.y0, region.y1)
