@@ -1,35 +1,35 @@
-"""The methods: a record each, in `methods.toml`, which says what its words mean.
+"""The methods by which a ray meets a triangle: a record each.
 
-A new one is its function (`tracer/triangle.py`), its record, and a member here. What lists methods
-reads these, in this order: options, panels, studies, plots, tables.
+A new one is its function (`tracer/triangle.py`) and, here, a member and its record. What lists
+methods reads these, in this order: options, panels, studies, plots, tables.
 """
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Callable
+from dataclasses import dataclass
 from enum import StrEnum, auto
-from pathlib import Path
-from typing import Any
 
-_LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+
+@dataclass(frozen=True)
+class MethodRecord:
+    """What there is to say of a method."""
+
+    label: str  # in Blender's panel
+    words: str  # in plots and sentences
+    short: str  # in a table
+    head: str  # over a column of a narrow panel
+    number: int  # what a .blend stores: one that was given away is never given to another
+    color: str  # in plots; told apart without telling red from green (after Okabe and Ito)
+    description: str  # the tooltip in Blender's panel
 
 
 class Method(StrEnum):
     """How a ray meets a triangle, in the order of how far the answer can be trusted.
 
-    A member is its name in options and files, its attributes are its record's. `certified` proves
-    every pixel (`certified`); `auto` does, too, where the machine's arithmetic allows a
-    proof, and is `watertight` in float64 where it does not.
+    A member is its name in options and files. `certified` proves every pixel (`certified/`). `auto`
+    does so too where the machine's arithmetic allows a proof, and is `watertight` in float64 where
+    it does not.
     """
-
-    label: str
-    words: str
-    short: str
-    head: str
-    number: int
-    color: str
-    description: str
 
     TEXTBOOK_LITERAL = auto()
     TEXTBOOK = auto()
@@ -38,21 +38,84 @@ class Method(StrEnum):
     CERTIFIED = auto()
     AUTO = auto()
 
-    def __init__(self, name: str) -> None:
-        vars(self).update(_LISTED[name])
+    @property
+    def record(self) -> MethodRecord:
+        """What there is to say of it."""
+        return RECORDS[self]
 
     @property
     def is_plain(self) -> bool:
         """Whether it is floating point alone, in either precision, without a proof."""
         return self not in (Method.CERTIFIED, Method.AUTO)
 
-    @property
-    def function(self) -> Callable[..., Any] | None:
-        """The one of its name in `tracer/triangle.py`; None where pixels are proven."""
-        from .tracer import triangle  # late: to register, Blender needs no numpy
 
-        return getattr(triangle, self) if self.is_plain else None
-
-
+RECORDS = {
+    Method.TEXTBOOK_LITERAL: MethodRecord(
+        label="Textbook, Literal",
+        words="textbook, literal",
+        short="literal",
+        head="literal",
+        number=1,
+        color="#b0723a",
+        description=(
+            "The test exactly as printed, with s1 + s2 + s3 = 1: it loses about half of all hits"
+        ),
+    ),
+    Method.TEXTBOOK: MethodRecord(
+        label="Textbook",
+        words="textbook",
+        short="textbook",
+        head="textb.",
+        number=0,
+        color="#d55e00",
+        description=(
+            "The exercise's test, first the plane and then the barycentrics, usable in "
+            "floating point"
+        ),
+    ),
+    Method.MOLLER_TRUMBORE: MethodRecord(
+        label="Möller–Trumbore",
+        words="Möller–Trumbore",
+        short="Möller–T.",
+        head="Möller",
+        number=2,
+        color="#0072b2",
+        description="The test that most renderers started from",
+    ),
+    Method.WATERTIGHT: MethodRecord(
+        label="Watertight",
+        words="watertight",
+        short="watertight",
+        head="watert.",
+        number=3,
+        color="#009e73",
+        description=(
+            "Woop, Benthin and Wald: two neighbours agree which of them a ray at their edge "
+            "hits, without a proof of anything else"
+        ),
+    ),
+    Method.CERTIFIED: MethodRecord(
+        label="Certified",
+        words="certified",
+        short="certified",
+        head="certified",
+        number=4,
+        color="#7a3d9a",
+        description="Every pixel shows what exact arithmetic says it should, or the render fails",
+    ),
+    Method.AUTO: MethodRecord(
+        label="Automatic",
+        words="automatic",
+        short="automatic",
+        head="auto",
+        number=5,
+        color="#222222",
+        description=(
+            "The cheapest way to a proven picture: an error bound first, and integers only "
+            "where it does not decide. Where this machine's arithmetic allows no proof, "
+            "watertight with a warning"
+        ),
+    ),
+}
 PLAIN = tuple(m for m in Method if m.is_plain)
 MEASURED = (*PLAIN, Method.CERTIFIED)  # what a study measures: `auto` is one of them

@@ -23,10 +23,10 @@ from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture
 from reference_tracer.images import curve
 from reference_tracer.manifest import Unmodelled
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Scene, ViewWindow
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.render import render
 
 BLOCK, BLOCKS = 5, 4  # pixels a side, how many
 ROWS = 8  # in which mixes are attacked: a check of one asks for hundreds of samples

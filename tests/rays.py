@@ -1,10 +1,10 @@
-"""What rays that are not a camera's see of triangles by themselves: the certified contest."""
+"""What rays that are not a camera's see of triangles by themselves: the certified ladder."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.certified.contest import Contest
+from reference_tracer.certified.ladder import Ladder
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
 from reference_tracer.tracer.hits import Hits, Statistics
@@ -26,8 +26,8 @@ def nearest_hits(
     """
     count, n = corners.shape[2], max(rays.origins.shape[1], rays.directions.shape[1])
     triangles = WorldTriangles(corners, np.zeros(count, np.int32), np.arange(count, dtype=np.int32))
-    contest = Contest(rays, (), 0, start, end)
+    ladder = Ladder(rays, clip=(start, end))
     for first in range(0, n * count, together):
         ray, row = np.divmod(np.arange(first, min(first + together, n * count)), count)
-        contest.enter(Pairs(ray, row, triangles))
-    return result_of(contest.hits(Statistics()))
+        ladder.test(Pairs(ray, row, triangles))
+    return result_of(ladder.hits(Statistics()))

@@ -10,9 +10,9 @@ import pytest
 import trimesh
 from reference_tracer import images
 from reference_tracer.cli.main import main
+from reference_tracer.rendering import render
 from reference_tracer.scene import Region
 from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.render import render
 
 
 @pytest.fixture

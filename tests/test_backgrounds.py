@@ -13,8 +13,8 @@ from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.comparison import compare, trace_and_compare
 from reference_tracer.compare.picture import Picture
 from reference_tracer.manifest import Manifest
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 WORLD = (0.05, 0.06, 0.07, 1)

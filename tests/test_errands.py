@@ -20,13 +20,16 @@ METHOD = {
         '    """Miss."""\n'
         "    hit, t, s = textbook(rays, p1, p2, p3)\n"
         "    return hit & False, t, s\n\n\n",
+        "    Method.WATERTIGHT: watertight,",
+        "    Method.NEVER: never,\n",
     ),
-    "methods.toml": (
-        "[certified]",
-        '[never]\nlabel = "Never"\nwords = "never at all"\nshort = "never"\nhead = "nev."\n'
-        'number = 77\ncolor = "#123456"\ndescription = "Misses"\n\n',
+    "methods.py": (
+        "    CERTIFIED = auto()",
+        "    NEVER = auto()\n",
+        "    Method.CERTIFIED: MethodRecord(",
+        '    Method.NEVER: MethodRecord("Never", "never at all", "never", "nev.", 77, "#123456", '
+        '"Misses"),\n',
     ),
-    "methods.py": ("    CERTIFIED = auto()", "    NEVER = auto()\n"),
 }
 SEES_METHOD = """
 from reference_tracer.cli.arguments import add_settings
@@ -107,7 +110,7 @@ assert to_dict(derivation)["camera"]["orthographic"] == "equirectangular"
 SCENE = """
 import numpy as np
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
-from reference_tracer.tracer.render import render
+from reference_tracer.rendering import render
 from reference_tracer.tracer.settings import Settings
 camera = Camera(np.eye(4), ViewWindow(-1, 1, -1, 1), 8, 8)
 mesh = Mesh(np.array([[-9.0, -9, -5], [9, -9, -5], [0, 9, -5]]), [[0, 1, 2]])

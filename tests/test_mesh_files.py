@@ -12,9 +12,9 @@ import pytest
 import trimesh
 from reference_tracer.cli import opening
 from reference_tracer.diagnosis import diagnose
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.scene_files import load_meshes, load_scene, scene_of_meshes
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.vector import transform_points
 
 

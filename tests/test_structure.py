@@ -15,15 +15,16 @@ FLOORS = {
     "checked_json": 0,
     "images": 0,
     "manifest": 0,
-    "methods": 0,
     "projections": 0,
     "runs": 0,
     "scene": 0,
+    "methods": 1,
     "tracer": 1,
     "framing": 1,
     "scene_files": 1,
     "diagnosis": 1,
     "certified": 2,
+    "rendering": 2,
     "compare": 3,
     "study": 3,
     "explain": 3,
@@ -170,7 +171,17 @@ def test_the_tracer_knows_the_scene_and_nothing_of_blender():
     assert start
     # The package itself imports Blender's part once it is registered there.
     units = {name.split(".")[0] for name in reached(whole_graph() | {"": set()}, start)}
-    assert units <= {"", "images", "scene", "manifest", "methods", "projections", "runs", "tracer"}
+    assert units <= {
+        "",
+        "certainty",
+        "images",
+        "manifest",
+        "methods",
+        "projections",
+        "runs",
+        "scene",
+        "tracer",
+    }
 
 
 def test_imports_keep_to_the_structure():
@@ -272,13 +283,24 @@ def needed_by(file: Path) -> set[Path]:
     return found
 
 
-def test_the_proof_is_short_enough_to_be_read():
-    """`certified/` without `sweep/`; and all that its definition needs."""
-    assert len(list(PROOF.glob("*.py"))) <= 12
-    files = needed_by(PROOF / "plain.py")
-    lines = sum(len(file.read_text(encoding="utf-8").splitlines()) for file in files)
-    assert {PROOF / "contest.py", PROOF / "exact.py", ADDON / "tracer" / "candidates.py"} < files
-    assert len(files) <= 20 and lines <= 2600, (len(files), lines)
+# What a newcomer reads who came for plane and triangle.
+EXERCISE = "camera", "plane", "triangle", "nearest", "render"
+
+
+def test_the_exercise_knows_nothing_of_the_proof():
+    """Not through others either, nor late."""
+    for name in EXERCISE:
+        needed = needed_by(ADDON / "tracer" / f"{name}.py")
+        assert not any(PROOF in file.parents for file in needed), name
+        assert ADDON / "rendering.py" not in needed
+
+
+def test_the_exercise_is_found_in_ten_files():
+    """From the loop over a picture to plane and triangle, each names the next."""
+    own = {ADDON / "tracer" / f"{name}.py" for name in EXERCISE}
+    named = {FILES[name] for file in own for name in whole_graph()[name_of(file)]}
+    named.add(FILES["tracer.triangle"])  # of the methods, by their names
+    assert own - {ADDON / "tracer" / "render.py"} <= named
 
 
 def test_a_package_with_code_is_needed_too():

@@ -19,8 +19,8 @@ import numpy as np
 from reference_tracer.cli.opening import open_blend
 from reference_tracer.methods import Method
 from reference_tracer.projections import ORTHOGRAPHIC
+from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Region, Scene, ViewWindow
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 SCENES = Path(__file__).resolve().parent.parent / "sample_scenes"

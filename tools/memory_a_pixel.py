@@ -20,9 +20,9 @@ from reference_tracer.compare.case import Case
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.manifest import Manifest
+from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 

@@ -64,8 +64,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self.live.draw(self, context, depsgraph)
 
     def _trace(self, depsgraph: Any) -> None:
+        from ..rendering import steps
         from ..tracer.frame import Frame
-        from ..tracer.render import steps
         from .reading.export import export
 
         began = time.monotonic()

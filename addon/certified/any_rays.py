@@ -1,4 +1,4 @@
-"""Rays that are not a camera's: each is tested with each triangle, or pair by pair.
+"""Decides rays that are not a camera's: with every triangle, or pair by pair.
 
 They share nothing that could say which triangles they come near, so nothing is culled.
 """
@@ -12,45 +12,23 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from ..tracer.camera import Rays
-from ..tracer.candidates import PAIRS, Pairs
 from ..tracer.hits import Hits, Statistics
-from ..tracer.nearest import test_pairs, test_planes
+from ..tracer.nearest import every_pair
 from ..tracer.progress import Work
 from ..tracer.settings import Settings
-from ..tracer.world import batches, world_triangles
 from . import exact
 from .bounds import FromPoint
-from .contest import Contest, in_range, sides
+from .ladder import Ladder, in_range, sides
 from .surfaces import SURE
 
 
 def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
-    """Find the nearest hits of n rays with t in the camera's clip range, in small steps.
-
-    Parameters are as of `render.trace`, the settings' method a method.
-    """
-    dtype = settings.precision.dtype
-    rays = Rays(rays.origins.astype(dtype), rays.directions.astype(dtype))
-    count = max(rays.origins.shape[1], rays.directions.shape[1])
-    hits, contest = Hits.none(count), None
-    if settings.method.is_plain:
-        test_planes(scene, rays, hits)
-    else:
-        contest = Contest.of(scene, rays)
-    for batch in batches(scene):
-        triangles = world_triangles(scene, batch, dtype)
-        triangles = triangles.take(np.flatnonzero(triangles.finite))
-        total = count * len(triangles)
-        for start in range(0, total, PAIRS):  # each ray with each triangle
-            every = np.arange(start, min(start + PAIRS, total))
-            some = Pairs(*np.divmod(every, len(triangles)), triangles)
-            statistics.pairs_tested += len(every)
-            if contest:
-                contest.enter(some)
-            else:
-                test_pairs(scene, settings, rays, some, hits)
-            yield 0.0
-    return (yield from contest.hits(statistics)) if contest else hits
+    """Find the nearest hits of n rays with t in the camera's clip range, with proof, in steps."""
+    ladder = Ladder.of(scene, rays)
+    for pairs in every_pair(scene, rays, statistics):
+        ladder.test(pairs)
+        yield 0.0
+    return (yield from ladder.hits(statistics))
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +52,7 @@ def decide(
     corners : (3, 3, n) float64
         Corner, component, triangle; finite, in world space.
     start, end : float
-        As of a `Contest`.
+        The clip range, as of a `Ladder`.
     """
     hit, edge, undecided = (np.zeros(corners.shape[2], bool) for _ in range(3))
     every = np.arange(corners.shape[2])

@@ -1,19 +1,23 @@
-"""Edge functions, T and D of rays and triangles in float64, with bounds on their rounding errors.
+"""Computes edge functions, T and D of rays and triangles in float64, and bounds their errors.
 
 With the corners a, b, c, the normal n = (b - a) x (c - a), and for each edge a function of the ray:
 
     e_ab = d . ((a - o) x (b - a)),  ...     T = (a - o) . n,   D = d . n,   t = T / D
 
-A sign is known where the magnitude is above E = BOUND P + SLACK (1 + |w|_1). P is the expression
-itself with | | on every product and + in place of -; w is the vector that the cross product is
-multiplied by. BOUND is 12 roundings, 2^-53 each: at most 10 occur along the longest path in any
-order of summation, and one each in P and E. SLACK covers gradual underflow. In this form of e the
-error is relative to the length of an edge, not to the distance of the origin from it.
+The sign of a computed value is right where its magnitude is above E = BOUND P + SLACK (1 + |w|_1).
+P is the expression itself with | | on every product and + in place of -; w is the vector that the
+cross product is multiplied by. BOUND is 12 roundings, 2^-53 each: at most 10 occur along the
+longest path in any order of summation, and one each in P and E. SLACK covers gradual underflow. In
+this form of e the error is relative to the length of an edge, not to the distance of the origin
+from it.
 
-So that a pair of a ray and a triangle costs little more than three scalar products, what depends
-on the triangle alone is computed once for all rays: from one origin (`FromPoint`), or with one
-direction (`Parallel`), with the bound for the ray that has the largest. Both have `edges` and
-`fractions`, which differ in what is summed last.
+What depends on the triangle alone is computed once for all rays: for rays from one origin
+(`FromPoint`), or of one direction (`Parallel`). The bound is that of the ray with the largest. So a
+pair of a ray and a triangle costs little more than three scalar products. Both classes have `edges`
+and `fractions`, which differ in what is summed last.
+
+References: Higham, "Accuracy and stability of numerical algorithms", 2nd ed., 2002, chapter 3, for
+bounds of this kind. Theorems: `Forms.from_point_e` and so on, `Pairs.interval_right`.
 """
 
 from __future__ import annotations
@@ -21,25 +25,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..tracer.camera import Rays
-from ..tracer.vector import Floats, Vectors, cross, dot, largest
+from ..tracer.vector import Floats, Index, Vectors, cross, dot, largest
 
-U = 2.0**-53
+U = 2.0**-53  # the relative error of one rounding
 BOUND = 12 * U
 SLACK = 2.0**-1060
-# Of the bound on t: its own few roundings, relative.
-_LOOSE = 1 + 2.0**-48
+_LOOSE = 1 + 2.0**-48  # covers the roundings of the bound on t itself
 
 
 def bound(magnitude: Floats, w: Vectors) -> Floats:
-    """Return E for a sum of products of this magnitude P, with the vector w (3, n)."""
+    """Return E for a sum of products with the magnitude P and the vector w, (3, n)."""
     return BOUND * magnitude + SLACK * (1 + w[0] + w[1] + w[2])
 
 
 def cross_magnitude(a: Vectors, b: Vectors) -> Vectors:
-    """Return the magnitude of a x b for a and b that are not negative, (3, n)."""
+    """Return the magnitude of a x b for a, b >= 0, (3, n)."""
     return np.stack(
         (a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0])
     )
@@ -47,7 +49,7 @@ def cross_magnitude(a: Vectors, b: Vectors) -> Vectors:
 
 @dataclass(frozen=True, eq=False)
 class Fractions:
-    """T and D of p pairs, (p,) each or shared, and how far they may be off."""
+    """T and D of p pairs, (p,) each or shared, and bounds on their errors."""
 
     numerator: Floats
     numerator_error: Floats
@@ -55,11 +57,12 @@ class Fractions:
     denominator_error: Floats
 
     def interval(self) -> tuple[Floats, Floats]:
-        """Return the ends of an interval, (p,) each, that has t if t exists and is not negative.
+        """Return the ends of intervals, (p,) each, that contain t if it exists and is not negative.
 
-        Where D may be zero, t is at least |T| / |D| at its smallest; there is no upper end.
+        Where D may be zero, the lower end is the least |T| / |D|, and the upper end is inf.
         """
-        size, own = np.abs(self.denominator), self.denominator_error
+        size = np.abs(self.denominator)
+        own = self.denominator_error
         t = self.numerator / self.denominator
         error = (np.abs(t) * own + self.numerator_error) / (size - own)
         error = (error + U * np.abs(t)) * _LOOSE + SLACK
@@ -71,7 +74,7 @@ class Fractions:
 
 
 class FromPoint:
-    """Triangles seen from one origin; or as many origins as triangles, pair by pair.
+    """Triangles for rays from one origin; or from as many origins as triangles, pair by pair.
 
     Parameters
     ----------
@@ -79,9 +82,10 @@ class FromPoint:
     reach : (3, 1) or (3, m) float64
         The largest |d| of all rays, by component.
     corners : (3, 3, m) float64
+        Corner, component, triangle.
     """
 
-    def __init__(self, origins: Vectors, reach: Vectors, corners: NDArray[np.float64]) -> None:
+    def __init__(self, origins: Vectors, reach: Vectors, corners: Vectors) -> None:
         a, b, c = corners
         arms = [corner - origins for corner in (a, b, c)]
         sides = (b - a, c - b, a - c)
@@ -95,20 +99,20 @@ class FromPoint:
         bounds = bound(dot(reach, size), reach), bound(dot(arm, size), arm)
         self._fractions = np.vstack((n, bounds[0], dot(arms[0], n), bounds[1]))
 
-    def edges(self, rows: NDArray[np.integer], rays: Rays) -> tuple[Vectors, Floats]:
+    def edges(self, rows: Index, rays: Rays) -> tuple[Vectors, Floats]:
         """Return e_ab, e_bc, e_ca, (3, p), of p rays with p triangles, and their bound, (p,)."""
         m = self._edges.take(rows, axis=1)
         x, y, z = rays.directions
         return np.stack([m[k] * x + m[k + 1] * y + m[k + 2] * z for k in (0, 3, 6)]), m[9]
 
-    def fractions(self, rows: NDArray[np.integer], rays: Rays) -> Fractions:
+    def fractions(self, rows: Index, rays: Rays) -> Fractions:
         """Return T and D of p rays with p triangles."""
-        *n, error_of_d, t, error_of_t = self._fractions.take(rows, axis=1)
-        return Fractions(t, error_of_t, dot(rays.directions, n), error_of_d)
+        m = self._fractions.take(rows, axis=1)
+        return Fractions(m[4], m[5], dot(rays.directions, m[:3]), m[3])
 
 
 class Parallel:
-    """Triangles seen along one direction, from origins within a box.
+    """Triangles for rays of one direction, with origins in a box.
 
     e_ab = (a - o) . ((b - a) x d): the same product, with what the rays share multiplied first.
 
@@ -118,11 +122,10 @@ class Parallel:
     low, high : (3, 1) float64
         The corners of the box.
     corners : (3, 3, m) float64
+        Corner, component, triangle.
     """
 
-    def __init__(
-        self, direction: Vectors, low: Vectors, high: Vectors, corners: NDArray[np.float64]
-    ) -> None:
+    def __init__(self, direction: Vectors, low: Vectors, high: Vectors, corners: Vectors) -> None:
         a, b, c = corners
         size = np.abs(direction)
         arms = [np.maximum(np.abs(v - low), np.abs(v - high)) for v in (a, b, c)]
@@ -137,22 +140,20 @@ class Parallel:
         bounds = bound(dot(arms[0], magnitude), arms[0]), bound(dot(size, magnitude), size)
         self._fractions = np.vstack((a, n, bounds[0], dot(direction, n), bounds[1]))
 
-    def edges(self, rows: NDArray[np.integer], rays: Rays) -> tuple[Vectors, Floats]:
+    def edges(self, rows: Index, rays: Rays) -> tuple[Vectors, Floats]:
         """Return e_ab, e_bc, e_ca, (3, p), of p rays with p triangles, and their bound, (p,)."""
         m = self._edges.take(rows, axis=1)
-        return (
-            np.stack([dot(m[k : k + 3] - rays.origins, m[9 + k : 12 + k]) for k in (0, 3, 6)]),
-            m[18],
-        )
+        edges = [dot(m[k : k + 3] - rays.origins, m[9 + k : 12 + k]) for k in (0, 3, 6)]
+        return np.stack(edges), m[18]
 
-    def fractions(self, rows: NDArray[np.integer], rays: Rays) -> Fractions:
+    def fractions(self, rows: Index, rays: Rays) -> Fractions:
         """Return T and D of p rays with p triangles."""
         m = self._fractions.take(rows, axis=1)
         return Fractions(dot(m[:3] - rays.origins, m[3:6]), m[6], m[7], m[8])
 
 
 def plane_fractions(rays: Rays, point: Vectors, normal: Vectors) -> Fractions:
-    """Return T = (p - o) . n and D = d . n of n rays with an infinite plane, (3, 1) each."""
+    """Return T = (p - o) . n and D = d . n of rays and an infinite plane, p and n (3, 1)."""
     arm = point - rays.origins
     sizes = [np.abs(v) for v in (arm, rays.directions, normal)]
     return Fractions(
@@ -163,8 +164,9 @@ def plane_fractions(rays: Rays, point: Vectors, normal: Vectors) -> Fractions:
     )
 
 
-def _normal(corners: NDArray[np.float64]) -> tuple[Vectors, Vectors]:
+def _normal(corners: Vectors) -> tuple[Vectors, Vectors]:
     """Return n = (b - a) x (c - a) and its magnitude, (3, m) each."""
     a, b, c = corners
-    ab, ac = b - a, c - a
+    ab = b - a
+    ac = c - a
     return cross(ab, ac), cross_magnitude(np.abs(ab), np.abs(ac))

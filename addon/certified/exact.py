@@ -1,4 +1,4 @@
-"""Ray and triangle in Python's integers: no rounding anywhere.
+"""Intersects rays and surfaces in Python's integers: nothing is rounded.
 
 Every float is an integer times a power of two. With one power for all lengths of a batch, and
 one for all directions, rays and corners become integers, and so does everything below. With the
@@ -9,18 +9,19 @@ corners a, b, c relative to the ray's origin o:
     D = e_ab + e_bc + e_ca = d . n,  n = m_ab + m_bc + m_ca = (b - a) x (c - a)
     T = a . m_bc = a . n,            t = T / D
 
-The ray meets the triangle where the three e have one sign. Where one of them is zero, the ray is
-taken to pass infinitesimally beside itself, along d + (x, x^2, x^3) for an infinitesimal x: the
-sign of e is then that of the first of e, m_x, m_y, m_z that is not zero. As that is *one* real ray
-for all triangles, a surface without gaps is met exactly once. Two hits at the same t are ordered by
-the same ray; where even that ties, they lie in one plane, and the lower name is seen.
+The ray hits the triangle where the three e have one sign. Where one of them is zero, the ray is
+moved infinitesimally, to the direction d + (x, x^2, x^3) for an infinitesimal x: the sign of e is
+then that of the first of e, m_x, m_y, m_z that is not zero. As that is *one* real ray for all
+triangles, a surface without gaps is hit exactly once. Two hits at the same t are ordered by the
+same ray. If they tie even then, they lie in one plane, and the lower name is seen.
 
-Where m itself is zero, the ray begins on the line of an edge, and no direction takes it off. A ray
-does not meet what it begins on, unless an orthographic camera sees behind itself. Then o is moved
-as well, infinitely less: m_ab becomes y (1, y, y^2) x (a - b), and its sign is that of
-((a - b) x d)_x, and so on. Two hits at t = 0 are ordered alike.
+Where m itself is zero, the ray begins on the line of an edge, and no direction moves it away. A ray
+does not hit what it begins on, unless an orthographic camera sees behind itself. Then o is moved as
+well, infinitely less: m_ab becomes y (1, y, y^2) x (a - b), and its sign is that of
+((a - b) x d)_x, and so on. Two hits at t = 0 are ordered in the same way.
 
-Source: Edelsbrunner and Mücke, "Simulation of simplicity", 1990, for the direction of a ray.
+References: Edelsbrunner and Mücke, "Simulation of simplicity", ACM TOG 9(1), 1990, for the moved
+direction. Theorems: `Hits.met_rule_all`, `Hits.order_rule`, `Clip.seen_exact`, `Clip.t_rounded`.
 """
 
 from __future__ import annotations
@@ -29,43 +30,42 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..tracer.camera import Rays
+from ..tracer.vector import Floats, Numbers
+from .integers import ZERO, Integers, cross, dot, integers, scaled, sub
 
-Integers = tuple[int, int, int]
-# Where a ray is moved to, infinitesimally: along the first, infinitely less along the second, ...
+Triple = tuple[Integers, Integers, Integers]  # one vector for each of the edges ab, bc, ca
+# How a ray is moved: infinitesimally along the first, infinitely less along the second, ...
 Moves = Sequence[Integers]
 
 PERTURBATION: Moves = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-ZERO: Integers = (0, 0, 0)
-_Triangle = tuple[int, Integers, tuple[Integers, ...], tuple[Integers, ...]]
 
 
 class Hit(NamedTuple):
-    """Where the line of a ray hits a triangle's closed area, or an infinite plane."""
+    """The hit of a ray's line on a triangle, its edges included, or on an infinite plane."""
 
     numerator: int  # T
     denominator: int  # D, not zero
     normal: Integers  # n
-    edges: tuple[int, ...]  # e_ab, e_bc, e_ca; none of a plane
+    edges: tuple[int, ...]  # e_ab, e_bc, e_ca; empty for a plane
     sides: tuple[Integers, ...]  # m_ab, m_bc, m_ca
     spans: tuple[Integers, ...]  # a - b, b - c, c - a
     direction: Integers  # of the ray
 
     @property
     def on_edge(self) -> bool:
-        """Whether the ray as it is meets an edge or a corner."""
+        """Whether the ray, not moved, hits an edge or a corner."""
         return 0 in self.edges
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """The barycentrics, each correctly rounded; zeros of a plane."""
+        """The barycentrics, each correctly rounded; zeros for a plane."""
         ab, bc, ca = self.edges or (0, 0, 0)
         return bc / self.denominator, ca / self.denominator, ab / self.denominator
 
     def is_hit(self, moves: Moves = PERTURBATION) -> bool:
-        """Return whether the ray that is infinitesimally moved meets it."""
+        """Return whether the moved ray hits it."""
         if not self.on_edge:
             return True
         parts = zip(self.edges, self.sides, self.spans, strict=True)
@@ -82,34 +82,31 @@ def sign_of_difference(first: Hit, second: Hit, moves: Moves = PERTURBATION) -> 
 
 def crossing(first: Hit, second: Hit) -> tuple[Integers, Integers]:
     """Return T1 n2 - T2 n1 and, at t = 0, n1 x n2: how the order depends on the moved ray."""
-    w = tuple(
-        first.numerator * n2 - second.numerator * n1
-        for n1, n2 in zip(first.normal, second.normal, strict=True)
-    )
-    return w, ZERO if first.numerator else _cross(first.normal, second.normal)
+    w = sub(scaled(second.normal, first.numerator), scaled(first.normal, second.numerator))
+    return w, ZERO if first.numerator else cross(first.normal, second.normal)
 
 
 class IntegerBatch:
-    """Rays, triangles and planes as integers. Surfaces are the planes, then the triangles.
+    """Rays, triangles and planes as integers. Planes are numbered first, then triangles.
 
     Parameters
     ----------
-    rays
-        Finite, float64.
-    corners : (3, 3, m) float64
-        Corner, component, triangle; finite.
-    planes : sequence of ((3,), (3,)) float64
-        Point and normal of each infinite plane.
-    start, end
-        Hits with start <= t <= end are seen, but for t = 0 where `start` is 0 (a ray does not meet
-        what it begins on); `end` may be inf.
+    rays : Rays
+        Finite; in float64, or fractions with powers of two as denominators.
+    corners : (3, 3, m)
+        Corner, component, triangle; finite, of the same kind.
+    planes : sequence of ((3,), (3,))
+        Point, of the same kind, and normal, float64, of each infinite plane.
+    start, end : float
+        The clip range. Hits with start <= t <= end are seen, but none with t = 0 if `start` is 0,
+        as a ray does not hit what it begins on. `end` may be inf.
     """
 
     def __init__(
         self,
         rays: Rays,
-        corners: NDArray[np.float64],
-        planes: Sequence[tuple[NDArray, NDArray]] = (),
+        corners: Numbers,
+        planes: Sequence[tuple[Numbers, Floats]] = (),
         start: float = 0.0,
         end: float = np.inf,
     ) -> None:
@@ -126,39 +123,45 @@ class IntegerBatch:
         ]
         self.unit = exponent  # of lengths: an integer times 2^unit is metres
         self._shift = exponent - direction_exponent  # t = T / D 2^shift
-        self._start, self._end = (self._limit(value) for value in (start, end))
+        self._start = self._limit(start)
+        self._end = self._limit(end)
         self._open = start == 0
-        self._known: dict[int, _Triangle] = {}
+        self._known: dict[int, tuple[int, Integers, Triple, Triple]] = {}
 
     def hit(self, ray: int, surface: int) -> Hit | None:
-        """Return a ray's hit on a surface within the clip range; None where there is none."""
+        """Return a ray's hit on a surface within the clip range, or None."""
         d = self._directions[ray if len(self._directions) > 1 else 0]
         o = self._origins[ray if len(self._origins) > 1 else 0]
         if surface < len(self._planes):
             numerator, n = self._plane(o, surface)
-            return self._seen(Hit(numerator, _dot(d, n), n, (), (), (), d))
+            return self._clipped(Hit(numerator, dot(d, n), n, (), (), (), d))
         numerator, n, sides, spans = self._triangle(o, surface)
-        edges = tuple(_dot(d, m) for m in sides)
+        edges = tuple(dot(d, m) for m in sides)
         if min(edges) < 0 < max(edges):
             return None
-        return self._seen(Hit(numerator, sum(edges), n, edges, sides, spans, d))
+        return self._clipped(Hit(numerator, sum(edges), n, edges, sides, spans, d))
 
     def of_first_ray(self, surface: int) -> tuple[int, int, Integers]:
-        """Return T, D and n of a surface, whether or not the first ray meets it."""
-        find = self._plane if surface < len(self._planes) else self._triangle
-        numerator, n, *_ = find(self._origins[0], surface)
-        return numerator, _dot(self._directions[0], n), n
+        """Return T, D and n of a surface for the first ray, which may miss it."""
+        o = self._origins[0]
+        if surface < len(self._planes):
+            numerator, n = self._plane(o, surface)
+        else:
+            numerator, n, _, _ = self._triangle(o, surface)
+        return numerator, dot(self._directions[0], n), n
 
-    def _triangle(self, o: Integers, surface: int) -> _Triangle:
-        """Return T, n, and of each edge m and span; found once where all rays share o."""
+    def _triangle(self, o: Integers, surface: int) -> tuple[int, Integers, Triple, Triple]:
+        """Return T, n, and m and span of each edge; computed once if all rays share o."""
         if known := self._known.get(surface):
             return known
         k = surface - len(self._planes)
-        ox, oy, oz = o
-        a, b, c = ((x - ox, y - oy, z - oz) for x, y, z in (v[k] for v in self._corners))
-        sides = _cross(a, b), _cross(b, c), _cross(c, a)
-        spans = _sub(a, b), _sub(b, c), _sub(c, a)
-        found = _dot(a, sides[1]), tuple(map(sum, zip(*sides, strict=True))), sides, spans
+        a, b, c = (sub(corners[k], o) for corners in self._corners)
+        ab = cross(a, b)
+        bc = cross(b, c)
+        ca = cross(c, a)
+        spans = sub(a, b), sub(b, c), sub(c, a)
+        normal = ab[0] + bc[0] + ca[0], ab[1] + bc[1] + ca[1], ab[2] + bc[2] + ca[2]
+        found = dot(a, bc), normal, (ab, bc, ca), spans
         if len(self._origins) == 1:
             self._known[surface] = found
         return found
@@ -166,11 +169,12 @@ class IntegerBatch:
     def _plane(self, o: Integers, surface: int) -> tuple[int, Integers]:
         """Return T and n."""
         point, n = self._planes[surface]
-        return sum((p - x) * k for p, x, k in zip(point, o, n, strict=True)), n
+        return dot(sub(point, o), n), n
 
     def t(self, hit: Hit) -> float:
-        """Return t, correctly rounded; inf where no float is as large."""
-        numerator, denominator = hit.numerator, hit.denominator
+        """Return t, correctly rounded; inf if it overflows."""
+        numerator = hit.numerator
+        denominator = hit.denominator
         if self._shift >= 0:
             numerator <<= self._shift
         else:
@@ -181,15 +185,18 @@ class IntegerBatch:
             return np.inf if (numerator > 0) == (denominator > 0) else -np.inf
 
     def _limit(self, value: float) -> tuple[int, int] | None:
-        """Return a clip limit as (n, s) so that t >= limit where T 2^s >= n D, for D > 0."""
+        """Return a clip limit as (n, s) so that t >= limit where T 2^s >= n D, for D > 0.
+
+        None if there is no limit.
+        """
         if np.isinf(value):
             return None
-        [[mantissa]], exponent = integers(np.array([[value]]))
-        shift = self._shift - exponent
+        mantissa, power = value.as_integer_ratio()
+        shift = self._shift + power.bit_length() - 1
         return (mantissa, shift) if shift >= 0 else (mantissa << -shift, 0)
 
-    def _seen(self, hit: Hit) -> Hit | None:
-        """Return the hit if its t exists and lies within the clip range."""
+    def _clipped(self, hit: Hit) -> Hit | None:
+        """Return the hit if its t exists and lies within the clip range, else None."""
         denominator = hit.denominator
         if not denominator:
             return None
@@ -205,53 +212,27 @@ class IntegerBatch:
 
 
 def gap(first: Hit, second: Hit) -> int:
-    """Return a number with the sign of t1 - t2, of the ray as it is."""
-    gap = first.numerator * second.denominator - second.numerator * first.denominator
-    return gap if (first.denominator > 0) == (second.denominator > 0) else -gap
+    """Return a number with the sign of t1 - t2 for the ray that is not moved."""
+    apart = first.numerator * second.denominator - second.numerator * first.denominator
+    return apart if (first.denominator > 0) == (second.denominator > 0) else -apart
 
 
 def _sign(value: int, m: Integers, span: Integers, d: Integers, moves: Moves) -> int:
     """Return the sign of value + x m . moves[0] + ..., for an infinitesimal x > 0.
 
-    Where value and m are zero it is that of (span x d) . moves[0] + ..., as above.
+    Where value and m are zero, it is that of (span x d) . moves[0] + ...: then o is moved.
     """
     for move in moves:
         if value:
             break
-        value = _dot(m, move)
+        value = dot(m, move)
     if not value and m == ZERO:
         for move in moves:
             for along in (d, *moves):
-                value = value or _dot(_cross(span, along), move)
+                value = value or dot(cross(span, along), move)
     return (value > 0) - (value < 0)
 
 
 def turning(m: Integers, span: Integers, d: Integers) -> Integers:
-    """Return what a move is multiplied by where the ray as it is decides nothing."""
-    return _cross(span, d) if m == ZERO else m
-
-
-def integers(vectors: NDArray[np.float64]) -> tuple[list[tuple[int, ...]], int]:
-    """Return vectors (k, n) as n tuples of k integers, and an exponent e: float = integer * 2^e."""
-    if vectors.dtype == object:  # fractions whose denominators are powers of two
-        unit = max((v.denominator for v in vectors.flat), default=1)
-        return [tuple(int(v * unit) for v in row) for row in vectors.T], 1 - unit.bit_length()
-    mantissa, exponent = np.frexp(vectors)
-    zero = mantissa == 0
-    least = int(exponent[~zero].min()) if not zero.all() else 0
-    exponent[zero] = least
-    digits = (mantissa * 2.0**53).astype(np.int64)  # exact: a mantissa has 53 digits
-    columns = zip(digits.T.tolist(), (exponent - least).T.tolist(), strict=True)
-    return [tuple(m << e for m, e in zip(row, by, strict=True)) for row, by in columns], least - 53
-
-
-def _sub(a: Integers, b: Integers) -> Integers:
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
-
-
-def _dot(a: Integers, b: Integers) -> int:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def _cross(a: Integers, b: Integers) -> Integers:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    """Return the vector whose product with a move decides where the ray, not moved, does not."""
+    return cross(span, d) if m == ZERO else m

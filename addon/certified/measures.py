@@ -1,138 +1,215 @@
-"""t and the barycentrics of what a picture's rays see, found when they are asked for.
+"""Finds t, rounded to the nearest float64, and the barycentrics of rays on what they surely see.
 
-Which surface a ray sees takes no more than intervals that are apart. What is found here is a
-function of the ray and its surface alone: it does not matter when, or of which others together.
+Which surface a ray sees is known before. What is found here depends on the ray and its surface
+alone, so that it does not matter when it is found, or together with what.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
-from functools import cached_property
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..certainty import check_assumptions
 from ..scene import Region, Scene
 from ..tracer.camera import Rays, camera_rays, corner_rays, film_positions
-from ..tracer.hits import NOTHING, Hits, LazyHits, Measure, Measured
-from ..tracer.vector import Index, gather, parts
+from ..tracer.frame_measures import PIXELS
+from ..tracer.hits import NOTHING, Hits, Measures, Names
+from ..tracer.vector import Arrays, Bools, Floats, Index, Vectors, cross, gather, largest, parts
 from ..tracer.world import WorldTriangles, world_corners
-from .surfaces import Prepared, Surfaces
+from .arithmetic import check_assumptions
+from .quotient import Quotients
+from .surfaces import Surfaces
 
-PIXELS = 1 << 17  # whose surfaces are prepared together: what that takes is some MiB
+_LEAST = 2.0**-960  # of the sum of edge functions: far above what gradual underflow may lose
+TOGETHER = 1 << 13  # rays at a time: their temporaries stay in a core's cache
 
 
-class Measures:
-    """t and the barycentrics of a scene's frame, whose instances and triangles are `names` (h, w).
+class Prepared:
+    """Surfaces, prepared for rays that share an origin, a direction, or nothing.
 
-    These are the frame's own arrays, and may still be filled.
+    What belongs to the surfaces alone is computed once, for all rays.
     """
 
-    def __init__(self, scene: Scene, names: tuple[NDArray[np.int32], NDArray[np.int32]]) -> None:
-        self._scene, self._names = scene, names
-        self._height, self._width = names[0].shape
-        self._open = np.zeros(self._height, bool)  # rows that nobody has asked for yet
-        self._known = Measured.none()
+    def __init__(self, rays: Rays, surfaces: Surfaces) -> None:
+        corners = surfaces.triangles.corners
+        self._surfaces, self._names = surfaces, surfaces.names()
+        self._planes = len(surfaces.planes)
+        with np.errstate(all="ignore"):  # what overflows is not sure
+            self._quotients = Quotients.of(rays, corners, surfaces.planes)
+            self._edges, self._least = _edges(rays, corners)
 
-    @cached_property
-    def _values(self) -> Measure:
-        return _nothing(self._height, self._width)
+    def enter(
+        self, hits: Hits, at: Index, surface: Index, rays_at: Callable[[Index], Rays]
+    ) -> Iterator[None]:
+        """Enter what rays surely hit first into the hits with these numbers (p,), in small steps.
 
-    def enter(self, rows: slice, hits: Hits) -> None:
-        """Enter what is known of rows; what `LazyHits` do not know is found when asked for."""
-        if isinstance(hits, LazyHits):
-            ray = hits.known.ray + rows.start * self._width
-            self._known = Measured.joined((self._known, replace(hits.known, ray=ray)))
-        else:
-            self._values[:, rows] = np.vstack((hits.t, hits.s)).reshape(4, -1, self._width)
-        self._open[rows] = isinstance(hits, LazyHits)
-
-    def of(self, rows: slice) -> Measure:
-        """Return t, inf where nothing is hit, and barycentrics of k rows, (4, k, w)."""
-        for _ in self.steps(rows):
-            pass
-        return self._values[:, rows]
-
-    def steps(self, rows: slice) -> Iterator[None]:
-        """Find those of some rows that are not known yet, in small steps."""
-        first, last, _ = rows.indices(self._height)
-        together, names = max(1, PIXELS // self._width), [v.reshape(-1) for v in self._names]
-        for y in range(first, last, together):
-            some = y + np.flatnonzero(self._open[y : min(y + together, last)])
-            if len(some):
-                ray = (some[:, None] * self._width + np.arange(self._width)).ravel()
-                region = self._scene.camera.region
-                found = measured(self._scene, region, names, self._known, ray)
-                self._values[:, some] = found.reshape(4, -1, self._width)
-                self._open[some] = False
+        Integers divide where t or the barycentrics are not known well.
+        """
+        instance, triangle = self._names
+        unsure = [np.arange(0)]
+        for part in parts(len(at), TOGETHER):
+            own = at[part]
+            of = surface[part]
+            with np.errstate(all="ignore"):  # what overflows is not sure
+                hits.t[own], sure, s = self.meet(rays_at(own), of)
+            unsure.append(np.flatnonzero(~sure) + part.start)
+            for component, value in zip(hits.s, s, strict=True):
+                component[own] = value
+            hits.instance[own], hits.triangle[own] = instance.take(of), triangle.take(of)
             yield
+        which = np.concatenate(unsure)
+        if not len(which):
+            return
+        at = at[which]
+        batch, *pairs = self._surfaces.integers(rays_at(at), np.arange(len(at)), surface[which])
+        for ray, number, of in zip(at.tolist(), *pairs, strict=True):
+            hit = batch.hit(number, of)
+            assert hit, "the ray certainly hits it"
+            hits.t[ray] = batch.t(hit)
+            if np.isnan(hits.s[0, ray]):
+                hits.s[:, ray] = hit.weights
+
+    def meet(self, rays: Rays, surface: Index) -> tuple[Floats, Bools, Vectors]:
+        """Return t of p rays, whether it surely is rounded correctly, and the barycentrics."""
+        t, sure = self._quotients.meet(rays, surface)
+        row = np.maximum(surface - self._planes, 0) if self._planes else surface
+        s = self._weights(rays, row) if len(self._edges.T) else np.zeros((3, len(surface)))
+        if self._planes:
+            s[:, surface < self._planes] = 0
+        return t, sure & ~np.isnan(s[0]), s
+
+    def _weights(self, rays: Rays, row: Index) -> Vectors:
+        """Return e_bc, e_ca, e_ab as in `bounds.py`, divided by their sum; NaN if that is lost."""
+        edges = gather(self._edges, row).reshape(3, -1, 3, len(row))
+        products, least = edges[:, 0], self._least
+        if edges.shape[1] == 1:
+            products *= rays.directions
+        elif rays.directions.shape[1] == 1:
+            products -= rays.origins
+            products *= edges[:, 1]
+            least = gather(least, row)
+        else:
+            sides = [cross(corner - rays.origins, side) for corner, side in edges]
+            products = np.stack(sides) * rays.directions
+            least = _LEAST * (1 + largest(*np.abs(rays.directions)))
+        s = products[:, 0] + products[:, 1]
+        s += products[:, 2]
+        total = s[0] + s[1]
+        total += s[2]
+        size = np.abs(total)
+        known = (size > least) & (size < np.inf)
+        s /= total if known.all() else np.where(known, total, np.nan)
+        return s
 
 
-def _nothing(*shape: int) -> Measure:
-    """Return t and the barycentrics of rays of this shape that hit nothing."""
-    out = np.zeros((4, *shape))
-    out[0] = np.inf
-    return out
+def _edges(rays: Rays, corners: Floats) -> tuple[Floats, Floats]:
+    """Return what the edges bc, ca, ab of triangles (3, 3, m) are to all rays: (9 or 18, m).
+
+    And what a sum of edge functions must be above: as often as its last factor, which rays bound,
+    may underflow count.
+    """
+    count = corners.shape[2]
+    one_origin, shared = rays.origins.shape[1] == 1, rays.directions.shape[1] == 1
+    out = np.empty((3, 1 if one_origin else 2, 3, count))
+    for part in parts(count, TOGETHER):
+        for k in range(3):
+            first = corners[(k + 1) % 3, :, part]
+            side = corners[(k + 2) % 3, :, part] - first
+            if one_origin:
+                cross(first - rays.origins, side, out=out[k, 0, :, part])
+                continue
+            out[k, 0, :, part] = first
+            if shared:
+                cross(side, rays.directions, out=out[k, 1, :, part])
+            else:
+                out[k, 1, :, part] = side
+    last = np.abs(rays.directions if one_origin else rays.origins).max()
+    if not one_origin:
+        last = last + largest(*np.abs(corners).reshape(9, count))
+    return out.reshape(9 if one_origin else 18, count), _LEAST * (1 + last)
 
 
-def measured(
-    scene: Scene,
-    region: Region,
-    names: tuple[Index, Index],
-    known: Measured,
-    ray: Index,
-    dx: float = 0.0,
-    dy: float = 0.0,
-) -> Measure:
-    """Return t, the nearest float64, and the barycentrics of certified rays of a region, (4, k).
+@dataclass(frozen=True, eq=False)
+class Known(Arrays):
+    """t and barycentrics, (4, k), of k rays that were found with their surface; `ray` ascends."""
+
+    ray: NDArray[np.int64]
+    values: Measures
+
+    @classmethod
+    def none(cls) -> Known:
+        """Return those of no rays."""
+        return cls(np.zeros(0, np.int64), np.zeros((4, 0)))
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """Finds the measures of certified rays of a region when they are asked for.
 
     Parameters
     ----------
-    names : (NDArray, NDArray)
-        Instance and triangle that each of the region's rays surely sees, (n,), row by row.
-    known : Measured
-        Of rays that integers decided.
-    ray : (k,) int
-        The numbers of the rays that are asked about.
+    known : Known
+        The measures of rays that integers decided.
     dx, dy : float
-        Where each passes its pixel's centre.
-
-    Raises
-    ------
-    AssumptionError
-        If this process's arithmetic no longer is as the proof needs it.
+        Where each ray passes its pixel's centre, in pixels.
     """
-    check_assumptions()
-    values, names = _nothing(len(ray)), [gather(v, ray) for v in names]
-    hits = Hits(values[0], *np.full((2, len(ray)), NOTHING, np.int32), values[1:])
-    place = np.searchsorted(known.ray, ray)
-    given = np.append(known.ray, NOTHING)[place] == ray
-    values[:, given] = known.values[:, place[given]]
-    around = corner_rays(scene.camera, dx, dy)
 
-    def rays_at(index: Index) -> Rays:
-        return camera_rays(scene.camera, *film_positions(region, dx, dy, gather(ray, index)))
+    scene: Scene
+    region: Region
+    known: Known
+    dx: float = 0.0
+    dy: float = 0.0
 
-    rest = np.flatnonzero((names[0] != NOTHING) & ~given)
-    for part in parts(len(rest), PIXELS):
-        at = rest[part]
-        surfaces, surface = _surfaces(scene, *(gather(v, at) for v in names))
-        for _ in Prepared(around, surfaces).enter(hits, at, surface, rays_at):
-            pass
-    return values
+    def __call__(self, ray: Index, instance: Names, triangle: Names) -> Measures:
+        """Return t, the nearest float64, and the barycentrics of k rays, (4, k).
+
+        Parameters
+        ----------
+        ray : (k,) int
+            Their numbers in the region, row by row.
+        instance, triangle : (k,) int
+            The surface that each certainly sees.
+
+        Raises
+        ------
+        AssumptionError
+            If this process's arithmetic no longer is as the proof needs it.
+        """
+        check_assumptions()
+        hits = Hits.none(len(ray))
+        place = np.searchsorted(self.known.ray, ray)
+        given = np.append(self.known.ray, NOTHING)[place] == ray
+        hits.values[:, given] = self.known.values[:, place[given]]
+        camera = self.scene.camera
+        around = corner_rays(camera, self.dx, self.dy)
+
+        def rays_at(index: Index) -> Rays:
+            pixel = gather(ray, index)
+            return camera_rays(camera, *film_positions(self.region, self.dx, self.dy, pixel))
+
+        rest = np.flatnonzero((instance != NOTHING) & ~given)
+        for part in parts(len(rest), PIXELS):
+            at = rest[part]
+            surfaces, surface = _surfaces(self.scene, gather(instance, at), gather(triangle, at))
+            for _ in Prepared(around, surfaces).enter(hits, at, surface, rays_at):
+                pass
+        return hits.values
 
 
-def _surfaces(scene: Scene, instance: Index, triangle: Index) -> tuple[Surfaces, Index]:
+def _surfaces(scene: Scene, instance: Names, triangle: Names) -> tuple[Surfaces, Index]:
     """Return the surfaces of these names, (n,) each, and which of them each is."""
-    first, planes = len(scene.instances), [(p.point, p.normal) for p in scene.planes]
+    planes = Surfaces.planes_of(scene)
+    first = planes.first_plane
     which, row = _different(instance, triangle)
     of_mesh = gather(instance, which) < first
-    names = [gather(v, which[of_mesh]) for v in (instance, triangle)]
-    number = np.where(of_mesh, len(planes) - 1 + np.cumsum(of_mesh), instance[which] - first)
-    surfaces = Surfaces(planes, first, WorldTriangles(world_corners(scene, *names), *names))
-    return surfaces, gather(number, row)
+    own = which[of_mesh]
+    names = gather(instance, own), gather(triangle, own)
+    triangles = WorldTriangles(world_corners(scene, *names), *names)
+    on_mesh = len(planes.planes) - 1 + np.cumsum(of_mesh)
+    number = np.where(of_mesh, on_mesh, instance[which] - first)
+    return replace(planes, triangles=triangles), gather(number, row)
 
 
 def _different(instance: Index, triangle: Index) -> tuple[Index, Index]:

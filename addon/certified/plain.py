@@ -1,9 +1,8 @@
-"""The certified picture by its definition: each ray meets every triangle that it may come near.
+"""Finds the certified picture as `definition.py` says, with a filter: the ladder.
 
-In come a scene and a region of its camera's pixels; out go `Hits`, proven. Read from here
-downwards: `candidates` proposes pairs of a pixel and a triangle, and leaves out none that is hit.
-A `Contest` decides them: by error bounds (`bounds`) where these leave no doubt, else in integers
-(`exact`, `ties`, `order`; `settle` puts them together). `sweep/` finds the same sooner.
+For each tile of pixels, `candidates` proposes pairs of a pixel and a triangle, and leaves out none
+that is hit. The `Ladder` decides them: by error bounds where these leave no doubt, else by the
+order of depths, else in integers. `sweep/` finds the same sooner.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from ..tracer.camera import camera_rays, corner_rays, film_positions
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import Hits, Statistics
 from ..tracer.progress import Work
-from .contest import Contest
+from .ladder import Ladder
 
 if TYPE_CHECKING:
     from ..scene import Region, Scene
@@ -37,14 +36,14 @@ def plain(
 
     Parameters
     ----------
-    region
-        Of n pixels, within the camera's.
+    region : Region
+        n pixels within the camera's region.
     memory : int
-        Bytes that the pairs may take, about.
+        About how many bytes the pairs may take.
     dx, dy : float
         Where each ray passes its pixel's centre, in pixels; at most half a pixel.
-    statistics
-        To count in, if any.
+    statistics : Statistics, optional
+        To count in.
 
     Returns
     -------
@@ -58,12 +57,12 @@ def plain(
     for y in range(region.y0, region.y1, _ROWS):
         tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
         rays = camera_rays(scene.camera, *film_positions(tile, dx, dy))
-        contest = Contest.of(scene, rays, around)
+        ladder = Ladder.of(scene, rays, around)
         statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
         for share, pairs in candidates(plan, tile):
             if pairs is not None:
                 statistics.pairs_tested += len(pairs.pixel)
-                contest.enter(pairs)
+                ladder.test(pairs)
             yield share
-        found.append((yield from contest.hits(statistics)))
+        found.append((yield from ladder.hits(statistics)))
     return Hits.joined(found)

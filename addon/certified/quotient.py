@@ -1,4 +1,4 @@
-"""t = T / D of rays and surfaces that they surely hit, rounded to the nearest float64.
+"""Computes t = T / D of rays and surfaces that they surely hit, rounded to the nearest float64.
 
 T = (p - o) . n and D = d . n are sums of three products each. Vectors are split into a high half of
 25 digits and the rest (`halves`), so that what the high halves make is exact, and all else is some
@@ -28,10 +28,12 @@ own 2^-73.5 that is still within the e above: t is off by at most E = |t| (e_D /
 Where q + (c - E) and q + (c + E) are the same float, that is the nearest to t, as addition is
 monotone (Ziv's test). It takes an E < 2^-52 |t|: so V N (1 / |D| + 1 / |T|) < 2^20, and b < 1/8.
 
-This holds as long as nothing under- or overflows; where it might, e is inf. Source: Dekker, "A
-floating-point technique for extending the available precision", Numerische Mathematik 18, 1971;
-Ziv, "Fast evaluation of elementary mathematical functions with correctly rounded last bit", ACM
-TOMS 17, 1991; Knuth, "The art of computer programming", vol. 2, 4.2.2, theorem B.
+This holds as long as nothing under- or overflows; where it might, e is inf.
+
+References: Dekker, "A floating-point technique for extending the available precision", Numerische
+Mathematik 18, 1971. Ziv, "Fast evaluation of elementary mathematical functions with correctly
+rounded last bit", ACM TOMS 17, 1991. Knuth, "The art of computer programming", vol. 2, 4.2.2,
+theorem B. Theorems: `QuotientBinary.binary_from_point`, and so on.
 """
 
 from __future__ import annotations
@@ -39,31 +41,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..tracer.camera import Rays
-from ..tracer.vector import Floats, Vectors, cross, gather, largest, parts
+from ..tracer.vector import Bools, Floats, Index, Vectors, cross, gather, largest, parts
 
 _CHUNK = 1 << 13  # triangles prepared at a time: their temporaries stay in a core's cache
 _DOT = 2.0**-72
-_LEAST = 2.0**-950  # of what T and D are made of: below, products lose digits to underflow
-_MOST = 2.0**1000  # what is less has not overflown, and has an inverse of all digits
-_LOOSE = 1.01  # the bounds' own roundings
+_LEAST = 2.0**-950  # products of smaller numbers may lose digits to underflow
+_MOST = 2.0**1000  # a smaller number has not overflown, and its inverse has all digits
+_LOOSE = 1.01  # covers the roundings of the bounds themselves
 
 BITS = 25  # of the high halves that `halves` leaves
 _TOP = np.int64(-1 << 27)  # of a float's bits: sign, exponent, and the 26 highest digits
 _EXPONENT = np.int64(0x7FF << 52)
 
 Pair = tuple[Floats, Floats]  # high + low
+Sum = tuple[Floats, Floats, Floats]  # T or D: high + low, and the bound e on its error
 
 
 class Quotients:
-    """The planes of m surfaces, prepared for rays that share an origin, a direction, or nothing.
+    """The planes of m surfaces, for rays that share an origin, a direction, or nothing.
 
     Parameters
     ----------
     rays : Rays
-        That share what these share, and enclose them by component.
+        Rays that share the same, and enclose all others by component.
     count : int
         m.
     """
@@ -71,21 +73,25 @@ class Quotients:
     def __init__(self, rays: Rays, count: int) -> None:
         self._one_origin = rays.origins.shape[1] == 1
         self._one_direction = rays.directions.shape[1] == 1
-        self._origin, self._direction = rays.origins[:, :1], rays.directions[:, :1]
+        self._origin = rays.origins[:, :1]
+        self._direction = rays.directions[:, :1]
         apart = rays.directions if self._one_origin else rays.origins - self._origin
         self._unit = power_above(np.abs(apart).max(axis=1))
-        # n in halves; then of T and D, as far as all rays share them, two floats and e of each.
+        # The halves of n; then high, low and e of T and D, as far as all rays share them.
         folded = self._one_direction and not self._one_origin
         self._table = np.empty((12 if folded else 10, count))
 
     @classmethod
-    def of(cls, rays: Rays, corners: NDArray[np.float64], planes: Sequence = ()) -> Quotients:
+    def of(
+        cls, rays: Rays, corners: Vectors, planes: Sequence[tuple[Floats, Floats]] = ()
+    ) -> Quotients:
         """Prepare infinite planes, (point, normal) each, then triangles, corners (3, 3, m)."""
         first = len(planes)
         out = cls(rays, first + corners.shape[2])
         if planes:
-            point, normal = (np.array(v, np.float64).T for v in zip(*planes, strict=True))
-            out._enter(out._table[:, :first], point, (normal, np.zeros_like(normal)), 0.0)
+            points = np.array([point for point, _ in planes], np.float64).T
+            normals = np.array([normal for _, normal in planes], np.float64).T
+            out._enter(out._table[:, :first], points, (normals, np.zeros_like(normals)), 0.0)
         for part in parts(corners.shape[2], _CHUNK):
             a, b, c = corners[..., part]
             normal, error = _cross(two_sum(b, -a), two_sum(c, -a))
@@ -93,17 +99,17 @@ class Quotients:
             out._enter(out._table[:, first:][:, part], a, normal, error)
         return out
 
-    def _enter(
-        self, table: NDArray[np.float64], point: Vectors, normal: Pair, error: Floats | float
-    ) -> None:
-        """Fill the columns of k planes: a point (3, k) each, the normals, and M."""
+    def _enter(self, table: Floats, point: Vectors, normal: Pair, error: Floats | float) -> None:
+        """Fill the columns of k planes, with a point (3, k), the normal and M of each."""
         unit = power_above(normal[0])
         both = np.empty((6, len(unit)))
         both[:3], both[3:] = halves(normal[0], unit)
         both[3:] += normal[1]
-        table[:6], size = both, unit + 3 * error
+        table[:6] = both
+        size = unit + 3 * error
         if not (self._one_origin or self._one_direction):
-            table[6], table[7:] = size, point
+            table[6] = size
+            table[7:] = point
             return
         arm, rest = two_sum(point, -self._origin)
         reach = power_above(arm)
@@ -117,27 +123,31 @@ class Quotients:
             table[9], table[10] = _dot(self._direction, 0.0, along, table[:6].copy())
             table[11] = _error(along, size)
 
-    def meet(self, rays: Rays, surface: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
+    def meet(self, rays: Rays, surface: Index) -> tuple[Floats, Bools]:
         """Return t of p rays with surfaces, and whether it surely is the nearest float64."""
         table = gather(self._table, surface)
-        normal, rest = table[:6], table[6:]
+        normal = table[:6]
+        rest = table[6:]
         if self._one_origin:
             under = _dot(rays.directions, 0.0, self._unit, normal)
-            return _quotient(rest[:3], (*under, rest[3]))
+            return _quotient((rest[0], rest[1], rest[2]), (*under, rest[3]))
         if self._one_direction:
             exact, small = _dot(*two_sum(rays.origins, -self._origin), self._unit, normal)
             high, low = two_sum(rest[0], -exact)
-            return _quotient((high, low + (rest[1] - small), rest[2]), rest[3:])
+            over = high, low + (rest[1] - small)
+            return _quotient((*over, rest[2]), (rest[3], rest[4], rest[5]))
         arm, low = two_sum(rest[1:], -rays.origins)
-        reach, along = power_above(arm), power_above(rays.directions)
+        reach = power_above(arm)
+        along = power_above(rays.directions)
         over = _dot(arm, low, reach, normal.copy())
         under = _dot(rays.directions, 0.0, along, normal)
         return _quotient((*over, _error(reach, rest[0])), (*under, _error(along, rest[0])))
 
 
-def _dot(v: Vectors, rest: Vectors | float, unit: Floats, normal: NDArray[np.float64]) -> Pair:
-    """Return (v + rest) . n, for |v| < `unit`; takes the halves of n (6, k), which are lost."""
-    high, low = normal[:3], normal[3:]
+def _dot(v: Vectors, rest: Vectors | float, unit: Floats, normal: Vectors) -> Pair:
+    """Return (v + rest) . n for |v| < `unit`; `normal` (6, k), the halves of n, is overwritten."""
+    high = normal[:3]
+    low = normal[3:]
     coarse, fine = halves(v, unit)
     fine += rest
     x, y, z = coarse * high
@@ -153,7 +163,7 @@ def _dot(v: Vectors, rest: Vectors | float, unit: Floats, normal: NDArray[np.flo
 
 
 def _error(unit: Floats, size: Floats) -> Floats:
-    """Return e of scalar products from V and N + 3 M; inf where digits may be lost."""
+    """Return e of scalar products, given V and N + 3 M; inf where digits may be lost."""
     error = unit * size
     return np.where((error > _LEAST) & (error < _MOST), error * _DOT, np.inf)
 
@@ -169,14 +179,16 @@ def _cross(u: Pair, v: Pair) -> tuple[Pair, Floats]:
     return two_sum(cross(uh, vh), small), units[0] * units[1]
 
 
-def _quotient(numerator: Sequence, denominator: Sequence) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return T / D as a float64, and whether no other is as near; T and D are T1, T2, e_T, ..."""
-    (high, low, high_error), (under, rest, under_error) = numerator, denominator
+def _quotient(numerator: Sum, denominator: Sum) -> tuple[Floats, Bools]:
+    """Return T / D, rounded, and whether it surely is the nearest float64."""
+    high, low, high_error = numerator
+    under, rest, under_error = denominator
     inverse = under + rest
     np.divide(1.0, inverse, out=inverse)
     first = high + low
     first *= inverse
-    near, top = highest(first), highest(under)
+    near = highest(first)
+    top = highest(under)
     left = high - near * top
     left -= near * (under - top)
     left += low - near * rest
@@ -194,7 +206,7 @@ def _quotient(numerator: Sequence, denominator: Sequence) -> tuple[Floats, NDArr
 
 
 def two_sum(a: Floats, b: Floats) -> Pair:
-    """Return a + b without error, as a float and the rest that it leaves."""
+    """Return a + b exactly, as the rounded sum and its rounding error."""
     total = a + b
     part = total - a
     rest = total - part
@@ -205,13 +217,13 @@ def two_sum(a: Floats, b: Floats) -> Pair:
 
 
 def power_above(v: Floats) -> Floats:
-    """Return the power of two above the largest component of vectors (3, n); 0 of zero."""
+    """Return the power of two above the largest |component| of vectors (3, n); 0 for zero."""
     size = largest(*np.abs(v))
     return (size.view(np.int64) & _EXPONENT).view(np.float64) * 2.0
 
 
 def halves(v: Floats, unit: Floats) -> Pair:
-    """Return v as a multiple of unit * 2^-BITS and the rest, for |v| <= unit, a power of two.
+    """Split v into a multiple of unit * 2^-BITS and the rest, for |v| <= unit, a power of two.
 
     Three products of two such multiples, and sums of them, are exact: they have at most 52 digits.
     """
@@ -222,5 +234,5 @@ def halves(v: Floats, unit: Floats) -> Pair:
 
 
 def highest(a: Floats) -> Floats:
-    """Return the 26 highest digits of floats: what they leave has 27."""
+    """Return floats with their 26 highest digits; the rest has 27."""
     return (a.view(np.int64) & _TOP).view(np.float64)

@@ -1,49 +1,45 @@
-"""Why the error bound did not decide, in words that a user understands."""
+"""Says in words why an error bound did not decide a pair of a ray and a surface."""
 
 from __future__ import annotations
 
-from enum import Enum
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..certainty import Reason
 from ..tracer.camera import Rays
-from ..tracer.vector import cross, largest
+from ..tracer.vector import Floats, Vectors, cross, largest
 from .bounds import BOUND, SLACK
+from .exact import Hit, sign_of_difference
+from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
 
-
-class Reason(Enum):
-    """What about a ray and a surface needed exact arithmetic."""
-
-    EDGE = "meet an edge or a corner exactly"
-    NEAR_EDGE = "pass an edge within rounding error"
-    FAR = "meet triangles that are tiny for their distance from the camera"
-    THIN = "meet slivers: triangles that are tiny in height for their length"
-    EDGE_ON = "meet surfaces that are seen edge-on"
-    COPLANAR = "meet surfaces that lie exactly in one plane"
-    CLOSE = "meet surfaces closer behind one another than float64 can tell"
-    CLIP = "meet a surface within rounding error of the clip range's ends"
-    EXTREME = "have numbers near the limits of float64"
-
-
-# Below this ratio a property is nothing unusual: it costs three of float64's sixteen digits.
+# A ratio below this is ordinary: it costs three of float64's sixteen digits.
 _ORDINARY = 1e3
 
 
-def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
-    """Return for n rays, each in doubt of a triangle's edge (3, 3, n), what is unusual about it."""
+def of_doubts(rays: Rays, corners: Vectors) -> list[Reason]:
+    """Return why the bound did not decide n pairs: what is unusual about the ray and the triangle.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays.
+    corners : (3, 3, n) float64
+        Corner, component, triangle: that of each ray.
+    """
     a, b, c = corners
     with np.errstate(all="ignore"):
         sides = [_length(side) for side in (b - a, c - b, a - c)]
         longest = largest(*sides)
-        normal = cross((b - a) / longest, (c - a) / longest)  # by units, lest it underflow
+        normal = cross((b - a) / longest, (c - a) / longest)  # does not underflow
         height = _length(normal)
-        speed, distance = _length(rays.directions), _length(a - rays.origins)
+        speed = _length(rays.directions)
+        distance = _length(a - rays.origins)
         d = rays.directions / speed
         cosine = np.abs(d[0] * normal[0] + d[1] * normal[1] + d[2] * normal[2]) / height
         ratios = np.stack((distance / longest, 1 / height, 1 / cosine))
         ratios = np.nan_to_num(ratios, nan=np.inf)
-        # Of e, T and D: beyond these, it is not the digits that are too few, but the exponent.
+        # The sizes of e, T and D: beyond these ends not digits are too few, but exponents.
         sizes = longest * np.stack((speed * distance, distance * longest, speed * longest))
         extreme = ~((sizes > SLACK / BOUND) & (sizes < np.inf)).all(axis=0)
     found = np.array([Reason.FAR, Reason.THIN, Reason.EDGE_ON])[ratios.argmax(axis=0)]
@@ -52,18 +48,44 @@ def of_doubts(rays: Rays, corners: NDArray[np.float64]) -> list[Reason]:
     return found.tolist()
 
 
-def sentences(pairs: int, counts: dict[Reason, int]) -> list[str]:
-    """Return what the scene required, a fact a line: the whole, then each reason with its count."""
-    exact = sum(counts.values())
-    if not exact:
-        return [f"all of {pairs:,} pairs of a ray and a surface were decided by the error bound"]
-    named = sorted((r for r in Reason if counts.get(r)), key=lambda r: -counts[r])
-    return [
-        f"{exact:,} of {pairs:,} pairs of a ray and a surface (one in {pairs / exact:,.0f}) "
-        "needed exact arithmetic: rays that",
-        *(f"  {reason.value}: {counts[reason]:,}" for reason in named),
-    ]
-
-
-def _length(v: NDArray) -> NDArray:
+def _length(v: Vectors) -> Floats:
+    """Return the largest |component| of vectors (3, n)."""
     return np.abs(v).max(axis=0)
+
+
+def reasons(
+    found: Candidates,
+    met: Sequence[Hit | None],
+    firsts: Sequence[Hit | None],
+    rays: Rays,
+    surfaces: Surfaces,
+) -> list[Reason]:
+    """Return why candidates were not decided by the error bound, one reason for each that was not.
+
+    Parameters
+    ----------
+    found : Candidates
+        c candidates.
+    met, firsts : (c,) sequences
+        The hit on each candidate, and the hit that its ray sees, in exact arithmetic.
+    """
+    out, unusual = [], []
+    planes = len(surfaces.planes)
+    for k, (hit, first) in enumerate(zip(met, firsts, strict=True)):
+        doubt = found.doubt[k]
+        if doubt == SURE:  # a hit, but the bounds do not tell whether it is the nearest
+            if hit is not first:
+                same = hit and first and sign_of_difference(hit, first) == 0
+                out.append(Reason.COPLANAR if same else Reason.CLOSE)
+        elif doubt == EDGE and hit and hit.on_edge:
+            out.append(Reason.EDGE)
+        elif found.surface[k] < planes:
+            out.append(Reason.CLIP if doubt == CLIP else Reason.EDGE_ON)
+        else:
+            unusual.append(k)
+    which = np.array(unusual, np.intp)
+    corners = surfaces.triangles.corners.take(found.surface[which] - planes, axis=2)
+    properties = of_doubts(rays.take(found.ray[which]), corners)
+    for doubt, reason in zip(found.doubt[which], properties, strict=True):
+        out.append(Reason.CLIP if doubt == CLIP and reason != Reason.EXTREME else reason)
+    return out

@@ -1,47 +1,49 @@
-"""The two roundings before the proof, of rays and of corners: their bounds, and what they decide.
+"""Bounds the two roundings before the proof, and counts the pixels that they change.
 
-What is proven is proven of stored rays and corners. The camera's own rays, x right + y up + forward
-for a pixel's centre, and world_from_object . vertex may be other numbers: fractions.
+Rays and corners are rounded before they are stored, and the proof is about what is stored.
+Unrounded, the camera's own rays, x right + y up + forward for a pixel's centre, and
+world_from_object . vertex are fractions, which may be other numbers.
 """
 
 from __future__ import annotations
 
 from copy import copy
 from dataclasses import replace
-from fractions import Fraction
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..certainty import check_assumptions
 from ..scene import SceneError, ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import NOTHING, Hits, Name
-from ..tracer.vector import Index, rational
+from ..tracer.vector import Floats, Index, Vectors, rational
 from ..tracer.world import reaches, world_corners
+from .arithmetic import check_assumptions
 from .bounds import BOUND
-from .contest import Contest
-from .settle import BY_INTEGERS, Decisions, by_ray
+from .ladder import BY_INTEGERS, Decisions, Ladder
 from .surfaces import Candidates, Surfaces
 
 if TYPE_CHECKING:
-    from ..scene import Scene
+    from ..scene import Region, Scene
     from ..tracer.frame import Frame
     from ..tracer.progress import Work
 
-# Roundings on the longest path and one for the bound's own: of a ray four for x, a product and two
-# sums; of a corner a product and three sums. The last is far above what gradual underflow may lose.
-_RAY, _CORNER, _SLACK = 8 * 2.0**-53, 5 * 2.0**-53, 2.0**-1060
+# The roundings on the longest path, and one for the bound itself. A ray has four for x, a product
+# and two sums.
+_RAY = 8 * 2.0**-53
+_CORNER = 5 * 2.0**-53  # a product and three sums
+_SLACK = 2.0**-1060  # far above what gradual underflow may lose
 _ROWS = 32  # of a tile
 
 
 class Rounding(NamedTuple):
-    """Bounds for all of a picture in float64; the lengths are sums over x, y and z."""
+    """Bounds for a whole picture; lengths are sums over x, y and z."""
 
-    ray: float  # of a direction; of parallel rays, an origin, metres
-    corner: float  # metres
-    pixels: float  # how far a ray passes its pixel's centre
+    ray: float  # of the error of a direction; for parallel rays, of an origin, in metres
+    corner: float  # of the error of a corner, in metres
+    pixels: float  # how far from its pixel's centre a ray passes
 
     def __str__(self) -> str:
         moved = f"rays by at most {self.pixels:.1g} px, corners by at most {self.corner:.1g} m"
@@ -50,97 +52,179 @@ class Rounding(NamedTuple):
 
 @np.errstate(over="ignore", invalid="ignore")  # what overflows has no bound
 def rounding(scene: Scene) -> Rounding:
-    """Return the bounds of a scene's picture."""
-    camera, w = scene.camera, scene.camera.window
-    x, y = abs(w.left) + abs(w.right), abs(w.bottom) + abs(w.top)
+    """Bound how far rounding moves the rays and corners of a scene."""
+    camera = scene.camera
+    w = camera.window
+    x = abs(w.left) + abs(w.right)
+    y = abs(w.bottom) + abs(w.top)
     frame = np.stack((camera.right, camera.up, camera.forward, camera.origin))
     ray = _RAY * camera.projection.terms(x, y, frame) + _SLACK
-    aside = (np.abs(dual_axes(camera)) * ray).sum(axis=1).max()
+    aside = np.max((np.abs(dual_axes(camera)) * ray).sum(axis=1))
     pixels = aside * camera.projection.slant(max(x, y)) / min(pixel_size(camera))
-    corner = (_CORNER * reaches(scene) + _SLACK).sum(axis=0).max(initial=0.0)
+    corner = np.max((_CORNER * reaches(scene) + _SLACK).sum(axis=0), initial=0.0)
     return Rounding(float(ray.sum()), float(corner), float(pixels))
 
 
 def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
-    """Return in how many pixels another surface would be seen had nothing been rounded, in words.
+    """Count the pixels that would show another surface if nothing had been rounded; in words.
 
-    A SceneError says that rounding may move what is seen first behind the eye, or that the camera's
-    rays are no fractions.
+    Bounds that hold for all moved rays and corners decide most pixels. Fractions decide the others.
+
+    Raises
+    ------
+    SceneError
+        If rounding may move what is seen first behind the eye, or rays are no fractions.
     """
     check_assumptions()
-    if not scene.camera.projection.is_linear:
+    camera = scene.camera
+    if not camera.projection.is_linear:
         raise SceneError(
-            f"The unrounded rays of an {scene.camera.projection.name} camera are sines and "
-            "cosines, which no fractions are: --check-rounding is for other cameras."
+            f"The unrounded rays of an {camera.projection.name} camera are sines and cosines, "
+            "which no fractions are: --check-rounding is for other cameras."
         )
-    off, camera, asked, others, cracks = rounding(scene), scene.camera, 0, [], {}
-    # By how much depths may be other ones; and rays beside themselves, as a moved corner moves no
-    # point of its triangle farther than itself, and nothing that is seen by more than at the least
-    # depth. All is twice that, as these are rounded, too.
-    axes, projection = np.abs(dual_axes(camera)).sum(axis=1).max(), camera.projection
-    along = 2 * (off.ray + off.corner) * axes
-    ends = {"clip_start": camera.clip_start - along, "clip_end": camera.clip_end + along}
-    loose, r = scene.seen_by(replace(camera, **ends)), camera.region
-    aside = 2 * (off.ray + off.corner / projection.scale(loose.camera.clip_start))
-    reach = aside * axes * projection.slant(np.abs([*vars(camera.window).values()]).max())
-    names = [f"'{scene.objects[s.object]}' (instance {i})" for i, s in enumerate(scene.instances)]
-    stored = np.stack((frame.instance_index, frame.triangle_index))
-    plan = yield from cull(loose, np.dtype(float), 1 << 26, reach / min(pixel_size(camera)))
-    # A bound for rays that are as far apart as this is one for those beside these.
-    shared, ends = corner_rays(camera), np.array((-1, 1)).repeat(4) * aside / BOUND
-    around = Rays(*(v if len(v.T) == 1 else np.tile(v, 2) + ends for v in vars(shared).values()))
-    for y in range(r.y0, r.y1, _ROWS):
-        tile = replace(r, y0=y, y1=min(y + _ROWS, r.y1))
+    region = camera.region
+    loose, aside, reach = _loosened(scene)
+    plan = yield from cull(loose, np.dtype(float), 1 << 26, reach)
+    around = _around(corner_rays(camera), aside)
+    found = _Found(scene, np.stack((frame.instance_index, frame.triangle_index)))
+    for y in range(region.y0, region.y1, _ROWS):
+        tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
         film = film_positions(tile)
-        contest = Contest.of(scene, camera_rays(camera, *film), around, aside)
+        ladder = Ladder.of(scene, camera_rays(camera, *film), around, aside)
         for _, pairs in candidates(plan, tile):
             if pairs:
-                contest.enter(pairs)
-        found, clear, surfaces = contest.left()
-        shown = stored[:, y - r.y0 : tile.y1 - r.y0].reshape(2, -1)
-        for part in by_ray(found.take(np.flatnonzero(~clear)), BY_INTEGERS):
-            rays, own = _unrounded(scene, film, part, surfaces)
-            asked += len(rays)
-            for k in np.flatnonzero((own != shown[:, rays]).any(axis=0)).tolist():
-                one, instead = (tuple(v.tolist()) for v in (own[:, k], shown[:, rays[k]]))
-                others.append((int(r.x0 + rays[k] % r.width), int(y + rays[k] // r.width)))
-                near = surfaces.names(part.surface[part.ray == rays[k]])
-                for other in zip(*(v.tolist() for v in near), strict=True):
-                    if instead not in (one, other) and _parts(scene, one, other):
-                        first, second = (names[i] for i in sorted((one[0], other[0])))
-                        both = f"{first} and {second} share an edge, but rounding parts it"
-                        cracks.setdefault(both, f"the ray of pixel {others[-1]} passes between")
-        yield (tile.y1 - r.y0) / r.height
-    at = f", as at {others[0]}" if others else ""
-    count = f"{len(others):,} of {stored[0].size:,} pixels would show another surface unrounded"
-    lines = [f"a crack: {both}: {where}" for both, where in cracks.items()]
-    return [f"{count}{at} ({asked:,} were asked exactly)", *lines]
+                ladder.test(pairs)
+        left, clear, surfaces = ladder.left()
+        for part in left.take(np.flatnonzero(~clear)).by_ray(BY_INTEGERS):
+            ray, seen = _unrounded(scene, film, part, surfaces)
+            found.enter(tile, ray, seen, part, surfaces)
+        yield (tile.y1 - region.y0) / region.height
+    return found.lines()
 
 
-def _unrounded(scene: Scene, film, found: Candidates, surfaces: Surfaces) -> tuple[Index, Index]:
-    """Return the rays of these candidates, (n,), and what they meet unrounded: names, (2, n)."""
-    camera, (which, ray) = copy(scene.camera), np.unique(found.ray, return_inverse=True)
-    window = ViewWindow(*map(Fraction, vars(camera.window).values()))
+def _loosened(scene: Scene) -> tuple[Scene, float, float]:
+    """Return a scene whose clip range has room for rounding, and how far rays may be moved.
+
+    Rays are moved by a length at the least depth that is seen, and by pixels. Moving a corner moves
+    no point of its triangle farther than itself: it counts as moving the ray. All is twice the
+    bound, as the moved numbers are rounded, too.
+    """
+    camera = scene.camera
+    w = camera.window
+    off = rounding(scene)
+    axes = float(np.max(np.abs(dual_axes(camera)).sum(axis=1)))
+    along = 2 * (off.ray + off.corner) * axes  # how far a depth is moved
+    start = camera.clip_start - along
+    loose = scene.seen_by(replace(camera, clip_start=start, clip_end=camera.clip_end + along))
+    aside = 2 * (off.ray + off.corner / camera.projection.scale(loose.camera.clip_start))
+    slant = camera.projection.slant(max(abs(w.left), abs(w.right), abs(w.bottom), abs(w.top)))
+    return loose, aside, aside * axes * slant / min(pixel_size(camera))
+
+
+def _around(rays: Rays, aside: float) -> Rays:
+    """Return rays so far around others that error bounds for them hold for rays moved aside, too.
+
+    An error bound is at least BOUND times the largest components.
+    """
+    ends = np.array((-1, 1)).repeat(4) * aside / BOUND
+
+    def widened(vectors: Vectors) -> Vectors:
+        return vectors if vectors.shape[1] == 1 else np.tile(vectors, 2) + ends
+
+    return Rays(widened(rays.origins), widened(rays.directions))
+
+
+class _Found:
+    """The pixels that would show another surface; `stored` (2, h, w) is what they show."""
+
+    def __init__(self, scene: Scene, stored: NDArray[np.int32]) -> None:
+        self._scene = scene
+        self._stored = stored
+        self._asked = 0
+        self._others: list[tuple[int, int]] = []
+        self._cracks: dict[str, str] = {}
+
+    def enter(
+        self, tile: Region, ray: Index, seen: Index, near: Candidates, surfaces: Surfaces
+    ) -> None:
+        """Compare what rays of a tile see unrounded, (2, n), with what is stored.
+
+        `near` are all surfaces that these rays come near.
+        """
+        region = self._scene.camera.region
+        rows = slice(tile.y0 - region.y0, tile.y1 - region.y0)
+        shown = self._stored[:, rows].reshape(2, -1)[:, ray]
+        self._asked += len(ray)
+        for k in np.flatnonzero((seen != shown).any(axis=0)).tolist():
+            own = int(ray[k])
+            pixel = region.x0 + own % region.width, tile.y0 + own // region.width
+            self._others.append(pixel)
+            instance, triangle = surfaces.names(near.surface[near.ray == own])
+            for other in zip(instance.tolist(), triangle.tolist(), strict=True):
+                self._enter_crack(pixel, _name(seen[:, k]), _name(shown[:, k]), other)
+
+    def _enter_crack(self, pixel: tuple[int, int], seen: Name, shown: Name, other: Name) -> None:
+        """Note a crack if the ray passes between two triangles that share an edge unrounded."""
+        if shown in (seen, other) or not _is_crack(self._scene, seen, other):
+            return
+        first, second = sorted((seen[0], other[0]))
+        both = f"{self._called(first)} and {self._called(second)} share an edge"
+        crack = f"{both}, but rounding parts it"
+        self._cracks.setdefault(crack, f"the ray of pixel {pixel} passes between")
+
+    def _called(self, instance: int) -> str:
+        name = self._scene.objects[self._scene.instances[instance].object]
+        return f"'{name}' (instance {instance})"
+
+    def lines(self) -> list[str]:
+        """Return what was found, in words."""
+        at = f", as at {self._others[0]}" if self._others else ""
+        total = self._stored[0].size
+        count = f"{len(self._others):,} of {total:,} pixels would show another surface unrounded"
+        cracks = [f"a crack: {both}: {where}" for both, where in self._cracks.items()]
+        return [f"{count}{at} ({self._asked:,} were asked exactly)", *cracks]
+
+
+def _name(column: Index) -> Name:
+    return int(column[0]), int(column[1])
+
+
+def _unrounded(
+    scene: Scene, film: tuple[Floats, Floats], found: Candidates, surfaces: Surfaces
+) -> tuple[Index, Index]:
+    """Return the rays of these candidates, (n,), and what they see in fractions: names, (2, n)."""
+    which, ray = np.unique(found.ray, return_inverse=True)
+    camera = copy(scene.camera)
+    w = camera.window
+    window = ViewWindow(*rational((w.left, w.right, w.bottom, w.top)))
+    # Not by `replace`: a camera of fractions is refused when it is made.
     vars(camera).update(window=window, world_from_camera=rational(camera.world_from_camera))
-    unit = 4 * camera.width * camera.height  # of lengths: denominators are powers of two
-    rays = camera_rays(camera, *(rational(v[which]) for v in film), object)
-    rays, hits = Rays(*(v * unit for v in vars(rays).values())), Hits.none(len(which))
+    unit = 4 * camera.width * camera.height  # of lengths: denominators are then powers of two
+    px, py = film
+    exact = camera_rays(camera, rational(px[which]), rational(py[which]), object)
+    rays = Rays(exact.origins * unit, exact.directions * unit)
     some, surface = surfaces.only(found.surface)
     corners = world_corners(scene, some.triangles.instance, some.triangles.triangle, object)
     planes = [(rational(point) * unit, normal) for point, normal in some.planes]
     triangles = replace(some.triangles, corners=corners * unit)
     some = replace(some, planes=planes, triangles=triangles)
-    exact = Decisions(hits, rays, some, (camera.clip_start, camera.clip_end), rays)
-    exact.by_integers(replace(found, ray=ray, surface=surface))
+    hits = Hits.none(len(which))
+    decisions = Decisions(hits, rays, some, (camera.clip_start, camera.clip_end), rays)
+    decisions.by_integers(replace(found, ray=ray, surface=surface))
     return which, np.stack((hits.instance, hits.triangle))
 
 
-def _parts(scene: Scene, one: Name, other: Name) -> bool:
-    """Return whether triangles of two instances share an edge, but not as they are stored."""
+def _is_crack(scene: Scene, one: Name, other: Name) -> bool:
+    """Return whether triangles of two instances share an edge unrounded, but not as stored."""
+    if one[0] == other[0] or NOTHING in (one[1], other[1]):
+        return False
+    unrounded = _shared_corners(scene, one, other, object)
+    return unrounded == 2 and _shared_corners(scene, one, other, float) < 2
 
-    def shared(dtype: type) -> int:
-        corners = world_corners(scene, *np.array((one, other)).T, dtype).transpose(2, 0, 1)
-        return len(set.intersection(*(set(map(tuple, corner)) for corner in corners.tolist())))
 
-    whole = one[0] != other[0] and NOTHING not in (one[1], other[1])
-    return whole and shared(object) == 2 > shared(float)
+def _shared_corners(scene: Scene, one: Name, other: Name, dtype: type) -> int:
+    """Count the corners that two triangles have in common in world space."""
+    instance, triangle = np.array((one, other)).T
+    corners = world_corners(scene, instance, triangle, dtype).transpose(2, 0, 1).tolist()
+    first, second = ({tuple(corner) for corner in of_one} for of_one in corners)
+    return len(first & second)

@@ -1,6 +1,7 @@
-"""What one ray sees of all that it meets; and what else it may be said to see, where that is open.
+"""Decides which of its exact hits one ray sees by the rule, and which others tie with it.
 
-In come exact hits, in integers (`exact.py`); out goes the nearest by the rule, and the ties.
+The rule moves the ray infinitesimally (`exact.py`). Ties are what the ray may see if it is moved in
+another way. Theorems: `Ties.v`, `Fans.fan_rule`.
 """
 
 from __future__ import annotations
@@ -10,20 +11,20 @@ from functools import cmp_to_key
 from math import gcd
 
 from ..tracer.hits import NOWHERE, Name
-from .exact import PERTURBATION, Hit, Integers, Moves, crossing, gap, sign_of_difference, turning
+from .exact import PERTURBATION, Hit, Moves, crossing, gap, sign_of_difference, turning
+from .integers import Integers
 
 
 def seen_and_ties(hits: Sequence[tuple[Name, Hit]]) -> tuple[int, frozenset[Name]]:
-    """Return which of these hits of one ray is seen, and whatever else may be.
+    """Return which hit of one ray is seen, and all that the ray may see if its answer is ambiguous.
 
     Returns
     -------
     seen : int
-        Index of the one that the rule sees; -1 for nothing.
+        Index of the hit that the rule sees; -1 for none.
     ties : frozenset of names
-        Where the ray as it is meets an edge, a corner, or two surfaces at once before anything
-        else, all that one moved infinitesimally may see, NOWHERE for nothing; empty where the
-        answer is the only one.
+        Ambiguous is a ray that, not moved, first hits an edge, a corner, or two surfaces at once.
+        Then these are all surfaces that a moved ray may see, NOWHERE for none; else it is empty.
     """
     seen = _first(hits, PERTURBATION)
     inside = [m for _, m in hits if not m.on_edge]
@@ -42,25 +43,17 @@ def seen_and_ties(hits: Sequence[tuple[Name, Hit]]) -> tuple[int, frozenset[Name
 
 
 def _ways(hits: Sequence[Hit]) -> list[Integers]:
-    """Return ways to move their ray, one for each answer that it may have.
+    """Return ways to move the ray of these hits, one for each answer that it may have.
 
-    The answer changes where the moved ray meets an edge that the ray itself meets, or the line in
-    which two surfaces cross that it meets there: lines through one point, seen along the ray. There
-    is a way between every two that follow one another. What coincides has them once, not for each.
+    The answer changes where the moved ray crosses an edge that the ray hits, or the line in which
+    two surfaces intersect at the hit. Seen along the ray, these are lines through one point, so
+    that one way between every two neighbours is enough.
     """
-    lines, planes = [], {}
-    for hit in hits:
-        edges = zip(hit.edges, hit.sides, hit.spans, strict=True)
-        lines += [(m, span) for e, m, span in edges if e == 0]
-        plane = _reduced(*hit.normal, hit.numerator)
-        planes.setdefault(max(plane, tuple(-v for v in plane)), hit)
-    planes = list(planes.values())
-    for k, hit in enumerate(planes):
-        lines += [crossing(hit, other) for other in planes[:k] if gap(hit, other) == 0]
     d = hits[0].direction
-    lines = [turning(*line, d) for line in lines]
-    along = max(range(3), key=lambda axis: abs(d[axis]))  # not needed: moves along d change nothing
-    x, y = (along + 1) % 3, (along + 2) % 3
+    along = max(range(3), key=lambda axis: abs(d[axis]))  # moves along d change nothing
+    x = (along + 1) % 3
+    y = (along + 2) % 3
+    lines = [turning(m, span, d) for m, span in _lines(hits)]
     found = {_reduced(-s * m[y], s * m[x]) for m in lines if m[x] or m[y] for s in (1, -1)}
     rays = sorted(found, key=cmp_to_key(_by_angle))
     out = []
@@ -69,25 +62,44 @@ def _ways(hits: Sequence[Hit]) -> list[Integers]:
         turn = ux * vy - uy * vx
         if turn > 0:
             between = ux + vx, uy + vy
-        elif turn == 0 and ux * vx + uy * vy < 0:  # opposite one another
+        elif turn == 0 and ux * vx + uy * vy < 0:  # opposite directions
             between = -uy, ux
         else:
             continue
         move = [0, 0, 0]
         move[x], move[y] = between
-        out.append(tuple(move))
+        out.append((move[0], move[1], move[2]))
     return out
 
 
+def _lines(hits: Sequence[Hit]) -> list[tuple[Integers, Integers]]:
+    """Return where the answer changes: edges, and intersections of different planes, as (m, span).
+
+    Hits in one plane have their intersections with others once, not for each hit.
+    """
+    lines = []
+    in_plane: dict[tuple[int, ...], Hit] = {}
+    for hit in hits:
+        edges = zip(hit.edges, hit.sides, hit.spans, strict=True)
+        lines += [(m, span) for e, m, span in edges if e == 0]
+        plane = _reduced(*hit.normal, hit.numerator)
+        in_plane.setdefault(max(plane, tuple(-v for v in plane)), hit)
+    planes = list(in_plane.values())
+    for k, hit in enumerate(planes):
+        lines += [crossing(hit, other) for other in planes[:k] if gap(hit, other) == 0]
+    return lines
+
+
 def _reduced(*vector: int) -> tuple[int, ...]:
-    """Return the least integers that have the same direction."""
+    """Return the smallest integers with the same direction."""
     unit = gcd(*vector)
     return tuple(v // unit for v in vector)
 
 
-def _by_angle(u: tuple[int, int], v: tuple[int, int]) -> int:
-    """Return the sign of u's angle less that of v, both from 0 to a whole turn."""
-    lower_u, lower_v = ((y, x) < (0, 0) for x, y in (u, v))
+def _by_angle(u: Sequence[int], v: Sequence[int]) -> int:
+    """Return the sign of u's angle minus that of v, both from 0 to a whole turn."""
+    lower_u = (u[1], u[0]) < (0, 0)
+    lower_v = (v[1], v[0]) < (0, 0)
     if lower_u != lower_v:
         return 1 if lower_u else -1
     turn = u[0] * v[1] - u[1] * v[0]
@@ -95,7 +107,7 @@ def _by_angle(u: tuple[int, int], v: tuple[int, int]) -> int:
 
 
 def _first(hits: Sequence[tuple[Name, Hit]], moves: Moves) -> int:
-    """Return the index of the nearest hit of the moved ray, -1 for none."""
+    """Return the index of the moved ray's nearest hit, -1 for none."""
     best = -1
     for k, (name, m) in enumerate(hits):
         if m.is_hit(moves):

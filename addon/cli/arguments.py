@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 
-from ..certainty import AssumptionError
+from ..certified.arithmetic import AssumptionError
 from ..compare.picture import SizeError
 from ..images import MissingLibraryError
 from ..methods import PLAIN, Method

@@ -15,11 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..rendering import steps
 from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps, tiles
+from ..tracer.render import tiles
 from .bounds import SNAPPING, sample_band
 from .case import Case
 from .cause import Cause, Causes

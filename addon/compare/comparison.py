@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from ..certainty import Certainty
 from ..certified.rounding import rounding
 from ..manifest import Effect, Manifest
+from ..rendering import steps
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
 from .case import Case
 from .cause import Cause, Causes
 from .causes import explain

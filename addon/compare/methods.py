@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from ..certainty import Certainty, broken_assumptions
+from ..certainty import Certainty
+from ..certified.arithmetic import broken_assumptions
 from ..methods import Method
+from ..rendering import steps
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import Tracer, steps
+from ..tracer.render import Tracer
 from ..tracer.settings import Precision, Settings
 
 

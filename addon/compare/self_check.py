@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
 from .bounds import differing
 from .case import Case
 from .cause import Cause, Causes

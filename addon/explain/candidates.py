@@ -20,8 +20,9 @@ from ..tracer.hits import NOTHING, Name
 from ..tracer.nearest import candidates, plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import PLAIN_SETTINGS, Settings
+from ..tracer.triangle import textbook
 from ..tracer.world import WorldTriangles, refused
-from .pixel import Candidate, Pixel, check_pixel, contest_hits, plain_answer
+from .pixel import Candidate, Pixel, certified_hits, check_pixel, plain_answer
 
 LIMIT = 8  # candidates that one still reads
 
@@ -125,7 +126,7 @@ def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
 def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     """Return the triangles' order for a reader: hits by t, then near misses."""
     rays = pixel.rays()
-    hit, t, s = Method.TEXTBOOK.function(rays, *triangles.corners)
+    hit, t, s = textbook(rays, *triangles.corners)
     with np.errstate(invalid="ignore"):
         outside = np.nan_to_num(np.maximum(0.0, -s.min(axis=0)), nan=np.inf)
         distance = np.nan_to_num(np.abs(t), nan=np.inf)
@@ -138,13 +139,13 @@ def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], li
 
     At least `limit`: what is tied with the first comes with it, and what raised a doubt of it.
     """
-    whole = contest_hits(pixel, triangles)
+    whole = certified_hits(pixel, triangles)
     names = whole.ties.get(0, frozenset()) | {(int(whole.instance[0]), int(whole.triangle[0]))}
     ordered = zip(triangles.instance[order], triangles.triangle[order], strict=True)
     last = max((k for k, name in enumerate(ordered, start=1) if name in names), default=0)
     count = max(limit, last)
     while count < len(order):
-        hits = contest_hits(pixel, triangles.take(order[:count]))
+        hits = certified_hits(pixel, triangles.take(order[:count]))
         if hits.certainty[0] == whole.certainty[0] and hits.ties == whole.ties:
             break
         count *= 2

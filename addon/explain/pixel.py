@@ -13,8 +13,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..certainty import Certainty, broken_assumptions
-from ..certified.contest import Contest
+from ..certainty import Certainty
+from ..certified.arithmetic import broken_assumptions
+from ..certified.ladder import Ladder
+from ..certified.surfaces import Surfaces
 from ..methods import Method
 from ..scene import Camera, SceneError
 from ..tracer import plane
@@ -24,6 +26,7 @@ from ..tracer.hits import NOTHING, NOWHERE, Hits, Name, Statistics
 from ..tracer.nearest import within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
+from ..tracer.triangle import TESTS
 from ..tracer.world import WorldTriangles
 
 
@@ -170,7 +173,7 @@ def plain_answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings) ->
         planes = [(c.name, *c.points.astype(precision.dtype)) for c in pixel.planes]
     met = [(np.inf, NOWHERE, np.zeros(3))]
     if len(triangles.instance):
-        hit, t, s = method.function(rays, *corners)
+        hit, t, s = TESTS[method](rays, *corners)
         for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
             name = int(triangles.instance[k]), int(triangles.triangle[k])
             met.append((float(t[k]), name, s[:, k].astype(float)))
@@ -182,21 +185,21 @@ def plain_answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings) ->
     return Answer(method, precision, seen, t, s)
 
 
-def contest_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
+def certified_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
     """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
     planes = [(c.points[0], c.points[1]) for c in pixel.planes]
     clip = pixel.camera.clip_start, pixel.camera.clip_end
     around = corner_rays(pixel.camera)  # the bounds are those for all of the picture's rays
-    contest = Contest(pixel.rays(), planes, pixel.first_plane, *clip, around)
+    ladder = Ladder(pixel.rays(), Surfaces(planes, pixel.first_plane), clip, around)
     every = np.arange(len(triangles.instance))
     if len(every):
-        contest.enter(Pairs(np.zeros_like(every), every, triangles))
-    return result_of(contest.hits(Statistics()))
+        ladder.test(Pairs(np.zeros_like(every), every, triangles))
+    return result_of(ladder.hits(Statistics()))
 
 
 def certified_answer(pixel: Pixel) -> Answer:
     """Return the answer that is proven; NOT_CERTIFIED where this process can prove nothing."""
-    hits = contest_hits(pixel, pixel.world_triangles())
+    hits = certified_hits(pixel, pixel.world_triangles())
     certainty = Certainty(int(hits.certainty[0]))
     return Answer(
         Method.CERTIFIED,

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+Floats = NDArray[np.floating]
 Vectors = NDArray[np.floating]  # (3, ...)
 Formulas = dict[str, tuple[str, str]]  # of "o" and "d": the right side, and a remark
 Edges = tuple[float, float, float, float]  # of a view window: left, right, bottom, top

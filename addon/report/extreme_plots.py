@@ -37,7 +37,7 @@ def breaking_picture(rows: Sequence[ExtremesRow]) -> str:
     wide, below = (plots.WIDTH - left - 10) / len(columns), top + high * len(sweeps)
     out = plots.text((20, 32), _SAID["breaking"], 30)
     for k, (method, precision) in enumerate(columns):
-        x, words = left + (k + 0.5) * wide, Method(method).words
+        x, words = left + (k + 0.5) * wide, Method(method).record.words
         words = words.replace(" ", "\n").replace("–", "–\n")
         out += plots.text((x, 96), words, 19, anchor="middle", font_weight="bold")
         out += plots.text((x, 135), precision, 18, plots.GREY, "middle")
@@ -106,7 +106,7 @@ def sweeps_picture(sweeps: Sequence[Sequence[ExtremesRow]], page: str = "") -> s
     for k, rows in enumerate(sweeps):
         left, top = wide * (k % ACROSS) + 85, high * (k // ACROSS) + 155
         out += _sweep((left, top, wide - 115, high - 160), rows)
-    entries = {m.words: _sample(m.color, *sizes) for m, sizes in _NESTED.items()}
+    entries = {m.record.words: _sample(m.record.color, *sizes) for m, sizes in _NESTED.items()}
     entries |= {p: _sample(plots.GREY, 4, 6, p == "float32") for p in Precision}
     out += plots.legend(entries, height - 30)
     return plots.picture(plots.WIDTH, height, title, _SAID["nested"], out)
@@ -133,10 +133,10 @@ def _sweep(box: tuple[float, ...], rows: Sequence[ExtremesRow]) -> str:
         for p in Precision:
             some = [r for r in shown if (r.method, r.precision) == (method, p)]
             at = [axes.at(scales.index(r.scale), 100 * r.share) for r in some]
-            out += plots.line(at, method.color, width, p == "float32")
+            out += plots.line(at, method.record.color, width, p == "float32")
             for r, place in zip(some, at, strict=True):
-                title = f"{method.words}, {p}, {written(r.scale)}: {percent(r.share)} %"
-                out += plots.mark(place, radius, method.color, p == "float32", title)
+                title = f"{method.record.words}, {p}, {written(r.scale)}: {percent(r.share)} %"
+                out += plots.mark(place, radius, method.record.color, p == "float32", title)
     if not any(r.lost for r in shown):
         most = max(r.doubled / r.rays for r in shown)
         note = "no ray is lost"
@@ -178,7 +178,7 @@ def _heat(box: tuple[float, ...], rows: Sequence[ExtremesRow]) -> str:
     )
     axes = plots.Axes(*box, _steps(scales), _steps(others))
     wide, high = axes.width / len(scales), axes.height / len(others)
-    out = axes.drawn(f"{Method(rows[0].method).words}, {rows[0].precision}", "", small=True)
+    out = axes.drawn(f"{Method(rows[0].method).record.words}, {rows[0].precision}", "", small=True)
     for r in rows:
         x, y = axes.at(scales.index(r.scale), others.index(r.across))
         color = UNSEEN if _is_grey(r) else _color(r.share**0.5) if r.lost else NEVER

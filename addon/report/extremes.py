@@ -21,7 +21,7 @@ TABLE, JSON = "extremes.txt", "extremes.json"
 PANELS = 12  # sweeps of one picture
 
 _SAID = STUDIES["extremes"]
-_SHORT = {m.value: m.short for m in MEASURED}
+_SHORT = {m.value: m.record.short for m in MEASURED}
 _WIDTH = 12  # of a column of the tables
 
 

@@ -98,7 +98,7 @@ def pictures(trade: Trade) -> dict[str, str]:
     headline = next(lines for lines in headlines if plots.width_of(lines, 28) <= room)
     height = 35 * (1 + headline.count("\n"))
     top = 130 + height
-    entries = {m.words: plots.mark((0, 0), 13, m.color) for m in MEASURED}
+    entries = {m.record.words: plots.mark((0, 0), 13, m.record.color) for m in MEASURED}
     entries |= {p: plots.mark((0, 0), 13, plots.GREY, p == "float32") for p in Precision}
     entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
     inside = plots.text((20, 15 + height / 2), headline, 28)

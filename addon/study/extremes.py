@@ -16,14 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..rendering import render
 from ..tracer.camera import Rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
-from ..tracer.render import render
 from ..tracer.settings import PLAIN_SETTINGS, Settings
+from ..tracer.triangle import TESTS
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
 from .truth import CERTIFIED, Truth, crossings, keys, pixel_rays, sample, truth_of
@@ -134,7 +135,7 @@ def measure(
 
     Raises
     ------
-    certainty.AssumptionError
+    arithmetic.AssumptionError
         If nothing can be certified in this process.
     """
     scenes = [(s, scale) for s in scenarios for scale in s.scales]
@@ -172,7 +173,7 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     frame = render(scene, settings)
 
     def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
-        hit, t, _ = settings.method.function(rays, *pairs.corners)
+        hit, t, _ = TESTS[settings.method](rays, *pairs.corners)
         return hit & within_clip(camera, t)
 
     _, count = result_of(crossings(scene, settings, test))

@@ -17,11 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..methods import Method
+from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
 
@@ -101,7 +101,7 @@ def measure(
 
     Raises
     ------
-    certainty.AssumptionError
+    arithmetic.AssumptionError
         If nothing can be certified on this machine.
     SceneError, ValueError
         If the width or the number of samples is out of range.

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from ..certainty import Certainty
 from ..certified.any_rays import decide
 from ..methods import Method
+from ..rendering import steps
 from ..scene import Camera, Scene
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
 from ..tracer.nearest import candidates, film_positions, plan
 from ..tracer.progress import Work, scaled
-from ..tracer.render import steps
 from ..tracer.settings import Precision, Settings
 
 CERTIFIED = Settings(Method.CERTIFIED)

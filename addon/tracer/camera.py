@@ -1,4 +1,4 @@
-"""Camera -> ray origins and directions, in world space.
+"""Makes the rays of a camera: origins and directions in world space.
 
 A ray is x = o + t d. Directions come from the camera's own axes, d = x right + y up + forward,
 and are not normalised, so that t is the depth along the view axis. They are never the difference
@@ -18,9 +18,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
-from .vector import Vectors, cross, dot
+from .vector import Floats, Index, Numbers, Vectors, cross, dot
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region
@@ -33,10 +33,18 @@ class Rays:
     origins: Vectors
     directions: Vectors
 
-    def take(self, index: NDArray[np.integer]) -> Rays:
+    @property
+    def count(self) -> int:
+        """How many rays there are."""
+        return max(self.origins.shape[1], self.directions.shape[1])
+
+    def take(self, index: Index) -> Rays:
         """Return the rays at `index`; what all share stays shared."""
-        vectors = self.origins, self.directions
-        return Rays(*(v if v.shape[1] == 1 else v.take(index, axis=1) for v in vectors))
+        origins, directions = self.origins, self.directions
+        return Rays(
+            origins if origins.shape[1] == 1 else origins.take(index, axis=1),
+            directions if directions.shape[1] == 1 else directions.take(index, axis=1),
+        )
 
     def at(self, t: NDArray[np.floating]) -> Vectors:
         """Return the points o + t d, (3, n)."""
@@ -53,7 +61,7 @@ def film_positions(
     tile: Region,
     dx: NDArray[np.floating] | float = 0.0,
     dy: NDArray[np.floating] | float = 0.0,
-    pixel: NDArray[np.integer] | None = None,
+    pixel: Index | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
 
@@ -70,9 +78,9 @@ def film_positions(
 
 def camera_rays(
     camera: Camera,
-    px: NDArray[np.floating],
-    py: NDArray[np.floating],
-    dtype: np.dtype | type = np.float64,
+    px: Numbers,
+    py: Numbers,
+    dtype: DTypeLike = np.float64,
 ) -> Rays:
     """Return the rays through film positions.
 
@@ -84,7 +92,7 @@ def camera_rays(
         In which every step is computed.
     """
 
-    def cast(value: object) -> NDArray[np.floating]:
+    def cast(value: object) -> Numbers:
         return np.asarray(value, dtype=dtype)
 
     width, height = pixel_size(camera)
@@ -119,9 +127,7 @@ def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:
     return camera_rays(camera, px, py)
 
 
-def film_of(
-    camera: Camera, points: Vectors
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def film_of(camera: Camera, points: Vectors) -> tuple[Floats, Floats, Floats]:
     """Return where world points (3, n) appear on the film, in pixels, and their t, (n,) each.
 
     What a perspective camera does not have in front of it appears nowhere: NaN.

@@ -1,10 +1,9 @@
-"""Which triangles can cover which pixels: culling only, never deciding.
+"""Proposes the pairs of a pixel and a triangle that the ray/triangle test decides.
 
-In come a scene and how far from their pixel's centre rays may pass; out go, batch by batch, so
-that memory is bounded, `Pairs` of a pixel and a triangle, which the ray/triangle test decides. A
-pair may be proposed in vain, but one whose ray truly hits is never left out: the box of pixels
-around a projected triangle is widened by a bound on every rounding error that could move it
-(`SAFETY`). What a test in float32 says to hit far beside an edge-on sliver, by noise, may be.
+Pairs come batch by batch, so that memory is bounded. Some do not hit, but none that truly hits is
+left out: the box of pixels around a projected triangle is widened by a bound on every rounding
+error that could move it (`SAFETY`). float32 may report a hit far beside an edge-on sliver; such a
+hit may be left out.
 """
 
 from __future__ import annotations
@@ -18,66 +17,65 @@ from numpy.typing import NDArray
 
 from .camera import pixel_size, project
 from .progress import Work
-from .vector import groups, spread
-from .world import Batch, Pairs, batches, world_triangles
+from .vector import Bools, Floats, Index, Vectors, groups, spread
+from .world import Batch, Pairs, WorldTriangles, batches, world_triangles
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region, Scene
     from .settings import Settings
 
-# Camera-space coordinates and rays are off by at most a few roundings, of half an eps each, of all
-# their terms: one for v - o, five for each dot product, three for a ray's direction, two for its
-# origin (and one for v and o each when they are cast to float32); and those of the dual basis, less
-# than a hundred while the axes are about of unit length and far from a plane (`has_sound_axes`).
-# Then the terms of all three coordinates together are not smaller than v and o themselves, and 64
-# eps of them cover all. _TINY is far above what gradual underflow may lose.
+# The error of camera-space coordinates and of rays, in eps (2 u) of the sum of their |terms|. A
+# rounding is half an eps: one for v - o, five for each dot product, three for a ray's direction,
+# two for its origin (and one each for v and o when they are cast to float32). Those of the dual
+# basis are less than a hundred if the axes are about of unit length and far from lying in a plane
+# (`has_sound_axes`). Then the terms of all three coordinates together are at least as large as v
+# and o, and 64 eps cover all roundings.
 SAFETY = 64
-MIN_DETERMINANT, LENGTHS = 1 / 8, (0.5, 2.0)
-_TINY = 2.0**-1000
-PAIRS = 1 << 15  # tested together: arrays of this length stay in a core's cache
+MIN_DETERMINANT = 1 / 8  # of the camera's axes, relative to the product of their lengths
+LENGTHS = (0.5, 2.0)  # between which those of the camera's axes are
+_TINY = 2.0**-1000  # added to an error: far above what gradual underflow may lose
+PAIRS = 1 << 15  # pairs tested together: arrays of this length stay in a core's cache
 _BYTES_PER_PAIR = 1024  # temporaries of the most demanding test, float64, rounded up
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Batches of a scene with the rows that each may cover.
+    """The batches of a scene, each with the rows of pixels that it may cover.
 
-    For rays within `reach` pixels of their pixel's centre, and vertices rounded to `dtype`; pairs
-    may take some `memory`, in bytes. Of a plain method with the `settings` that it is traced by.
+    It holds for rays within `reach` pixels of their pixel's centre, and vertices rounded to
+    `dtype`. Pairs may take about `memory` bytes. A plain method has its `settings` here.
     """
 
     scene: Scene
-    dtype: np.dtype
+    dtype: np.dtype[np.floating]
     memory: int
     reach: float
     batches: list[Batch]
-    rows: list[tuple[int, int]]
-    refused: int  # triangles that are not finite in world space
+    rows: list[tuple[int, int]]  # first and end
+    refused: int  # how many triangles are not finite in world space
     settings: Settings | None
 
 
 def has_sound_axes(camera: Camera) -> bool:
-    """Return whether the bounds of this file hold for a camera's axes."""
+    """Return whether the error bounds of this file hold for a camera's axes."""
     axes = np.stack((camera.right, camera.up, camera.forward))
     with np.errstate(all="ignore"):
         lengths = np.sqrt((axes * axes).sum(axis=1))
         fits = (lengths > LENGTHS[0]) & (lengths < LENGTHS[1])
-        least = MIN_DETERMINANT * max(1.0, lengths.prod())
+        least = MIN_DETERMINANT * max(1.0, float(lengths.prod()))
         return bool(fits.all() and abs(np.linalg.det(axes)) >= least)
 
 
 @np.errstate(all="ignore")  # what overflows has no bounds
-def pixel_bounds(
-    camera: Camera, corners: NDArray[np.floating], reach: float = 0.0
-) -> NDArray[np.int32]:
-    """Return a box of pixels outside which no ray of the camera truly hits a triangle.
+def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> NDArray[np.int32]:
+    """Return boxes of pixels outside which no ray of the camera truly hits a triangle.
 
     Parameters
     ----------
     corners : (k, 3, m)
         Corner, component, convex polygon; world space.
     reach : float
-        How far from its pixel's centre, in pixels along each axis, a ray may pass.
+        How far from its pixel's centre a ray may pass, in pixels along each axis.
 
     Returns
     -------
@@ -85,7 +83,8 @@ def pixel_bounds(
         x0, x1, y0, y1 with x0 <= x < x1 and y0 <= y < y1, within the camera's region; empty where
         x0 >= x1 or y0 >= y1.
     """
-    region, count = camera.region, corners.shape[2]
+    region = camera.region
+    count = corners.shape[2]
     if not has_sound_axes(camera):
         everywhere = np.array([region.x0, region.x1, region.y0, region.y1], np.int32)
         return np.repeat(everywhere[:, None], count, axis=1)
@@ -94,10 +93,11 @@ def pixel_bounds(
     magnitude = magnitude[0] + magnitude[1] + magnitude[2]
     eps = float(np.finfo(corners.dtype).eps)
     error = SAFETY * eps * magnitude + _TINY
-    error = error.reshape(len(corners), count)
-    error = error.max(axis=0)
-    w, sizes, starts = camera.window, pixel_size(camera), (camera.window.left, camera.window.bottom)
-    # A film position near its start comes from cancelling against it.
+    error = error.reshape(len(corners), count).max(axis=0)
+    w = camera.window
+    sizes = pixel_size(camera)
+    starts = (w.left, w.bottom)
+    # Film positions near their start lose digits when it is subtracted.
     slacks = [
         reach + SAFETY * eps * (abs(start / size) + camera.width + camera.height)
         for start, size in zip(starts, sizes, strict=True)
@@ -121,22 +121,35 @@ def pixel_bounds(
     return bounds
 
 
-def _pixel(value: NDArray, low: int, high: int, unknown: int) -> NDArray[np.int32]:
+def _pixel(value: Floats, low: int, high: int, unknown: int) -> NDArray[np.int32]:
+    """Return pixels, clipped to low and high; `unknown` for NaN."""
     return np.where(np.isnan(value), unknown, np.clip(value, low, high)).astype(np.int32)
 
 
 def within(bounds: NDArray[np.int32], tile: Region) -> NDArray[np.int32]:
-    """Return the parts of boxes, (4, m) as of :func:`pixel_bounds`, that lie in a tile."""
+    """Intersect boxes of pixels with a tile; both (4, m), as :func:`pixel_bounds` has them."""
     x0, x1, y0, y1 = bounds
-    x0, x1 = np.maximum(x0, tile.x0), np.minimum(x1, tile.x1)
-    return np.stack((x0, x1, np.maximum(y0, tile.y0), np.minimum(y1, tile.y1)))
+    return np.stack(
+        (
+            np.maximum(x0, tile.x0),
+            np.minimum(x1, tile.x1),
+            np.maximum(y0, tile.y0),
+            np.minimum(y1, tile.y1),
+        )
+    )
 
 
 def cull(
-    scene: Scene, dtype: np.dtype, memory: int, reach: float, settings: Settings | None = None
+    scene: Scene,
+    dtype: np.dtype[np.floating],
+    memory: int,
+    reach: float,
+    settings: Settings | None = None,
 ) -> Work[Plan]:
-    """Look at every batch once; yields 0, as nothing is traced yet."""
-    found, rows, refused = [], [], 0
+    """Find the batches that are in view, and their rows; yields 0, as nothing is traced yet."""
+    found = []
+    rows = []
+    refused = 0
     for batch in batches(scene):
         _, (x0, x1, y0, y1), left_out = _bounds(scene, dtype, reach, batch)
         refused += left_out
@@ -148,8 +161,10 @@ def cull(
     return Plan(scene, dtype, memory, reach, found, rows, refused, settings)
 
 
-def _bounds(scene: Scene, dtype: np.dtype, reach: float, batch: Batch):
-    """Return a batch's triangles but those that are not finite, their bounds, and how many are."""
+def _bounds(
+    scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch
+) -> tuple[WorldTriangles, NDArray[np.int32], int]:
+    """Return a batch's finite triangles, their boxes of pixels, and how many are not finite."""
     triangles = world_triangles(scene, batch, dtype)
     finite = triangles.finite
     refused = len(finite) - int(finite.sum())
@@ -159,12 +174,12 @@ def _bounds(scene: Scene, dtype: np.dtype, reach: float, batch: Batch):
 
 
 def candidates(
-    plan: Plan, tile: Region, wanted: NDArray[np.bool_] | None = None
+    plan: Plan, tile: Region, wanted: Bools | None = None
 ) -> Iterator[tuple[float, Pairs | None]]:
-    """Yield the share of the work that is done, and the next pairs of a tile (None: none yet).
+    """Yield the share of the work that is done, and the next pairs of a tile, or None for none yet.
 
-    They index the tile's n pixels row by row from the lowest. If some are `wanted` (n,), they index
-    these, in that order.
+    Pairs number the tile's n pixels row by row from the lowest; or those that are `wanted` (n,), in
+    that order.
     """
     limit = max(1, min(PAIRS, plan.memory // (4 * _BYTES_PER_PAIR)))
     before = None if wanted is None else np.append(0, np.cumsum(wanted, dtype=np.int32))
@@ -184,27 +199,25 @@ def candidates(
 
 
 def pairs(
-    bounds: NDArray[np.int32],
-    tile: Region,
-    limit: int,
-    before: NDArray[np.integer] | None = None,
-) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-    """Spell out boxes, within the tile, as pairs, at most about `limit` at a time.
+    bounds: NDArray[np.int32], tile: Region, limit: int, before: Index | None = None
+) -> Iterator[tuple[Index, Index]]:
+    """List the pixels of boxes within a tile, about `limit` at most at a time.
 
-    Yields pixels, as they are numbered in the tile, and columns of `bounds`, (p,) each. With
-    `before` (n + 1,), how many pixels count before each and in all, only those are numbered.
+    Yields the numbers of pixels in the tile, and columns of `bounds`, (p,) each. `before` (n + 1,)
+    says how many wanted pixels come before each pixel, and in all: then only these are numbered.
     """
     x0, x1, y0, y1 = bounds
     some = np.flatnonzero((x0 < x1) & (y0 < y1))
     if not len(some):
         return
-    # A run is one row of one box: first its triangle and row, then its pixels.
+    # A run is one row of one box: first find its triangle and row, then its pixels.
     triangle, row = spread(some, (y1 - y0)[some])
     row += y0[triangle]
     start = (row - tile.y0) * tile.width + (x0[triangle] - tile.x0)
     length = (x1 - x0)[triangle]
     if before is not None:
-        start, end = before[start], before[start + length]
+        end = before[start + length]
+        start = before[start]
         length = end - start
     for first, last in groups(length, limit):
         run, step = spread(np.arange(first, last), length[first:last])

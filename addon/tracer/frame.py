@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..certainty import Certainty
-from ..certified.measures import Measures
 from ..scene import Region, Scene
 from . import shading
 from .camera import camera_rays, film_positions
-from .hits import NOTHING, Hits, LazyHits, Statistics, Ties
+from .frame_measures import FrameMeasures
+from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
 from .memory import TRACED, check_memory
+from .vector import Floats, Index, Numbers
 
 _PIXELS = 1 << 15  # of which something is computed together
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
@@ -36,14 +37,14 @@ class Pass(NamedTuple):
     label: str = ""
     letters: str = "X"
     kind: str = "VALUE"
-    shown: Callable[[NDArray], NDArray] = np.asarray
+    shown: Callable[[Numbers], Numbers] = np.asarray
 
 
-def _finite(t: NDArray) -> NDArray:
+def _finite(t: Numbers) -> Numbers:
     return np.minimum(t, NO_HIT_DEPTH)
 
 
-def _from_1(index: NDArray) -> NDArray:
+def _from_1(index: Numbers) -> Numbers:
     return index + 1  # 0 is none
 
 
@@ -57,7 +58,7 @@ PASSES = (
     Pass("object_index", "Object Index", shown=_from_1),
     Pass("instance_index"),
     Pass("triangle_index", "Triangle Index", shown=_from_1),
-    Pass("certainty", "Certainty"),  # see `certified.certainty.Certainty`
+    Pass("certainty", "Certainty"),  # see `certainty.Certainty`
     Pass("rows_done"),
 )
 
@@ -76,7 +77,7 @@ class Frame:
     triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
     certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
     rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
-    measures: Measures  # t and the barycentrics
+    measures: FrameMeasures  # t and the barycentrics
     ties: Ties = field(default_factory=Ties.none)  # by the pixel's index, row by row
     cancelled: bool = False
     statistics: Statistics = field(default_factory=Statistics)
@@ -92,19 +93,22 @@ class Frame:
         """
         h, w = scene.camera.region.height, scene.camera.region.width
         check_memory(w, h, TRACED)
-        names = [np.full((h, w), NOTHING, np.int32) for _ in range(2)]
+        instance = np.full((h, w), NOTHING, np.int32)
+        triangle = np.full((h, w), NOTHING, np.int32)
         return cls(
             scene,
-            np.zeros((h, w, 4), np.float32),
-            *names,
-            np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
-            np.zeros(h, bool),
-            Measures(scene, tuple(names)),
+            color=np.zeros((h, w, 4), np.float32),
+            instance_index=instance,
+            triangle_index=triangle,
+            certainty=np.full((h, w), Certainty.NOT_CERTIFIED, np.uint8),
+            rows_done=np.zeros(h, bool),
+            measures=FrameMeasures(instance, triangle),
         )
 
     def cancel(self) -> None:
         """Have it end here: rows that are not done are empty, whatever was found of them."""
-        self.cancelled, (height, width) = True, self.shape
+        self.cancelled = True
+        height, width = self.shape
         rows = slice(int(self.rows_done.sum()), height)  # as the lowest are the first
         self.color[rows] = 0
         self.ties = self.ties.below(rows.start * width)
@@ -116,24 +120,24 @@ class Frame:
         return self.certainty.shape
 
     @property
-    def t(self) -> NDArray[np.float64]:
+    def t(self) -> Floats:
         """Ray parameter = depth along the view axis, (h, w) metres; inf: no hit."""
         return self.measures.of(slice(None))[0]
 
     depth = t  # as Blender's Z pass has it: directions are not normalised, for any camera
 
     @property
-    def barycentrics(self) -> NDArray[np.float64]:
+    def barycentrics(self) -> Floats:
         """Weights of the triangle's corners, (h, w, 3)."""
         return np.moveaxis(self.measures.of(slice(None))[1:], 0, -1)
 
     @property
-    def position(self) -> NDArray[np.float64]:
+    def position(self) -> Floats:
         """Where each ray ends in world space, (h, w, 3) metres; zero where nothing is hit."""
         return self._by_rows(self.positions)
 
     @property
-    def normal(self) -> NDArray[np.float64]:
+    def normal(self) -> Floats:
         """Geometric unit normals in world space, (h, w, 3), as `shading.normals` has them."""
         return self._by_rows(lambda rows: shading.normals(self.scene, self.hits(rows)))
 
@@ -142,28 +146,36 @@ class Frame:
         """Index into `Scene.objects`, (h, w); NOTHING: no hit."""
         return self.scene.instance_objects[self.instance_index]
 
-    def hits(self, rows: slice = slice(None)) -> LazyHits:
-        """Return what the centre rays of some rows met, row by row."""
-        names = self.instance_index, self.triangle_index, self.certainty
-        measures = self.measures
-        return LazyHits(
-            *(v[rows].reshape(-1) for v in names),
-            lambda ray: measures.of(rows).reshape(4, -1)[:, ray],
+    def hits(self, rows: slice = slice(None)) -> Hits:
+        """Return what the centre rays of some rows met, row by row: views of the frame's arrays."""
+
+        def find(ray: Index, _instance: Names, _triangle: Names) -> Measures:
+            return self.measures.of(rows).reshape(4, -1)[:, ray]
+
+        return Hits(
+            self.instance_index[rows].reshape(-1),
+            self.triangle_index[rows].reshape(-1),
+            self.certainty[rows].reshape(-1),
+            find,
         )
 
     def enter(self, rows: slice, hits: Hits) -> None:
         """Enter what the centre rays of some rows met, row by row."""
-        self.hits(rows).enter(slice(None), hits)
+        own = self.hits(rows)
+        own.instance[:] = hits.instance
+        own.triangle[:] = hits.triangle
+        own.certainty[:] = hits.certainty
         self.measures.enter(rows, hits)
         self.ties = Ties.joined((self.ties, hits.ties.numbered(rows.start * self.shape[1])))
 
-    def positions(self, rows: slice) -> NDArray[np.float64]:
+    def positions(self, rows: slice) -> Floats:
         """Return where the rays of some rows end, (n, 3), as `position` has it."""
-        r, (y0, y1, _) = self.scene.camera.region, rows.indices(self.shape[0])
+        r = self.scene.camera.region
+        y0, y1, _ = rows.indices(self.shape[0])
         film = film_positions(Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), 0.0, 0.0)
         return shading.positions(camera_rays(self.scene.camera, *film), self.hits(rows))
 
-    def _by_rows(self, of: Callable[[slice], NDArray[np.float64]]) -> NDArray[np.float64]:
+    def _by_rows(self, of: Callable[[slice], Floats]) -> Floats:
         """Return what a function makes of rows, (n, 3), as one array (h, w, 3)."""
         height, width = self.shape
         out = np.moveaxis(np.zeros((3, height, width)), 0, -1)  # as the tracer has vectors
@@ -176,15 +188,7 @@ class Frame:
     def depths(self) -> tuple[float, float]:
         """Return the depths of the nearest and the farthest hit, metres; 0 where there is none."""
         t = self.t[np.isfinite(self.t)]
-        return (float(t.min()), float(t.max())) if t.size else (0.0, 0.0)
-
-    def t_interval(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return two floats, (h, w) each, between which the exact t of a certified pixel lies.
-
-        As t is rounded correctly, they are its neighbours. -inf to inf where nothing is certified.
-        """
-        known = self.certainty != Certainty.NOT_CERTIFIED
-        return tuple(np.where(known, np.nextafter(self.t, end), end) for end in (-np.inf, np.inf))
+        return (float(np.min(t)), float(np.max(t))) if t.size else (0.0, 0.0)
 
     def wrong_against(self, certified: Frame) -> NDArray[np.bool_]:
         """Return which pixels, (h, w), see another surface than a certified frame of the scene.
@@ -199,6 +203,6 @@ class Frame:
         wrong.flat[pixel[certified.ties.may_see(pixel, *name)]] = False
         return wrong
 
-    def passes(self) -> dict[str, NDArray]:
+    def passes(self) -> dict[str, Numbers]:
         """Return every output by name, also those that are computed."""
         return {p.name: getattr(self, p.name) for p in PASSES}

@@ -5,22 +5,22 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..certainty import Certainty
-from ..certified.reasons import Reason, sentences
-from .vector import Arrays, Index, groups, spread
+from ..certainty import Certainty, Reason, sentences
+from .vector import Bools, Floats, Index, Vectors, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
-Measure = NDArray[np.float64]  # (4, ...): t, and the barycentrics
+Names = NDArray[np.int32]  # (n,) instances, or triangles
+Measures = Floats  # (4, n): t and the three barycentrics of n rays
+# Finds those of rays: their numbers (k,), and the instance and triangle that each sees, (k,).
+FindMeasures = Callable[[Index, Names, Names], Measures]
 Name = tuple[int, int]  # instance and triangle
 NOWHERE: Name = (NOTHING, NOTHING)  # what a ray sees that meets nothing
 _TOGETHER = 1 << 17  # rows of ties looked at together
-_ARRAYS = ("t", "instance", "triangle", "s", "certainty")  # of `Hits`
-_NAMES = ("instance", "triangle", "certainty")  # what of them is not asked for later
 
 
 @dataclass
@@ -35,7 +35,7 @@ class Statistics:
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
-    stages: Counter[str] = field(default_factory=Counter)  # seconds of the parts of certified work
+    stages: dict[str, float] = field(default_factory=dict)  # seconds of the parts of certified work
     # Of the sweep: triangles with a pixel in their box (boxed), not dropped as a whole (reached);
     # pixels in which they were evaluated (computed), and that it did not decide (left).
     culling: Counter[str] = field(default_factory=Counter)
@@ -79,7 +79,7 @@ class Ties(Mapping[int, frozenset[Name]]):
         return cls(*np.zeros((2, 0), np.int64), *np.zeros((3, 0), np.int32))
 
     @classmethod
-    def of(cls, ray: NDArray, instance: NDArray, triangle: NDArray) -> Ties:
+    def of(cls, ray: Index, instance: Index, triangle: Index) -> Ties:
         """Return the ties of rows of a ray and a surface, those of one ray together, in order."""
         start = np.flatnonzero(np.diff(ray, prepend=-1))
         count = np.diff(start, append=len(ray))
@@ -90,9 +90,13 @@ class Ties(Mapping[int, frozenset[Name]]):
             own[1:] = (count[1:] != count[:-1]) | ~np.logical_and.reduceat(same, start)[1:]
         first = np.cumsum(count * own) - count * own
         kept = np.repeat(own, count)
-        names = (v[kept].astype(np.int32) for v in (instance, triangle))
-        first = first[own][np.cumsum(own) - 1]
-        return cls(ray[start].astype(np.int64), first, count.astype(np.int32), *names)
+        return cls(
+            ray[start].astype(np.int64),
+            first[own][np.cumsum(own) - 1],
+            count.astype(np.int32),
+            instance[kept].astype(np.int32),
+            triangle[kept].astype(np.int32),
+        )
 
     @classmethod
     def joined(cls, parts: Sequence[Ties]) -> Ties:
@@ -100,15 +104,20 @@ class Ties(Mapping[int, frozenset[Name]]):
         parts = [part for part in parts if len(part.ray)]
         if len(parts) < 2:
             return parts[0] if parts else cls.none()
-        ray, start, count, *names = map(
-            np.concatenate, zip(*(vars(p).values() for p in parts), strict=True)
-        )
-        sizes = [len(p.instance) for p in parts]
-        start += np.repeat(np.cumsum(sizes) - sizes, [len(p.ray) for p in parts])
+        ray = np.concatenate([p.ray for p in parts])
         order = np.argsort(ray, kind="stable")
-        return cls(ray[order], start[order], count[order], *names)
+        sizes = [len(p.instance) for p in parts]
+        before = np.repeat(np.cumsum(sizes) - sizes, [len(p.ray) for p in parts])
+        start = np.concatenate([p.start for p in parts]) + before
+        return cls(
+            ray[order],
+            start[order],
+            np.concatenate([p.count for p in parts])[order],
+            np.concatenate([p.instance for p in parts]),
+            np.concatenate([p.triangle for p in parts]),
+        )
 
-    def numbered(self, numbers: NDArray[np.integer] | int) -> Ties:
+    def numbered(self, numbers: Index | int) -> Ties:
         """Return the ties with ray i called numbers[i], which ascend, or i + numbers."""
         if isinstance(numbers, int) and not numbers:
             return self
@@ -120,7 +129,7 @@ class Ties(Mapping[int, frozenset[Name]]):
         some = slice(np.searchsorted(self.ray, ray))
         return replace(self, ray=self.ray[some], start=self.start[some], count=self.count[some])
 
-    def may_see(self, ray: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.bool_]:
+    def may_see(self, ray: Index, instance: Index, triangle: Index) -> Bools:
         """Return which of these rays are ambiguous and may be said to see these surfaces, (n,)."""
         out = np.zeros(len(ray), bool)
         at = np.searchsorted(self.ray, ray)
@@ -151,25 +160,28 @@ class Ties(Mapping[int, frozenset[Name]]):
 
 @dataclass(eq=False)
 class Hits:
-    """What n rays meet.
+    """What n rays meet: which surface, how that was decided, and where on it.
 
-    `t` (n,) float64 is inf where nothing is hit; `instance` and `triangle`, (n,) int32, are NOTHING
-    there; `s`, the barycentrics, is (3, n) float64. A hit on plane k has the instance
-    `len(scene.instances) + k` and the triangle NOTHING. `certainty` (n,) uint8 holds `Certainty`;
-    `ties` says of ambiguous rays, by their index, all that may be seen.
+    Parameters
+    ----------
+    instance, triangle : (n,) int32
+        The surface, NOTHING where no surface is hit. Plane k is the instance
+        `len(scene.instances) + k`, and its triangle is NOTHING.
+    certainty : (n,) uint8
+        `Certainty` of the surface.
+    measures : (4, n) float64, or callable
+        t (inf where nothing is hit) and the barycentrics. Finding them takes longer than finding
+        the surface, so a function that finds those of some rays may stand in their place: it is
+        called when `t` or `s` is first asked for.
+    ties : Ties
+        Of ambiguous rays, by their index, every surface that may be seen.
     """
 
-    t: NDArray[np.float64]
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
-    s: NDArray[np.float64]
-    certainty: NDArray[np.uint8] = None  # type: ignore[assignment]  # by default NOT_CERTIFIED
+    certainty: NDArray[np.uint8]
+    measures: Measures | FindMeasures
     ties: Ties = field(default_factory=Ties.none)
-    _entered = _ARRAYS
-
-    def __post_init__(self) -> None:
-        if self.certainty is None:
-            self.certainty = np.full(len(self.t), Certainty.NOT_CERTIFIED, np.uint8)
 
     def __len__(self) -> int:
         return len(self.instance)
@@ -177,71 +189,102 @@ class Hits:
     @classmethod
     def none(cls, count: int, certainty: Certainty = Certainty.NOT_CERTIFIED) -> Hits:
         """Return hits of `count` rays that have met nothing yet."""
-        names = np.full((2, count), NOTHING, np.int32)
-        known = np.full(count, certainty, np.uint8)
-        return cls(np.full(count, np.inf), *names, np.zeros((3, count)), known)
+        instance = np.full(count, NOTHING, np.int32)
+        triangle = np.full(count, NOTHING, np.int32)
+        return cls(instance, triangle, np.full(count, certainty, np.uint8), no_measures(count))
+
+    @classmethod
+    def of(cls, t: Floats, instance: Index, triangle: Index, s: Vectors) -> Hits:
+        """Return hits of a plain method: t (n,), the names (n,), and barycentrics s (3, n)."""
+        certainty = np.full(len(t), Certainty.NOT_CERTIFIED, np.uint8)
+        measures = np.vstack((t, s))
+        return cls(instance.astype(np.int32), triangle.astype(np.int32), certainty, measures)
 
     @classmethod
     def joined(cls, parts: Sequence[Hits]) -> Hits:
         """Return the hits of several sets of rays, one after the other, as those of one."""
         if len(parts) == 1:
             return parts[0]
-        out = cls(*(np.concatenate([getattr(p, n) for p in parts], axis=-1) for n in _ARRAYS))
-        starts = np.cumsum([0, *map(len, parts)]).tolist()
-        out.ties = Ties.joined([p.ties.numbered(s) for p, s in zip(parts, starts, strict=False)])
-        return out
-
-    def enter(self, index: NDArray | slice, other: Hits) -> None:
-        """Write others in the place of the hits of the rays at `index`, but for their ties."""
-        for name in self._entered:
-            getattr(self, name)[..., index] = getattr(other, name)
-
-    def take(self, index: NDArray | slice) -> Hits:
-        """Return the hits of the rays at `index`, without their ties."""
-        return Hits(*(getattr(self, name)[..., index] for name in _ARRAYS))
-
-
-@dataclass(frozen=True, eq=False)
-class Measured(Arrays):
-    """t and barycentrics, (4, k), of k rays that were found with the names; `ray` ascends."""
-
-    ray: NDArray[np.int64]
-    values: Measure
-
-    @classmethod
-    @cache
-    def none(cls) -> Measured:
-        """Return those of no rays."""
-        return cls(np.zeros(0, np.int64), np.zeros((4, 0)))
-
-
-class LazyHits(Hits):
-    """What n rays meet, of which t and the barycentrics are found when they are asked for.
-
-    `measure` gives both of the rays with these numbers (k,); `known` is what it knows already.
-    """
-
-    _entered = _NAMES
-
-    def __init__(
-        self,
-        instance: NDArray[np.int32],
-        triangle: NDArray[np.int32],
-        certainty: NDArray[np.uint8],
-        measure: Callable[[Index], Measure] | None = None,
-    ) -> None:
-        self.instance, self.triangle, self.certainty = instance, triangle, certainty
-        self.ties, self.known, self.measure = Ties.none(), Measured.none(), measure
+        starts = np.cumsum([0, *map(len, parts)])
+        found = [part.measures for part in parts]
+        measures: Measures | FindMeasures = partial(_measures_of, found, starts)
+        if not any(callable(part) for part in found):
+            measures = np.concatenate(found, axis=1)
+        return cls(
+            np.concatenate([part.instance for part in parts]),
+            np.concatenate([part.triangle for part in parts]),
+            np.concatenate([part.certainty for part in parts]),
+            measures,
+            Ties.joined([p.ties.numbered(s) for p, s in zip(parts, starts.tolist(), strict=False)]),
+        )
 
     @cached_property
-    def _measured(self) -> Measure:
-        return self.measure(np.arange(len(self)))
+    def values(self) -> Measures:
+        """T and the barycentrics of all rays, (4, n), found when they are first asked for."""
+        return self.measured(np.arange(len(self))) if callable(self.measures) else self.measures
 
-    t = property(lambda self: self._measured[0])
-    s = property(lambda self: self._measured[1:])
+    @property
+    def t(self) -> Floats:
+        """The ray parameter of each hit, (n,): inf where nothing is hit."""
+        return self.values[0]
 
-    def take(self, index: NDArray | slice) -> LazyHits:
-        """Return the hits of the rays at `index`, as lazy, without their ties."""
-        own = np.arange(*index.indices(len(self))) if isinstance(index, slice) else index
-        names, measure = (getattr(self, name)[index] for name in _NAMES), self.measure
-        return LazyHits(*names, lambda ray: measure(own[ray]))
+    @property
+    def s(self) -> Vectors:
+        """The barycentrics of each hit, (3, n)."""
+        return self.values[1:]
+
+    def measured(self, ray: Index) -> Measures:
+        """Return t and the barycentrics of some rays alone, (4, k)."""
+        if callable(self.measures):
+            return self.measures(ray, self.instance[ray], self.triangle[ray])
+        return self.measures[:, ray]
+
+    def enter(self, index: Index | slice, other: Hits) -> None:
+        """Replace the hits of the rays at `index` by others, all but their ties."""
+        self.instance[index] = other.instance
+        self.triangle[index] = other.triangle
+        self.certainty[index] = other.certainty
+        self.values[:, index] = other.values
+
+    def take(self, index: Index | slice) -> Hits:
+        """Return the hits of the rays at `index`, without their ties."""
+        measures = self.measures
+        if callable(measures):
+            measures = partial(_measures_at, measures, np.arange(len(self))[index])
+        else:
+            measures = measures[:, index]
+        return Hits(self.instance[index], self.triangle[index], self.certainty[index], measures)
+
+
+def no_measures(*shape: int) -> Measures:
+    """Return t and the barycentrics, (4, *shape), of rays that hit nothing."""
+    out = np.zeros((4, *shape))
+    out[0] = np.inf
+    return out
+
+
+def _measures_at(
+    find: FindMeasures, own: Index, ray: Index, instance: Names, triangle: Names
+) -> Measures:
+    """Find the measures of rays that have other numbers, `own`, where they are known."""
+    return find(own[ray], instance, triangle)
+
+
+def _measures_of(
+    found: Sequence[Measures | FindMeasures],
+    starts: Index,
+    ray: Index,
+    instance: Names,
+    triangle: Names,
+) -> Measures:
+    """Find the measures of rays that are numbered through several parts."""
+    out = np.empty((4, len(ray)))
+    part_of = np.searchsorted(starts, ray, side="right") - 1
+    for number, measures in enumerate(found):
+        some = np.flatnonzero(part_of == number)
+        own = ray[some] - starts[number]
+        if callable(measures):
+            out[:, some] = measures(own, instance[some], triangle[some])
+        else:
+            out[:, some] = measures[:, own]
+    return out

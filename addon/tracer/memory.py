@@ -1,7 +1,7 @@
-"""Whether there is memory for a picture, asked before any work.
+"""Refuses a picture that does not fit into free memory, before any work on it.
 
-Systems hand out more memory than they have, and end the process that uses it: so what is free has
-to be asked for.
+Systems grant more memory than they have, and kill the process that uses it. So the free memory has
+to be looked up.
 """
 
 from __future__ import annotations
@@ -13,23 +13,28 @@ from pathlib import Path
 
 _GIB = 1 << 30
 
-# What a pixel takes at most at any time, of processes that make pictures of 1024 x 1024 pixels:
-# while it is traced, and made into what is written; and while it is compared. Measured by
+# The most bytes that a pixel takes at any time, in pictures of 1024 x 1024 pixels. Measured by
 # `tools/memory_a_pixel.py`, rounded up.
-TRACED, COMPARED = 256, 512
-ALWAYS = 64 << 20  # bytes of temporaries, however small the picture is
+TRACED = 256  # while it is traced, and while the files of the picture are made
+COMPARED = 512  # while it is compared
+ALWAYS = 64 << 20  # bytes of temporaries of a picture of any size
 
 
 class PictureTooLargeError(MemoryError):
-    """The picture cannot be held in memory; the message says by how much."""
+    """The picture does not fit into memory; the message says what it needs and what is free."""
 
 
 def check_memory(width: int, height: int, bytes_per_pixel: int, always: int = ALWAYS) -> None:
-    """Raise a PictureTooLargeError if a picture of this size does not fit into free memory.
+    """Refuse a picture that does not fit into free memory.
 
     Where the system does not say what is free, nothing is refused.
+
+    Raises
+    ------
+    PictureTooLargeError
     """
-    needed, free = always + width * height * bytes_per_pixel, free_memory()
+    needed = always + width * height * bytes_per_pixel
+    free = free_memory()
     if free is not None and needed > free:
         raise PictureTooLargeError(
             f"The picture has {width} x {height} pixels, which take {needed / _GIB:.1f} GiB with "
@@ -39,12 +44,12 @@ def check_memory(width: int, height: int, bytes_per_pixel: int, always: int = AL
 
 
 def free_memory() -> int | None:
-    """Return how many bytes can be had without swapping; None if the system does not say."""
+    """Return how many bytes are free without swapping; None if the system does not say."""
     if sys.platform == "win32":
         return _free_on_windows()
-    found = []
+    found: list[int] = []
     for ask in (_free_of_machine, _free_of_container, _free_of_process):
-        # A system that does not have it; or "max", which is no number: there is no limit.
+        # The system may not have this limit, or call it "max": then there is none.
         with suppress(ImportError, OSError, ValueError, StopIteration):
             found += ask()
     return min(found, default=None)
@@ -57,12 +62,12 @@ def _free_of_machine() -> list[int]:
 
 def _free_of_container() -> list[int]:
     folder = Path("/sys/fs/cgroup")
-    limit, used = ((folder / name).read_text() for name in ("memory.max", "memory.current"))
-    return [int(limit) - int(used)]
+    limit = int((folder / "memory.max").read_text())
+    return [limit - int((folder / "memory.current").read_text())]
 
 
 def _free_of_process() -> list[int]:
-    """Return what is left of the process's own limits, as `ulimit -v` and `-d` set them."""
+    """Return what is left below the process's own limits, which `ulimit -v` and `-d` set."""
     import resource
 
     pages = Path("/proc/self/statm").read_text(encoding="ascii").split()
@@ -73,7 +78,7 @@ def _free_of_process() -> list[int]:
 
 
 def _free_on_windows() -> int | None:
-    # A MEMORYSTATUSEX: its length and the load in 32 bits each, what there is, what is free, ...
+    # A MEMORYSTATUSEX: its length and the load in 32 bits each, the total, what is free, ...
     status = (ctypes.c_uint64 * 8)(64)
-    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
-    return status[2] if done else None
+    kernel32: ctypes.CDLL = vars(ctypes)["windll"].kernel32  # only Windows' ctypes has it
+    return status[2] if kernel32.GlobalMemoryStatusEx(ctypes.byref(status)) else None

@@ -1,22 +1,47 @@
-"""The nearest hit of every ray.
+"""Finds the nearest hit of every ray with a plain method: floating point, and no proof.
 
-In come rays and candidates; out go `Hits`: for each ray the nearest t within the clip range, and
-whose it is. Exactly equal t go to the lower (instance, triangle); planes come after instances.
-`certified/` does the same with proof.
+Of all surfaces that a ray meets within the clip range, it sees the one of least t. Of exactly equal
+t, the lower (instance, triangle) is seen; infinite planes come after the instances.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+
 import numpy as np
-from numpy.typing import NDArray
 
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
-from .candidates import Pairs, Plan, candidates, cull
+from .candidates import PAIRS, Plan, candidates, cull
 from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
+from .triangle import TESTS
+from .vector import Bools, Floats, Index
+from .world import Pairs, batches, world_triangles
+
+# Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).
+TraceBand = Callable[[Region, float, float], Work[Hits]]
+
+
+def tracer(
+    scene: Scene, settings: Settings, reach: float, statistics: Statistics
+) -> Work[TraceBand]:
+    """Prepare to trace bands of a picture by a plain method.
+
+    Parameters
+    ----------
+    settings : Settings
+        With a plain method.
+    reach : float
+        How far from its pixel's centre a ray may pass, in pixels along each axis.
+    statistics : Statistics
+        To count in.
+    """
+    made = yield from plan(scene, settings, reach)
+    statistics.refused = made.refused
+    return lambda band, dx, dy: trace_tile(made, band, dx, dy, statistics)
 
 
 def plan(scene: Scene, settings: Settings, reach: float) -> Work[Plan]:
@@ -30,9 +55,11 @@ def trace_tile(
     """Find the nearest hits of the rays of a tile, in small steps.
 
     Each ray passes its pixel's centre at (dx, dy), in pixels, at most `plan.reach`. The hits are
-    those of the tile, row by row from the lowest; the pairs are counted in the statistics.
+    those of the tile's pixels, row by row from the lowest. Pairs are counted in the statistics.
     """
-    scene, settings = plan.scene, plan.settings
+    scene = plan.scene
+    settings = plan.settings
+    assert settings, "the plan of a plain method has its settings"
     statistics = statistics or Statistics()
     rays = camera_rays(scene.camera, *film_positions(tile, dx, dy), settings.precision.dtype)
     hits = Hits.none(tile.width * tile.height)
@@ -46,6 +73,29 @@ def trace_tile(
     return hits
 
 
+def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statistics) -> Work[Hits]:
+    """Find the nearest hits of any n rays, each tested with every triangle, in small steps."""
+    hits = Hits.none(rays.count)
+    test_planes(scene, rays, hits)
+    for pairs in every_pair(scene, rays, statistics):
+        test_pairs(scene, settings, rays, pairs, hits)
+        yield 0.0
+    return hits
+
+
+def every_pair(scene: Scene, rays: Rays, statistics: Statistics) -> Iterator[Pairs]:
+    """Yield all pairs of a ray and a triangle: rays that are not a camera's can cull nothing."""
+    dtype = rays.directions.dtype
+    for batch in batches(scene):
+        triangles = world_triangles(scene, batch, dtype)
+        triangles = triangles.take(np.flatnonzero(triangles.finite))
+        total = rays.count * len(triangles)
+        for start in range(0, total, PAIRS):
+            number = np.arange(start, min(start + PAIRS, total))
+            statistics.pairs_tested += len(number)
+            yield Pairs(*np.divmod(number, len(triangles)), triangles)
+
+
 def test_pairs(
     scene: Scene, settings: Settings, rays: Rays, some: Pairs, hits: Hits, after: Hits | None = None
 ) -> None:
@@ -53,9 +103,9 @@ def test_pairs(
 
     With `after`, only what lies behind those hits counts, in the order of t, instance, triangle.
     """
-    hit, t, s = settings.method.function(rays.take(some.pixel), *some.corners)
+    hit, t, s = TESTS[settings.method](rays.take(some.pixel), *some.corners)
     seen = np.flatnonzero(hit & within_clip(scene.camera, t))
-    found = Hits(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
+    found = Hits.of(t[seen], some.instance[seen], some.triangle[seen], s[:, seen])
     _keep_nearest(hits, after, some.pixel[seen], found)
 
 
@@ -69,35 +119,34 @@ def test_planes(scene: Scene, rays: Rays, hits: Hits, after: Hits | None = None)
         t = np.broadcast_to(t, hits.t.shape)
         seen = np.flatnonzero(within_clip(scene.camera, t))
         found = Hits.none(len(seen))
-        found.t, found.instance[:] = t[seen], len(scene.instances) + index
+        found.t[:] = t[seen]
+        found.instance[:] = len(scene.instances) + index
         _keep_nearest(hits, after, seen, found)
 
 
-def within_clip(camera: Camera, t: NDArray[np.floating]) -> NDArray[np.bool_]:
+def within_clip(camera: Camera, t: Floats) -> Bools:
     """Return whether each t (n,), which is the depth, lies in the camera's clip range."""
     with np.errstate(invalid="ignore", over="ignore"):  # NaN; an end that float32 does not have
         return (t >= camera.clip_start) & (t <= camera.clip_end)
 
 
-def _keep_nearest(hits: Hits, after: Hits | None, pixel: NDArray[np.intp], found: Hits) -> None:
+def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> None:
     """Enter hits where they are nearer than what is there; a pixel may occur more than once."""
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)
-    # Of several writes to one pixel the last one stays: so those that are nearer come again, the
-    # other way round, as many may be sorted.
+    # numpy keeps the last of several writes to one index. So hits that are nearer than what was
+    # kept are written again, in the opposite order, since many are sorted from near to far.
     while len(pixel):
         nearer = np.flatnonzero(_before(found, slice(None), hits, pixel))[::-1]
         pixel, found = pixel[nearer], found.take(nearer)
         hits.enter(pixel, found)
 
 
-def _before(
-    first: Hits, rays: NDArray | slice, second: Hits, others: NDArray | slice
-) -> NDArray[np.bool_]:
+def _before(first: Hits, rays: Index | slice, second: Hits, others: Index | slice) -> Bools:
     """Return where hits of `rays` come before others, in the order of t, instance, triangle."""
-    t, instance, triangle = first.t[rays], first.instance[rays], first.triangle[rays]
-    other_t, other_instance = second.t[others], second.instance[others]
-    lower = triangle < second.triangle[others]
+    t, other_t = first.t[rays], second.t[others]
+    instance, other_instance = first.instance[rays], second.instance[others]
+    lower = first.triangle[rays] < second.triangle[others]
     lower = (instance < other_instance) | ((instance == other_instance) & lower)
     return (t < other_t) | ((t == other_t) & lower)

@@ -1,4 +1,4 @@
-"""Ray and infinite plane, by the textbook.
+"""Finds where rays meet an infinite plane, by the textbook.
 
 The plane is (x - p) . n = 0. With x = o + t d: t = -((o - p) . n) / (d . n). If d . n = 0 the ray
 is parallel to the plane and does not hit it.
@@ -14,7 +14,7 @@ from .vector import Vectors, dot
 
 
 def intersect(rays: Rays, point: Vectors, normal: Vectors) -> NDArray[np.floating]:
-    """Return where the rays meet the plane.
+    """Return the t at which each ray meets the plane.
 
     Parameters
     ----------
@@ -26,7 +26,11 @@ def intersect(rays: Rays, point: Vectors, normal: Vectors) -> NDArray[np.floatin
     Returns
     -------
     t : (n,)
-        Ray parameter; NaN where the ray is parallel.
+        Ray parameter, of the rays' dtype; NaN where the ray is parallel to the plane.
+
+    References
+    ----------
+    .. [1] Exercise 1 of the course: ray and plane.
     """
     towards = dot(rays.directions, normal)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

@@ -1,22 +1,23 @@
-"""Long work as generators: each step yields the share that is done, 0 to 1, and the end returns.
+"""Long work in small steps: generators that yield the share of the work that is done, 0 to 1.
 
-Whoever drives one decides what to show, and stops by not asking for more.
+The caller decides what to show, and stops the work by not asking for the next step.
 """
 
 from __future__ import annotations
 
 import time
-from collections import Counter
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, MutableMapping
 from typing import TypeVar
 
-A, B, T = TypeVar("A"), TypeVar("B"), TypeVar("T")
+A = TypeVar("A")
+B = TypeVar("B")
+T = TypeVar("T")
 Work = Generator[float, None, T]
-Steps = Generator[str, None, T]  # of which each says which stage of the work it was
+Steps = Generator[str, None, T]  # each step yields the name of its stage of the work
 
 
 def result_of(work: Work[T], progress: Callable[[float], None] | None = None) -> T:
-    """Run work to its end, telling `progress` every share; returns its result."""
+    """Run work to its end, call `progress` with every share, and return the result."""
     while True:
         try:
             share = next(work)
@@ -26,37 +27,41 @@ def result_of(work: Work[T], progress: Callable[[float], None] | None = None) ->
             progress(share)
 
 
-def mapped(
-    work: Generator[A, None, T], of: Callable[[A], B], step: Callable[[Generator], A] = next
-) -> Generator[B, None, T]:
-    """Run work whose steps, taken by `step`, yield what a function makes of what they are."""
+def mapped(work: Generator[A, None, T], of: Callable[[A], B]) -> Generator[B, None, T]:
+    """Run work, and yield a function of what each of its steps yields."""
     while True:
         try:
-            share = step(work)
+            found = next(work)
         except StopIteration as stop:
             return stop.value
-        yield of(share)
+        yield of(found)
 
 
 def scaled(work: Work[T], start: float, size: float) -> Work[T]:
-    """Run work as the part of a larger one that begins at `start` and has this size."""
+    """Run work as a part of larger work: the share `size` of it, from the share `start` on."""
     return mapped(work, lambda share: start + size * share)
 
 
-def timed(steps: Steps[T], stages: Counter[str], share: float = 0.0) -> Work[T]:
-    """Run steps as work of which this share is done, and count the seconds of their stages."""
-
-    def step(steps: Steps[T]) -> float:
+def timed(steps: Steps[T], stages: MutableMapping[str, float], share: float = 0.0) -> Work[T]:
+    """Add the seconds of each step to those of its stage; every step yields the same share."""
+    while True:
         began = time.perf_counter()
-        stage = next(steps)
-        stages[stage] += time.perf_counter() - began
-        return share
-
-    return mapped(steps, float, step)
+        try:
+            stage = next(steps)
+        except StopIteration as stop:
+            return stop.value
+        stages[stage] = stages.get(stage, 0.0) + time.perf_counter() - began
+        yield share
 
 
 def quiet(work: Work[T]) -> Work[T]:
-    """Run work without numpy's warnings: what over- or underflows is not known, and found out."""
-    import numpy as np  # late: to register, Blender needs none
+    """Run work without numpy's warnings: it looks for overflow and NaN itself."""
+    import numpy as np  # late: Blender registers the add-on without numpy
 
-    return mapped(work, float, np.errstate(all="ignore")(next))
+    while True:
+        try:
+            with np.errstate(all="ignore"):
+                share = next(work)
+        except StopIteration as stop:
+            return stop.value
+        yield share

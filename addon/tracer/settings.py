@@ -34,14 +34,14 @@ class Settings:
         the proof needs float64.
     """
 
-    method: Method | str = Method.AUTO
-    precision: Precision | str = Precision.FLOAT64
+    method: Method = Method.AUTO
+    precision: Precision = Precision.FLOAT64
     # The colour is the mean of `samples` x `samples` rays spread evenly over the pixel; every other
     # output is that of the ray through the pixel's centre.
     samples: int = 1
     memory: int = 512 << 20  # bytes that working arrays may take, beside the scene and the picture
     # What a pixel shows of the surface that is seen. A comparison is about the object's own.
-    color: Color | str = Color.OBJECT
+    color: Color = Color.OBJECT
 
     def __post_init__(self) -> None:
         for name, kind in (("method", Method), ("precision", Precision), ("color", Color)):

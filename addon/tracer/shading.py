@@ -1,7 +1,6 @@
-"""Constant shading, and the other outputs of a hit: colour, position, normal.
+"""Finds the colour, the normal and the position of hits: constant shading.
 
-In come `Hits`, for the position with their rays; out go arrays, a row a ray. All of it is float64
-whatever the precision of the intersection: it says where the hit was found to be.
+Everything is computed in float64, also where the intersection was computed in float32.
 """
 
 from __future__ import annotations
@@ -16,15 +15,15 @@ from ..runs import by_runs
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
-from .vector import Index, Vectors, cross, dot, largest
+from .vector import Bools, Index, Vectors, cross, dot, largest
 from .world import world_corners
 
 
 def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
-    """Return what each ray sees, (n, 4) linear RGBA; alpha is 1 on every surface.
+    """Return the colour that each of n rays sees, (n, 4) linear RGBA; surfaces have an alpha of 1.
 
-    The colour of a triangle is that of its material slot; where the mesh has corner colours, the
-    barycentrics weigh them.
+    A triangle has the colour of its material slot. Where its mesh has corner colours, the colour is
+    interpolated between them by the barycentrics.
     """
     first, last = scene.color_rows
     row = first[hits.instance]
@@ -42,46 +41,48 @@ def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
     return out
 
 
-def interpolated(scene: Scene, instance: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return of which instances, planes and NOTHING (...) the colour is one between corners."""
+def interpolated(scene: Scene, instance: Index) -> Bools:
+    """Return whether the colour of instances (...) is interpolated; not that of planes, NOTHING."""
     of = [scene.meshes[i].corner_colors is not None for i in scene.instance_meshes]
     return np.array([*of, *(False for _ in scene.planes), False])[instance]
 
 
 def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
-    """Return the geometric unit normal in world space, (n, 3); zero where nothing is hit.
+    """Return the geometric unit normals of n hits, (n, 3), world space; zero for NOTHING.
 
-    It is the side that the winding (p2 - p1) x (p3 - p1) names in *object* space: a mirrored
-    instance keeps its outside outside. (The textbook's own n is its opposite.)
+    A normal points to the side of (p2 - p1) x (p3 - p1) in *object* space, so that mirroring an
+    instance does not turn it inside out. (The textbook's own n points the other way.)
     """
     return by_runs(partial(_normals, scene), hits.instance, hits.triangle)
 
 
-def _normals(scene: Scene, instance: Index, triangle: Index) -> NDArray[np.float64]:
+def _normals(scene: Scene, instance: Index, triangle: Index) -> Vectors:
+    """Return the unit normals of named triangles, planes and NOTHING, (n, 3)."""
     n = np.zeros((3, len(instance)))
     for index, infinite in enumerate(scene.planes, start=len(scene.instances)):
         n[:, instance == index] = infinite.normal[:, None]
     rows = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
-    instance, triangle = instance[rows], triangle[rows]
-    p1, p2, p3 = world_corners(scene, instance, triangle) * 2.0**-2  # their differences are finite
-    x, y, z = map(near_1, scene.instance_matrices[:3, :3].swapaxes(0, 1))  # where the axes go
-    mirrored = (dot(cross(x, y), z) < 0)[instance]
+    of_mesh = instance[rows]
+    corners = world_corners(scene, of_mesh, triangle[rows])
+    p1, p2, p3 = corners * 2.0**-2  # so that their differences are finite
+    x, y, z = map(near_1, scene.instance_matrices[:3, :3].swapaxes(0, 1))  # images of the axes
+    mirrored = (dot(cross(x, y), z) < 0)[of_mesh]
     n[:, rows] = cross(near_1(p2 - p1), near_1(p3 - p1)) * np.where(mirrored, -1, 1)
-    n = near_1(n)
-    length = np.sqrt(dot(n, n))
-    return (n / np.where(length > 0, length, 1)).T
+    scaled = near_1(n)
+    length = np.sqrt(dot(scaled, scaled))
+    return (scaled / np.where(length > 0, length, 1)).T
 
 
 def near_1(v: Vectors) -> Vectors:
-    """Return vectors as they are or scaled, so that products neither overflow nor underflow."""
+    """Return vectors (3, n), scaled where their products might overflow or underflow."""
     size = largest(*np.abs(v))
     if (((size > 2.0**-100) & (size < 2.0**100)) | (size == 0)).all():
         return v
     return np.ldexp(v, -np.frexp(size)[1])
 
 
-def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
-    """Return where each ray ends in world space, (n, 3) metres; zero where nothing is hit."""
+def positions(rays: Rays, hits: Hits) -> Vectors:
+    """Return the positions of n hits in world space, (n, 3) metres; zero where nothing is hit."""
     hit = hits.instance != NOTHING
     points = rays.at(np.where(hit, hits.t, 0.0))
     points[:, ~hit] = 0
@@ -89,7 +90,7 @@ def positions(rays: Rays, hits: Hits) -> NDArray[np.float64]:
 
 
 def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
-    """Yield each mesh that instances, planes and NOTHING (n,) show, with its rows of them."""
+    """Yield each mesh among instances (n,) with its rows of them; no planes, and not NOTHING."""
     on_mesh = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
     meshes = scene.instance_meshes[instance[on_mesh]]
     if len(meshes) and (meshes == meshes[0]).all():

@@ -1,10 +1,10 @@
-"""Ray and triangle: the textbook's test, the same taken literally, Möller–Trumbore, watertight.
+"""Tests rays with triangles: by the textbook, by it literally, Möller–Trumbore, watertight.
 
 Each function takes n rays and n triangles, pair by pair, and returns
     hit : (n,) bool      whether the ray's line meets the triangle
     t   : (n,)           ray parameter where it does
     s   : (3, n)         barycentrics of p1, p2, p3: x = s1 p1 + s2 p2 + s3 p3
-in the precision of its input. Whether t lies within the clip range is not decided here.
+in the precision of its input. The clip range is not tested here.
 
 The textbook (Exercise 1, triangle):
     n = (p3 - p1) x (p2 - p1)                     t = -((o - p1) . n) / (d . n),  x = o + t d
@@ -25,15 +25,16 @@ Neither rule treats the edge between two triangles as belonging to exactly one o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..methods import Method
 from .camera import Rays
-from .vector import Vectors, cross, dot
+from .vector import Bools, Floats, Vectors, cross, dot
 
-Intersection = tuple[NDArray[np.bool_], NDArray[np.floating], Vectors]
+Intersection = tuple[Bools, Floats, Vectors]
+Sheared = list[tuple[Floats, Floats, Floats]]  # x, y and depth of each corner
 
 # How far s1 + s2 + s3 may be from 1, dimensionless. Ordinary rays stay within a few ulp of 1 (ulp:
 # 1e-7 and 2e-16); weights whose sum is farther off have lost most of their digits.
@@ -41,7 +42,8 @@ SUM_TOLERANCE = {np.dtype(np.float32): 1e-6, np.dtype(np.float64): 1e-9}
 
 
 def _textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
-    o, d = rays.origins, rays.directions
+    o = rays.origins
+    d = rays.directions
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         n = cross(p3 - p1, p2 - p1)
         t = -dot(o - p1, n) / dot(d, n)  # d . n = 0 gives inf or NaN, and every test below fails
@@ -56,7 +58,7 @@ def _textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection
 
 
 def textbook_literal(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
-    """Test as printed, the sum's equality with 1 included: loses about half of all hits."""
+    """Test exactly as printed, with a sum that equals 1: loses about half of all hits."""
     inside, t, s = _textbook(rays, p1, p2, p3)
     with np.errstate(invalid="ignore", over="ignore"):
         return inside & (s[0] + s[1] + s[2] == 1), t, s
@@ -73,11 +75,15 @@ def textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
 def moller_trumbore(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
     """Solve o + t d = p1 + s2 (p2 - p1) + s3 (p3 - p1) by Cramer's rule.
 
-    Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997. Both
-    faces are seen; there is no epsilon on the determinant, which would be a length to the third.
+    Both faces are seen. There is no epsilon for the determinant: it would be a length to the third.
+
+    References
+    ----------
+    .. [1] Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", JGT 2(1), 1997.
     """
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        e1, e2 = p2 - p1, p3 - p1
+        e1 = p2 - p1
+        e2 = p3 - p1
         across = cross(rays.directions, e2)
         scale = 1 / dot(e1, across)
         from_p1 = rays.origins - p1
@@ -92,40 +98,55 @@ def moller_trumbore(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Inters
 def watertight(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
     """Shear the ray onto an axis, and take the signs of three 2D edge functions.
 
-    Source: Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013. Two
-    triangles compute the edge that they share from the same rounded numbers, so that no ray slips
-    between them; it may meet both. In float32, edge functions that come out as zero are computed
-    again in float64, as the paper does.
+    Two triangles compute their common edge from the same rounded numbers, so that no ray slips
+    between them; a ray may hit both. In float32, edge functions that come out as zero are computed
+    again in float64, as in the paper.
+
+    References
+    ----------
+    .. [1] Woop, Benthin and Wald, "Watertight ray/triangle intersection", JCGT 2(1), 2013.
     """
     d = np.broadcast_to(rays.directions, np.broadcast_shapes(rays.directions.shape, p1.shape))
     z = np.abs(d).argmax(axis=0)
     order = np.stack(((z + 1) % 3, (z + 2) % 3, z))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         dx, dy, dz = np.take_along_axis(d, order, axis=0)
-        shear_x, shear_y = dx / dz, dy / dz
-        sheared = []
+        shear_x = dx / dz
+        shear_y = dy / dz
+        sheared: Sheared = []
         for corner in (p1, p2, p3):
             x, y, depth = np.take_along_axis(corner - rays.origins, order, axis=0)
             sheared.append((x - shear_x * depth, y - shear_y * depth, depth))
-        depths = [depth for _, _, depth in sheared]
         weights = _edge_functions(sheared)
-        hit, t, s = _weighed(weights, depths, dz)
+        hit, t, s = _weighed(weights, sheared, dz)
         if d.dtype == np.float32 and (again := (weights == 0).any(axis=0)).any():
-            finer = _edge_functions([[v[again].astype(np.float64) for v in c] for c in sheared])
-            own = [depth[again] for depth in depths], np.broadcast_to(dz, again.shape)[again]
-            hit[again], t[again], s[:, again] = _weighed(finer, *own)
+            some: Sheared = [(x[again], y[again], depth[again]) for x, y, depth in sheared]
+            finer = _edge_functions(
+                [(x.astype(float), y.astype(float), depth) for x, y, depth in some]
+            )
+            dz = np.broadcast_to(dz, again.shape)[again]
+            hit[again], t[again], s[:, again] = _weighed(finer, some, dz)
         return hit, t, s
 
 
-def _weighed(weights: Vectors, depths: Sequence[NDArray], dz: NDArray) -> Intersection:
-    """Return hit, t and barycentrics from edge functions, and depths along the ray's axis."""
+def _weighed(weights: Vectors, sheared: Sheared, dz: Floats) -> Intersection:
+    """Return hit, t and barycentrics for edge functions, and depths along the ray's axis."""
     area = weights[0] + weights[1] + weights[2]
     hit = ((weights >= 0).all(axis=0) | (weights <= 0).all(axis=0)) & (area != 0)
     s = weights / area
-    return hit, dot(s, np.stack(depths)) / dz, s
+    return hit, dot(s, np.stack([depth for _, _, depth in sheared])) / dz, s
 
 
-def _edge_functions(sheared: Sequence[Sequence[NDArray]]) -> Vectors:
+def _edge_functions(sheared: Sheared) -> Vectors:
     """Return twice the areas of the triangles that the ray makes with each edge, (3, n)."""
     (ax, ay, _), (bx, by, _), (cx, cy, _) = sheared
     return np.stack((cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax))
+
+
+# By method: the function that tests n rays with n triangles.
+TESTS: dict[Method, Callable[[Rays, Vectors, Vectors, Vectors], Intersection]] = {
+    Method.TEXTBOOK_LITERAL: textbook_literal,
+    Method.TEXTBOOK: textbook,
+    Method.MOLLER_TRUMBORE: moller_trumbore,
+    Method.WATERTIGHT: watertight,
+}

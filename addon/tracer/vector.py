@@ -1,6 +1,6 @@
-"""Vectors as component-first arrays, (3, n): the formulas read as in the textbook.
+"""Vectors as component-first arrays, (3, n), so that formulas read as in the textbook.
 
-And records of arrays whose last axis counts the same things.
+And helpers for records of arrays, and for working on a part of an array at a time.
 
 Every operation is an explicit elementwise one. A matrix product or einsum may round the same
 vertex differently in arrays of different length, which would tear shared vertices apart.
@@ -9,68 +9,80 @@ vertex differently in arrays of different length, which would tear shared vertic
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import reduce
-from typing import Self
+from typing import Any, Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-rational = np.vectorize(lambda x: Fraction(float(x)), otypes=[object])  # of floats, exactly
+Floats = NDArray[np.floating]  # float64, but where a plain method is asked for float32
+Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
+Index = NDArray[np.integer]
+Bools = NDArray[np.bool_]
+Numbers = NDArray[Any]  # of any one dtype; of dtype object where they are fractions
+D = TypeVar("D", bound=np.generic)
+
+# In numpy 1 `take` is half as fast as indexing row by row.
 _TAKE_IS_FAST = np.lib.NumpyVersion(np.__version__) >= "2.0.0"
 
-Floats = NDArray[np.float64]
-Index = NDArray[np.integer]
-Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
+rational = np.vectorize(lambda x: Fraction(float(x)), otypes=[object])  # of floats, exactly
 
 
-def gather(values: NDArray, index: NDArray[np.integer]) -> NDArray:
-    """Return the columns of (..., m) at an index (n,): (..., n).
-
-    `take` is the fastest way, but in numpy 1 it is half as fast as indexing row by row.
-    """
+def gather(values: NDArray[D], index: Index) -> NDArray[D]:
+    """Return the columns of (..., m) at an index (n,), (..., n), in the fastest way."""
     if _TAKE_IS_FAST:
         return values.take(index, axis=-1)
     if values.ndim == 1:
         return values[index]
     out = np.empty((*values.shape[:-1], len(index)), values.dtype)
-    if not out.size:  # of nothing, reshape cannot tell how many rows there are
+    if not out.size:  # reshape cannot tell how many rows an empty array has
         return out
-    for row, target in zip(
-        values.reshape(-1, values.shape[-1]), out.reshape(-1, len(index)), strict=True
-    ):
+    rows = values.reshape(-1, values.shape[-1])
+    for row, target in zip(rows, out.reshape(-1, len(index)), strict=True):
         target[:] = row[index]
     return out
 
 
+@dataclass(frozen=True, eq=False)
 class Arrays:
-    """What all records of arrays have in common that count the same things in their last axis."""
+    """A record of arrays whose last axis counts the same things."""
+
+    def arrays(self) -> list[Numbers]:
+        """Return the arrays in the order of the record's fields."""
+        return [getattr(self, field.name) for field in fields(self)]
 
     def __len__(self) -> int:
-        return next(iter(vars(self).values())).shape[-1]
+        return self.arrays()[0].shape[-1]
 
-    def take(self, index: NDArray[np.integer] | slice) -> Self:
+    def take(self, index: Index | slice) -> Self:
         """Return those at `index`."""
         if isinstance(index, slice):
-            return type(self)(*(v[..., index] for v in vars(self).values()))
-        return type(self)(*(gather(v, index) for v in vars(self).values()))
+            return type(self)(*(values[..., index] for values in self.arrays()))
+        return type(self)(*(gather(values, index) for values in self.arrays()))
 
     @classmethod
     def joined(cls, parts: Iterable[Self]) -> Self:
-        """Return them all as one."""
-        fields = zip(*(vars(part).values() for part in parts), strict=True)
-        return cls(*(np.concatenate(f, axis=-1) for f in fields))
+        """Return several records, at least one, as one."""
+        columns = zip(*(part.arrays() for part in parts), strict=True)
+        return cls(*(np.concatenate(column, axis=-1) for column in columns))
 
     @classmethod
     def together(cls, parts: Iterable[Self], size: int) -> Iterator[Self]:
-        """Yield them all, small parts joined, at least `size` at a time but at the end."""
-        some, count = [], 0
+        """Yield records, small ones joined until they have at least `size`; the last may be less.
+
+        Nothing is yielded where there are none.
+        """
+        some: list[Self] = []
+        count = 0
         for part in parts:
             some.append(part)
             count += len(part)
             if count >= size:
                 yield cls.joined(some)
-                some, count = [], 0
+                some = []
+                count = 0
         if some:
             yield cls.joined(some)
 
@@ -80,8 +92,11 @@ def parts(count: int, size: int) -> list[slice]:
     return [slice(first, first + size) for first in range(0, count, size)]
 
 
-def groups(counts: NDArray[np.integer], limit: int) -> Iterator[tuple[int, int]]:
-    """Yield where groups of items begin and end, whose counts sum to `limit` at most, or of one."""
+def groups(counts: Index, limit: int) -> Iterator[tuple[int, int]]:
+    """Yield the ends of groups of items with a sum of `counts` of at most `limit`.
+
+    An item with a larger count is a group by itself.
+    """
     ends = np.cumsum(counts)
     start = 0
     while start < len(ends):
@@ -91,34 +106,35 @@ def groups(counts: NDArray[np.integer], limit: int) -> Iterator[tuple[int, int]]
         start = end
 
 
-def grouped(number: NDArray[np.integer], count: int) -> list[NDArray[np.intp]]:
-    """Return for each number below `count` where it stands."""
+def grouped(number: Index, count: int) -> list[NDArray[np.intp]]:
+    """Return for each number below `count` where it occurs."""
     ends = np.cumsum(np.bincount(number, minlength=count))[:-1]
     return np.split(np.argsort(number, kind="stable"), ends)
 
 
 def occurring(number: Index, count: int) -> tuple[NDArray[np.intp], NDArray[np.int32]]:
-    """Return which numbers below `count` occur, ascending, and which of these each is."""
+    """Return which numbers below `count` occur, ascending, and the place of each among these."""
     occurs = np.zeros(count, bool)
     occurs[number] = True
-    which, place = np.flatnonzero(occurs), np.empty(count, np.int32)
+    which = np.flatnonzero(occurs)
+    place = np.empty(count, np.int32)
     place[which] = np.arange(len(which), dtype=np.int32)
     return which, place.take(number)
 
 
-def largest(*values: NDArray) -> NDArray:
-    """Return the largest of several arrays, place by place."""
+def largest(*values: NDArray[D]) -> NDArray[D]:
+    """Return the elementwise maximum of several arrays."""
     return reduce(np.maximum, values)
 
 
-def spread(items: NDArray, counts: NDArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def spread(items: Index, counts: Index) -> tuple[Index, NDArray[np.intp]]:
     """Repeat each item `count` times; the second array numbers its copies from 0."""
     repeated = np.repeat(items, counts)
     ends = np.cumsum(counts)
     return repeated, np.arange(len(repeated)) - np.repeat(ends - counts, counts)
 
 
-def dot(a: Vectors, b: Vectors) -> NDArray[np.floating]:
+def dot(a: Vectors, b: Vectors) -> Floats:
     """Return a . b, (n,), summed in the order x, y, z."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
@@ -132,20 +148,25 @@ def cross(a: Vectors, b: Vectors, out: Vectors | None = None) -> Vectors:
     return out
 
 
-def transform_points(target_from_source: NDArray[np.float64], points: Vectors) -> Vectors:
-    """Return the points in target space, (3, n) float64; fractions, if both are.
+def transform_points(target_from_source: Numbers, points: Numbers) -> Numbers:
+    """Return points in target space, (3, n).
 
     Parameters
     ----------
     target_from_source : (4, 4) or (4, 4, n) float64
-    points : (3, n)
+    points : (3, n) of any float, in source space
+
+    Returns
+    -------
+    (3, n) float64; of dtype object, exact, where both are fractions.
     """
-    m, dtype = target_from_source, np.result_type(target_from_source, np.float64)
+    matrix = target_from_source
+    dtype = np.result_type(matrix, np.float64)
     x, y, z = np.asarray(points, dtype)
-    out = np.empty((3, *np.broadcast(m[0, 0], x).shape), dtype)
+    out = np.empty((3, *np.broadcast(matrix[0, 0], x).shape), dtype)
     for i, to in enumerate((out[0, ...], out[1, ...], out[2, ...])):
-        np.multiply(m[i, 0], x, out=to)
-        to += m[i, 1] * y
-        to += m[i, 2] * z
-        to += m[i, 3]
+        np.multiply(matrix[i, 0], x, out=to)
+        to += matrix[i, 1] * y
+        to += matrix[i, 2] * z
+        to += matrix[i, 3]
     return out

@@ -1,7 +1,7 @@
-"""Triangles in world space: in batches, or by their names.
+"""Computes triangles in world space: batch by batch, or those with given names.
 
-world_from_object . v in float64, the same bits however many are computed together: they *are* the
-scene, for all that is said of it to be exact.
+A vertex is world_from_object . v in float64, and has the same bits however many are computed
+together. These vertices *are* the scene: every claim of exactness is about them.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .camera import project
-from .vector import Arrays, Index, rational, transform_points
+from .vector import Arrays, Bools, Index, Numbers, Vectors, rational, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
 
-BATCH = 1 << 14  # triangles looked at together: a few milliseconds of work, some MiB
+BATCH = 1 << 14  # triangles in a batch, about: a few milliseconds of work, some MiB
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """Triangles first <= i < last of one mesh, in each of several of its instances."""
+    """The triangles first <= i < last of a mesh, in each of several instances."""
 
     mesh: int
     instances: NDArray[np.int32]
@@ -35,15 +35,15 @@ class Batch:
 
 @dataclass(frozen=True, eq=False)
 class WorldTriangles(Arrays):
-    """A batch in world space: `corners` (3 corners, 3, m), with where each comes from, (m,)."""
+    """m triangles in world space: `corners` (corner, component, m), instance and triangle, (m,)."""
 
-    corners: NDArray[np.floating]
+    corners: Vectors
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
 
     @property
-    def finite(self) -> NDArray[np.bool_]:
-        """Which have no corner that is not finite, (m,)."""
+    def finite(self) -> Bools:
+        """Whether all corners are finite, (m,)."""
         return np.isfinite(self.corners).all(axis=(0, 1))
 
     @staticmethod
@@ -59,34 +59,34 @@ class Pairs:
     `pixel` (p,) indexes the rays; `row` (p,) the batch's `triangles`.
     """
 
-    pixel: NDArray[np.integer]
-    row: NDArray[np.integer]
+    pixel: Index
+    row: Index
     triangles: WorldTriangles
 
     @cached_property
-    def corners(self) -> NDArray[np.floating]:
+    def corners(self) -> Vectors:
         """Corner, component, pair: (3, 3, p), world space."""
         return np.stack([corner.take(self.row, axis=1) for corner in self.triangles.corners])
 
     @property
     def instance(self) -> NDArray[np.int32]:
-        """Whose each triangle is, (p,)."""
+        """The instance of each triangle, (p,)."""
         return self.triangles.instance[self.row]
 
     @property
     def triangle(self) -> NDArray[np.int32]:
-        """Which of its mesh each triangle is, (p,)."""
+        """The number of each triangle in its mesh, (p,)."""
         return self.triangles.triangle[self.row]
 
-    def take(self, index: NDArray) -> Pairs:
+    def take(self, index: Index) -> Pairs:
         """Return the pairs at `index`."""
         return Pairs(self.pixel[index], self.row[index], self.triangles)
 
 
 def batches(scene: Scene) -> Iterator[Batch]:
-    """Split the scene's instanced triangles into batches of at most about BATCH.
+    """Split the scene's instanced triangles into batches of about BATCH at most.
 
-    Instances are taken from the bottom of the picture to its top, so that a batch of small ones
+    Instances come from the bottom of the picture to its top, so that a batch of small instances
     covers few rows.
     """
     groups: dict[int, list[int]] = {}
@@ -107,39 +107,45 @@ def batches(scene: Scene) -> Iterator[Batch]:
                 yield Batch(mesh, some, first, min(first + BATCH, count))
 
 
-def world_triangles(scene: Scene, batch: Batch, dtype: np.dtype | type) -> WorldTriangles:
-    """Return a batch's triangles in world space: world_from_object . v in float64, then `dtype`."""
+def world_triangles(
+    scene: Scene, batch: Batch, dtype: np.dtype[np.floating] | type[float]
+) -> WorldTriangles:
+    """Return a batch's triangles in world space, computed in float64 and then made `dtype`."""
     mesh = scene.meshes[batch.mesh]
     triangles = mesh.triangles[batch.first : batch.last]
-    each, copies = len(triangles), len(batch.instances)
+    each = len(triangles)
+    copies = len(batch.instances)
     matrices = scene.instance_matrices[..., batch.instances]
     corners = []
     for corner in triangles.T:
         local = mesh.vertices[corner].T.astype(np.float64)
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused
+        with np.errstate(over="ignore", invalid="ignore"):  # `refused` tells of what is not finite
             world = transform_points(matrices[..., None], local[:, None, :])
             corners.append(world.reshape(3, copies * each).astype(dtype))
     triangle = np.tile(np.arange(batch.first, batch.last, dtype=np.int32), copies)
     return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
 
 
-def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> NDArray:
-    """Return named triangles' corners in world space, (3, 3, m); of dtype object as fractions."""
+def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> Numbers:
+    """Return the corners of named triangles in world space, (corner, component, m).
+
+    In float64; as fractions where dtype is object.
+    """
     cast = rational if dtype is object else np.asarray
-    out = np.empty((3, 3, len(instance)), dtype)
-    groups = [slice(None)]
+    out: Numbers = np.empty((3, 3, len(instance)), dtype)
+    groups: list[Index | slice] = [slice(None)]
     if len(instance) and (instance[0] != instance).any():
         of = scene.instance_meshes[instance]
         groups = [np.flatnonzero(of == mesh) for mesh in np.unique(of)]
     with np.errstate(over="ignore", invalid="ignore"):
         for rows in groups:
-            own, which = instance[rows], triangle[rows]
+            own = instance[rows]
             if not len(own):
                 continue
             one = bool((own == own[0]).all())
             matrices = cast(scene.instance_matrices[..., own[:1] if one else own])
             mesh = scene.meshes[scene.instances[own[0]].mesh]
-            corners = mesh.triangles.take(which, axis=0)
+            corners = mesh.triangles.take(triangle[rows], axis=0)
             for corner in range(3):
                 local = mesh.vertices.take(corners[:, corner], axis=0).T
                 out[corner][:, rows] = transform_points(matrices, cast(local))
@@ -147,7 +153,7 @@ def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = 
 
 
 def reaches(scene: Scene) -> NDArray[np.float64]:
-    """Return what the terms of world_from_object . vertex sum up to at most, (3, instances)."""
+    """Bound the sums of |terms| of world_from_object . vertex, metres, (3, instances)."""
     if not scene.instances:
         return np.zeros((3, 0))
     reach = np.abs([m.bounds for m in scene.meshes]).max(axis=1)[scene.instance_meshes].T
@@ -156,8 +162,9 @@ def reaches(scene: Scene) -> NDArray[np.float64]:
 
 
 def refused(scene: Scene) -> int:
-    """Return how many triangles have a corner that is not finite in world space."""
-    m, count = scene.instance_matrices, 0
+    """Count the triangles that have a corner which is not finite in world space."""
+    m = scene.instance_matrices
+    count = 0
     with np.errstate(over="ignore", invalid="ignore"):
         for k in np.flatnonzero(~np.isfinite(reaches(scene)).all(axis=0)).tolist():
             mesh = scene.meshes[scene.instances[k].mesh]

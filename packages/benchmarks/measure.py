@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 from reference_tracer.methods import Method
 from reference_tracer.projections import PERSPECTIVE
+from reference_tracer.rendering import render, trace
 from reference_tracer.scene import Mesh, Scene
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import Work, scaled
-from reference_tracer.tracer.render import render, trace
 from reference_tracer.tracer.settings import Settings
 
 from . import memory

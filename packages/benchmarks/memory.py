@@ -18,8 +18,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render, trace
 from reference_tracer.scene import Scene
-from reference_tracer.tracer.render import render, trace
 from reference_tracer.tracer.settings import Settings
 
 from .scenes import build, mesh_of

@@ -10,8 +10,8 @@ from .scenes import SCALED
 
 # What a row has, what it is called, its colour and its mark.
 _LINES = (
-    ("trace_s", "certified", Method.CERTIFIED.color, "o"),
-    ("plain_s", "Möller–Trumbore", Method.MOLLER_TRUMBORE.color, "o"),
+    ("trace_s", "certified", Method.CERTIFIED.record.color, "o"),
+    ("plain_s", "Möller–Trumbore", Method.MOLLER_TRUMBORE.record.color, "o"),
     ("embreex_trace_s", "embreex, trace", "#d55e00", "s"),
     ("embreex_both_s", "embreex, build + trace", "#e69f00", "s"),
     ("bvhtree_s", "BVHTree", "#8c8c8c", "^"),

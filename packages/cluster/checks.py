@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified.contest import Contest
 from reference_tracer.certified.exact import IntegerBatch
+from reference_tracer.certified.ladder import Ladder
 from reference_tracer.scene import Region, Scene
 from reference_tracer.tracer.camera import Rays, camera_rays, corner_rays, film_positions
 from reference_tracer.tracer.candidates import Pairs
@@ -47,14 +47,14 @@ def can_be(scene: Scene, region: Region, dx: float, dy: float, claim: Claim) -> 
     around, ties = corner_rays(scene.camera, dx, dy), claim.ties
     for part in parts(len(claim.certainty), _PIXELS):
         rays, names = _rays(scene, region, dx, dy, part), claim.names[:, part]
-        contest = Contest.of(scene, rays, around)
+        ladder = Ladder.of(scene, rays, around)
         some = slice(*np.searchsorted(ties.ray, (part.start, part.stop)))
         tied, number = spread(ties.ray[some] - part.start, ties.count[some])
         row = np.repeat(ties.start[some], ties.count[some]) + number
         ray = np.append(np.arange(names.shape[1]), tied)
         every = np.hstack((names, np.stack((ties.instance, ties.triangle))[:, row]))
-        contest.enter(_pairs(scene, ray, *every))
-        hits = yield from contest.hits(Statistics())
+        ladder.test(_pairs(scene, ray, *every))
+        hits = yield from ladder.hits(Statistics())
         rule = [c == Certainty.AMBIGUOUS for c in (hits.certainty, claim.certainty[part])]
         same = np.array_equal(names, (hits.instance, hits.triangle)) and np.array_equal(*rule)
         own = {k - part.start: ties[k] for k in ties.ray[some].tolist()}

@@ -14,10 +14,10 @@ from io import BytesIO
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
-from reference_tracer.certainty import Certainty
-from reference_tracer.certified.reasons import Reason
+from reference_tracer.certainty import Certainty, Reason
+from reference_tracer.certified.measures import Known
 from reference_tracer.scene import Scene
-from reference_tracer.tracer.hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
+from reference_tracer.tracer.hits import NOTHING, Hits, Statistics, Ties
 
 Expected = tuple[DTypeLike, tuple[int | None, ...]]  # None: any length
 
@@ -58,7 +58,7 @@ class Claim:
 
     names: NDArray[np.int32]  # (2, n): instance and triangle
     certainty: NDArray[np.uint8]  # (n,)
-    known: Measured  # of all rays that integers decided, and no other
+    known: Known  # of all rays that integers decided, and no other
     ties: Ties
     statistics: Statistics  # of which only counts are told
 
@@ -66,12 +66,9 @@ class Claim:
     def of(cls, hits: Hits, statistics: Statistics) -> Claim:
         """Return what hits say."""
         decided = _decided(hits.certainty)
-        if isinstance(hits, LazyHits):
-            values = hits.measure(decided)
-        else:
-            values = np.vstack((hits.t, hits.s))[:, decided]
+        values = hits.measured(decided)
         names = np.stack((hits.instance, hits.triangle))
-        return cls(names, hits.certainty, Measured(decided, values), hits.ties, statistics)
+        return cls(names, hits.certainty, Known(decided, values), hits.ties, statistics)
 
     def packed(self) -> bytes:
         """Return it as bytes."""
@@ -94,7 +91,7 @@ class Claim:
             *(data, (np.int32, (2, count)), (np.uint8, (count,)), (np.float64, (4, None))),
             *(index, index, number, number, number, (str, ())),
         )
-        known = Measured(_decided(certainty), values)
+        known = Known(_decided(certainty), values)
         claim = cls(names, certainty, known, Ties(*ties), _statistics(str(told)))
         if not claim._is_sound(scene, certified):
             raise ValueError("it names what is not there")
@@ -129,7 +126,8 @@ class Claim:
         statistics.pairs_tested += own.pairs_tested
         statistics.reasons += own.reasons
         statistics.culling += own.culling
-        statistics.stages.update(own.stages)
+        for stage, seconds in own.stages.items():
+            statistics.stages[stage] = statistics.stages.get(stage, 0.0) + seconds
 
 
 def _decided(certainty: NDArray[np.uint8]) -> NDArray[np.int64]:
@@ -147,7 +145,7 @@ def _statistics(told: str) -> Statistics:
         pairs_tested=int(pairs),
         reasons=Counter({Reason[k]: int(n) for k, n in reasons.items()}),
         culling=Counter({k: int(n) for k, n in culling.items()}),
-        stages=Counter({k: float(n) for k, n in stages.items()}),
+        stages={k: float(n) for k, n in stages.items()},
     )
 
 

@@ -9,7 +9,6 @@ import json
 from collections import deque
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import islice
 from pathlib import Path
 from random import SystemRandom
@@ -17,14 +16,15 @@ from tempfile import TemporaryDirectory
 from typing import Any, NoReturn
 
 import numpy as np
-from reference_tracer.certified.measures import measured
+from reference_tracer.certified.measures import Known, Measured
 from reference_tracer.cli.arguments import words
+from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import save_scene
-from reference_tracer.tracer.coloring import Color
-from reference_tracer.tracer.hits import Hits, LazyHits, Measured, Statistics, Ties
+from reference_tracer.tracer.hits import Hits, Statistics, Ties
+from reference_tracer.tracer.nearest import TraceBand
 from reference_tracer.tracer.progress import Work, scaled
-from reference_tracer.tracer.render import TraceBand, Tracer, bands, here, sample_offsets
+from reference_tracer.tracer.render import Tracer, passes, traced
 from reference_tracer.tracer.settings import Settings
 
 from . import checks, tasks
@@ -38,12 +38,12 @@ PLACES = 100  # where a picture is traced again, at least
 
 
 def tracer(cluster: Cluster, share: float | None) -> Tracer:
-    """Return what traces on a cluster, a share of the rays twice, as `render.here` does here."""
+    """Return what traces on a cluster, a share of the rays twice, in place of a method's own."""
 
     def prepare(
         scene: Scene, settings: Settings, reach: float, statistics: Statistics
     ) -> Work[TraceBand]:
-        own = yield from here(scene, settings, reach, statistics)
+        own = yield from TRACERS[settings.method](scene, settings, reach, statistics)
         name, checked = scene_name(cluster, scene), ""
         if share:
             checked = f": every pixel is checked here, {share:.3g} of the rays are traced twice"
@@ -87,16 +87,14 @@ class Picture:
     name: str  # of the scene, on the workers
 
     def __post_init__(self) -> None:
-        r, self._camera = self.scene.camera.region, camera_json(self.scene)
+        r = self.scene.camera.region
+        self._camera = camera_json(self.scene)
         self._threads = sum(self.cluster.workers().values())
-        offsets = sample_offsets(self.settings.samples) if self.settings.samples > 1 else []
-        rows = r.height * (1 + len(offsets))  # each takes a look at every triangle: few are best
+        times = sum(len(each.rays()) for each in passes(self.settings))
+        rows = r.height * times  # each takes a look at every triangle: few are best
         self._rows = max(1, min(-(-rows // (EACH * self._threads)), MOST // r.width))
-        every = bands(self.scene.camera, self.settings)
-        asked = [(k > 0, b, at) for b in every for k, at in enumerate([(0.0, 0.0), *offsets])]
-        if self.settings.color is Color.DEPTH:  # as `render.steps` asks for them then
-            asked.sort(key=lambda a: a[0])
-        self._todo = iter([(part, *at) for _, b, at in asked for part in self._parts(b)])
+        every = traced(self.scene.camera, self.settings)
+        self._todo = ((part, *at) for band, at in every for part in self._parts(band))
         self._ahead: deque[Asked] = deque()
 
     def _parts(self, band: Region) -> list[Region]:
@@ -186,14 +184,16 @@ class Picture:
         names = " and ".join(f"worker {worker}" for worker in workers)
         raise ClusterError(f"{names} gave a wrong answer, about {where}: look at that machine")
 
-    def _joined(self, claims: list[Claim], band: Region, dx: float, dy: float) -> LazyHits:
+    def _joined(self, claims: list[Claim], band: Region, dx: float, dy: float) -> Hits:
         """Return what certified claims say of a band, row by row: what the sweep finds of it."""
         starts = np.cumsum([0, *(len(claim.certainty) for claim in claims)]).tolist()
-        names = np.concatenate([claim.names for claim in claims], axis=1)
-        hits = LazyHits(*names, np.concatenate([claim.certainty for claim in claims]))
+        instance, triangle = np.concatenate([claim.names for claim in claims], axis=1)
         each = list(zip(claims, starts, strict=False))
-        hits.known = Measured.joined([replace(c.known, ray=c.known.ray + s) for c, s in each])
-        hits.ties = Ties.joined([claim.ties.numbered(start) for claim, start in each])
-        given = self.scene, band, tuple(names), hits.known
-        hits.measure = partial(measured, *given, dx=dx, dy=dy)
-        return hits
+        known = Known.joined([replace(c.known, ray=c.known.ray + s) for c, s in each])
+        return Hits(
+            instance,
+            triangle,
+            np.concatenate([claim.certainty for claim in claims]),
+            Measured(self.scene, band, known, dx, dy),
+            Ties.joined([claim.ties.numbered(start) for claim, start in each]),
+        )

@@ -15,13 +15,13 @@ import numpy as np
 import reference_tracer
 from distributed import get_worker
 from reference_tracer.checked_json import camera_of
+from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import load_scene
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.scenarios.sweeps import ALL
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import Work
-from reference_tracer.tracer.render import here, resolved
 from reference_tracer.tracer.settings import Settings
 
 from .claims import Claim, packed, unpacked
@@ -101,7 +101,7 @@ def trace(
     """Return a `Claim` of what a region's rays see."""
     seen, statistics = _seen(scene, camera), Statistics()
     chosen = resolved(Settings(**json.loads(settings)), statistics)
-    trace_band = _done(here(seen, chosen, reach, statistics))
+    trace_band = _done(TRACERS[chosen.method](seen, chosen, reach, statistics))
     return Claim.of(_done(trace_band(Region(*region), dx, dy)), statistics).packed()
 
 

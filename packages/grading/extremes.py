@@ -16,6 +16,7 @@ from reference_tracer.methods import Method
 from reference_tracer.study.scenarios.sweeps import SCENARIOS, Scenario
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.progress import Work, result_of
+from reference_tracer.tracer.triangle import TESTS
 
 from .known import Ask, Floats
 from .picture import EXCUSED, Mark, look
@@ -86,7 +87,7 @@ def extreme_scenes(scenarios: Sequence[Scenario] = SCENARIOS) -> Work[list[Extre
 
 def plain(method: Method) -> Ask:
     """Return one of the tracer's own plain methods as a student would have written it."""
-    test = method.function
+    test = TESTS[method]
 
     def intersect(origins: Floats, directions: Floats, triangles: Floats) -> tuple[Floats, Floats]:
         hit, t, s = test(Rays(origins.T, directions.T), *triangles.transpose(1, 2, 0))

@@ -96,7 +96,7 @@ def look(subject: Subject, ask: Ask, clock: Callable[[], float] = float) -> Work
 def _nearest(subject: Subject, found: list[tuple]) -> tuple[Hits, NDArray[np.bool_]]:
     """Return the nearest of all that is said to be hit, and whether it truly is."""
     p = subject.planes
-    hits = Hits(p.t.copy(), p.instance.copy(), p.triangle.copy(), p.s.copy())
+    hits = Hits.of(p.t.copy(), p.instance.copy(), p.triangle.copy(), p.s.copy())
     really = np.ones(len(hits.t), bool)
     if not found:
         return hits, really

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.bounds import U, plane_fractions
 from reference_tracer.methods import Method
+from reference_tracer.rendering import steps
 from reference_tracer.scene import Scene, SceneError
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.candidates import Pairs
@@ -22,7 +23,6 @@ from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.nearest import candidates, plan, test_planes
 from reference_tracer.tracer.progress import Work
-from reference_tracer.tracer.render import steps
 from reference_tracer.tracer.settings import Settings
 
 from .known import Known, known

@@ -9,8 +9,8 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_benchmarks import commands, field, measure, memory, peers, scenes
 from reference_tracer_benchmarks.blender_peer import BlenderPeer

@@ -149,7 +149,9 @@ def test_the_plot(bench):
         x = scale(values, log=True)
         marks = [e for e in plot.elements if e.tag == "circle" and e.x > 150 and e.y < 885]
         of_mine = [r for r in largest(some) if len(rows) < len(bench.rows) or r.scene in SCALED]
-        found = sorted(x(m.x) for m in marks if m.attributes["fill"] == Method.CERTIFIED.color)
+        found = sorted(
+            x(m.x) for m in marks if m.attributes["fill"] == Method.CERTIFIED.record.color
+        )
         assert found == pytest.approx(sorted(r.triangles for r in of_mine), rel=0.01)
         bars = plot.titled("rect")
         assert {b.words.split(",")[0] for b in bars} == {r.scene for r in largest(some)}

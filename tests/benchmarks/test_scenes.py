@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.camera import camera_rays as our_rays
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_benchmarks import meshes, scenes
 from reference_tracer_benchmarks.plan import BLENDER, LARGE, plan

@@ -16,9 +16,9 @@ from reference_tracer.blender.compare import gather_case
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.causes import explain
 from reference_tracer.compare.comparison import compare as compare_traced
+from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from ..attacks import (
     ATTACKS,

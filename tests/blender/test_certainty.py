@@ -7,11 +7,11 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from reference_tracer import certainty
 from reference_tracer.blender.engine import ENGINE
 from reference_tracer.certainty import Certainty
+from reference_tracer.certified import arithmetic
+from reference_tracer.rendering import render
 from reference_tracer.scene import Region
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..tracer.second_tie_rule import compared
@@ -33,8 +33,8 @@ def square(build):
 @pytest.fixture
 def broken(monkeypatch):
     """A machine whose arithmetic allows no proof."""
-    wrong = ("rounding to nearest", np.add, certainty._ONE, certainty._ONE, certainty._ONE)
-    monkeypatch.setattr(certainty, "_CHECKS", (wrong,))
+    wrong = ("rounding to nearest", np.add, arithmetic._ONE, arithmetic._ONE, arithmetic._ONE)
+    monkeypatch.setattr(arithmetic, "_CHECKS", (wrong,))
 
 
 def test_the_pass_says_how_each_pixel_was_decided(square, rendered):

@@ -14,8 +14,8 @@ from PIL import Image
 from reference_tracer.blender import registration
 from reference_tracer.cli.main import main
 from reference_tracer.images import to_display
+from reference_tracer.rendering import render
 from reference_tracer.scene_files import load_scene
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 SAMPLES = Path(__file__).resolve().parents[2] / "sample_scenes"

@@ -11,8 +11,8 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.drawing.judges import JUDGES
+from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import pixel_size
-from reference_tracer.tracer.render import render
 
 RADIUS = JUDGES["cycles"].sample_radius
 SCENES = (

@@ -22,10 +22,10 @@ import pytest
 from reference_tracer.blender.compare import export_open_file
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.rounding import check_rounding
+from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..certified import digest

@@ -7,10 +7,11 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from reference_tracer import rendering
 from reference_tracer.blender.engine import ENGINE, ReferenceTracerEngine
-from reference_tracer.tracer import render as rendering
+from reference_tracer.rendering import render
+from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.frame import NO_HIT_DEPTH, PASSES, Frame
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 LABELS = {p.label for p in PASSES if p.label}
@@ -248,7 +249,7 @@ def handed_over(monkeypatch):
             clock.now += 1
             yield share
 
-    monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (96 * 2))
+    monkeypatch.setattr(loop, "BYTES_PER_PIXEL", Settings().memory // (96 * 2))
     monkeypatch.setattr(ReferenceTracerEngine, "_show", lambda self, *a: show(Recorder(self), *a))
     monkeypatch.setattr(rendering, "steps", a_second_later)
     monkeypatch.setattr(f"{module}.time", SimpleNamespace(monotonic=lambda: clock.now))
@@ -306,7 +307,7 @@ class CancelledEngine:
 
 def test_a_cancelled_render_keeps_the_rows_that_are_done(solids, capsys, monkeypatch):
     """Blender has no key to press in background: the engine is run as if one was."""
-    monkeypatch.setattr(rendering, "BYTES_PER_PIXEL", Settings().memory // (480 * 60))
+    monkeypatch.setattr(loop, "BYTES_PER_PIXEL", Settings().memory // (480 * 60))
     solids.render.resolution_x = solids.render.resolution_y = 480
     depsgraph = bpy.context.evaluated_depsgraph_get()
     engine = CancelledEngine(np.inf)

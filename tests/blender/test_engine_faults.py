@@ -7,10 +7,10 @@ import sys
 
 import bpy
 import pytest
+from reference_tracer import rendering
 from reference_tracer.blender import engine
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.scene import SceneError
-from reference_tracer.tracer import render as rendering
 
 
 def no_camera(scene):
@@ -107,7 +107,7 @@ def test_comparing_it_names_what_is_wrong(fault, scene, compare):
 @pytest.mark.parametrize(
     "kind", [RuntimeError, KeyError, MemoryError, ZeroDivisionError, SceneError]
 )
-@pytest.mark.parametrize("where", ["blender.reading.export.export", "tracer.render.steps"])
+@pytest.mark.parametrize("where", ["blender.reading.export.export", "rendering.steps"])
 def test_an_exception_fails_the_render(where, kind, scene, no_file, monkeypatch):
     def fail(*args, **options):
         raise kind("on purpose")

@@ -9,9 +9,9 @@ from reference_tracer.blender.reading import export as export_module
 from reference_tracer.blender.reading.planes import outside
 from reference_tracer.methods import Method
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
+from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, ViewWindow
 from reference_tracer.tracer.camera import film_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 

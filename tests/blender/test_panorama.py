@@ -12,7 +12,7 @@ from reference_tracer.blender.drawing.judges import JUDGES, judge_named
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.versions import lens
 from reference_tracer.projections import EQUIRECTANGULAR
-from reference_tracer.tracer.render import render
+from reference_tracer.rendering import render
 
 RADIUS = JUDGES["cycles"].sample_radius
 TURNED = {"rotation": (1.1, 0.3, 2.2), "location": (0.5, 0.5, -0.3)}

@@ -10,9 +10,9 @@ import trimesh
 from reference_tracer.blender.live.shows import SHOWS, Picture
 from reference_tracer.certainty import Certainty
 from reference_tracer.compare.maps import WRONG
+from reference_tracer.rendering import render
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 LITERAL = Settings("textbook_literal", "float32", samples=2)

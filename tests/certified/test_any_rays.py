@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.certified import any_rays
 from reference_tracer.methods import Method
+from reference_tracer.rendering import trace
+from reference_tracer.tracer import nearest
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
 from reference_tracer.tracer.hits import Statistics
-from reference_tracer.tracer.render import trace
 from reference_tracer.tracer.settings import Settings
 
 from ..tracer.pictures import mess
@@ -29,7 +29,7 @@ def each_for_itself(camera) -> Rays:
 @pytest.mark.parametrize("orthographic", [False, True])
 @pytest.mark.parametrize("pairs", [1 << 15, 7])
 def test_as_the_camera_has_it(make, rng, settings, orthographic, pairs, monkeypatch):
-    monkeypatch.setattr(any_rays, "PAIRS", pairs)
+    monkeypatch.setattr(nearest, "PAIRS", pairs)
     scene = mess(make, rng, orthographic, True)
     statistics = Statistics()
     given = trace(scene, settings, statistics, each_for_itself(scene.camera))

@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.hits import NOTHING, NOWHERE
-from reference_tracer.tracer.render import render
 
 from ..tracer.pictures import CERTIFIED, check, mess, names_of
 

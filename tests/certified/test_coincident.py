@@ -8,15 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.certainty import Certainty
+from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified import order, ties
-from reference_tracer.certified.reasons import Reason
 from reference_tracer.certified.sweep import sweep
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Scene
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.hits import Statistics, Ties
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..moved import may, touched

@@ -6,10 +6,10 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, ViewWindow
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import camera_rays, film_positions
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..tracer.rational import functions, rational, t_of_pixels, world_corners

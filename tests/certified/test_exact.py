@@ -7,7 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from reference_tracer.certified.exact import Hit, IntegerBatch, integers, sign_of_difference
+from reference_tracer.certified.exact import Hit, IntegerBatch, sign_of_difference
+from reference_tracer.certified.integers import integers
 from reference_tracer.certified.ties import seen_and_ties
 from reference_tracer.study.oracle import sights
 from reference_tracer.tracer.camera import Rays

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer import certainty
-from reference_tracer.certainty import AssumptionError, Certainty
-from reference_tracer.certified import measures, plain
-from reference_tracer.certified.sweep import verdict
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified import arithmetic, measures, plain
+from reference_tracer.certified.arithmetic import AssumptionError
+from reference_tracer.certified.measures import Measured
 from reference_tracer.images import save_png, to_display
 from reference_tracer.methods import Method
-from reference_tracer.tracer import render
-from reference_tracer.tracer.hits import NOTHING, Hits, LazyHits
+from reference_tracer.rendering import render, trace
+from reference_tracer.tracer.frame_measures import FrameMeasures
+from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Precision, Settings
 
@@ -28,8 +29,7 @@ def nothing_asked(monkeypatch):
     def never(*given, **named):
         raise AssertionError("nobody asked")
 
-    monkeypatch.setattr(measures, "measured", never)
-    monkeypatch.setattr(verdict, "measured", never)
+    monkeypatch.setattr(Measured, "__call__", never)
 
 
 def test_what_is_asked_for_later_is_what_the_definition_finds_at_once(make):
@@ -40,7 +40,7 @@ def test_what_is_asked_for_later_is_what_the_definition_finds_at_once(make):
         scene = hostile_scene(make, rng)
         region, width = scene.camera.region, scene.camera.region.width
         once = result_of(plain.plain(scene, region, 1 << 30))
-        frame, whole = render.render(scene, CERTIFIED), render.render(scene, CERTIFIED)
+        frame, whole = render(scene, CERTIFIED), render(scene, CERTIFIED)
         assert whole.t.tobytes() == once.t.tobytes(), seed
         alike = (whole.certainty.ravel() == once.certainty) & (once.certainty == Certainty.BOUND)
         s = whole.barycentrics.reshape(-1, 3)
@@ -48,7 +48,7 @@ def test_what_is_asked_for_later_is_what_the_definition_finds_at_once(make):
         some = rng.choice(len(s), min(len(s), 9))
         found = frame.hits().take(some).take(slice(1, None, 2))
         assert found.t.tobytes() == whole.t.ravel()[some[1::2]].tobytes(), seed
-        frame = render.render(scene, CERTIFIED)
+        frame = render(scene, CERTIFIED)
         for y in rng.permutation(region.height).tolist():
             hits = frame.hits(slice(y, y + 1))
             assert hits.t.tobytes() == whole.t[y].tobytes(), seed
@@ -67,8 +67,8 @@ def test_a_plain_method_keeps_what_it_finds(make, rng, nothing_asked, method, pr
     for orthographic in (False, True):
         scene = mess(make, rng, orthographic, False)
         settings = Settings(method, precision)
-        frame, hits = render.render(scene, settings), render.trace(scene, settings)
-        assert not isinstance(hits, LazyHits)
+        frame, hits = render(scene, settings), trace(scene, settings)
+        assert not callable(hits.measures)
         assert frame.t.tobytes() == hits.t.tobytes() and np.isfinite(frame.t).any()
         assert frame.barycentrics.reshape(-1, 3).tobytes() == hits.s.T.tobytes()
 
@@ -76,7 +76,7 @@ def test_a_plain_method_keeps_what_it_finds(make, rng, nothing_asked, method, pr
 @pytest.mark.parametrize("color", ["object", "normal", "facing"])
 @pytest.mark.parametrize("samples", [1, 2])
 def test_a_picture_asks_for_no_t(make, rng, tmp_path, nothing_asked, color, samples):
-    frame = render.render(mess(make, rng, False, False), Settings(color=color, samples=samples))
+    frame = render(mess(make, rng, False, False), Settings(color=color, samples=samples))
     save_png(tmp_path / "p.png", to_display(frame.color))
     assert (frame.normal != 0).any() and (frame.object_index != NOTHING).any()
     assert "_values" not in vars(frame.measures)  # nor was room made for it: at 8K that is a GiB
@@ -89,21 +89,22 @@ def test_depths_are_found_once(make, rng, monkeypatch, samples):
     """For the colours of the whole picture; those of samples are asked for beside it."""
     found = []
 
-    def counted(*given, function=measures.measured):
-        found.append(len(given[-1]))
-        return function(*given)
+    def counted(self, ray, *names, function=Measured.__call__):
+        if not self.dx and not self.dy:
+            found.append(len(ray))
+        return function(self, ray, *names)
 
     scene = mess(make, rng, False, False)
-    monkeypatch.setattr(measures, "measured", counted)
-    frame = render.render(scene, Settings(color="depth", samples=samples))
+    monkeypatch.setattr(Measured, "__call__", counted)
+    frame = render(scene, Settings(color="depth", samples=samples))
     assert np.isfinite(frame.t).any() and frame.barycentrics.any()
     assert sum(found) == frame.t.size
 
 
 def test_rows_that_are_known_are_not_found_again(make, rng):
     """Also between rows that are not: those of a band that was swept in halves come with theirs."""
-    frame = render.render(mess(make, rng, False, False), CERTIFIED)
-    found = measures.Measures(frame.scene, (frame.instance_index, frame.triangle_index))
+    frame = render(mess(make, rng, False, False), CERTIFIED)
+    found = FrameMeasures(frame.instance_index, frame.triangle_index)
     known = Hits.none(frame.shape[1])
     known.t[:] = 7
     for y in range(frame.shape[0]):
@@ -116,8 +117,8 @@ def test_rows_that_are_known_are_not_found_again(make, rng):
 
 
 def test_an_arithmetic_that_was_changed_meanwhile_is_found(make, rng, monkeypatch):
-    frame = render.render(mess(make, rng, False, False), CERTIFIED)
-    monkeypatch.setattr(certainty, "broken_assumptions", lambda: ["rounding to nearest"])
+    frame = render(mess(make, rng, False, False), CERTIFIED)
+    monkeypatch.setattr(arithmetic, "broken_assumptions", lambda: ["rounding to nearest"])
     with pytest.raises(AssumptionError):
         assert frame.t is None
 

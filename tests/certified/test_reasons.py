@@ -6,10 +6,11 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from reference_tracer.certified.reasons import Reason, of_doubts, sentences
+from reference_tracer.certainty import Reason, sentences
+from reference_tracer.certified.reasons import of_doubts
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -10,15 +10,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from reference_tracer import certainty
-from reference_tracer.certified import rounding
+from reference_tracer.certified import arithmetic, rounding
 from reference_tracer.certified.rounding import check_rounding
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Scene, SceneError, ViewWindow
 from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.camera import camera_rays, dual_axes, film_positions, pixel_size
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.world import world_corners
 
@@ -207,8 +206,8 @@ def test_bounds_hold(make, rng):
 def test_nothing_is_said_where_nothing_can_be_proven(make, monkeypatch):
     scene = crack(make)
     frame = render(scene, Settings("certified"))
-    monkeypatch.setattr(certainty, "_CHECKS", (("rounding", np.add, *[certainty._ONE] * 3),))
-    with pytest.raises(certainty.AssumptionError):
+    monkeypatch.setattr(arithmetic, "_CHECKS", (("rounding", np.add, *[arithmetic._ONE] * 3),))
+    with pytest.raises(arithmetic.AssumptionError):
         result_of(check_rounding(scene, frame))
 
 

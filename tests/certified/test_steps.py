@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified import contest
-from reference_tracer.certified.settle import Decisions
-from reference_tracer.certified.surfaces import Prepared
+from reference_tracer.certified import ladder
+from reference_tracer.certified.ladder import Decisions
+from reference_tracer.certified.measures import Prepared
 from reference_tracer.certified.sweep.depth_buffer import DepthBuffer
+from reference_tracer.rendering import steps
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.study.scenarios.parts import lattice
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.render import steps
 from reference_tracer.tracer.settings import Settings
 
 WIDTH, HEIGHT = 960, 540
@@ -37,7 +37,7 @@ def test_no_step_is_long_where_surfaces_coincide(make, monkeypatch, orthographic
         monkeypatch.setattr(kind, name, counted)
 
     counting(DepthBuffer, "enter", lambda buffer, pixel, *_: len(pixel))
-    counting(Decisions, "by_order", lambda decisions, found: len(found.ray))
+    counting(Decisions, "by_order", lambda decisions, found, nearest: len(found.ray))
     counting(Prepared, "meet", lambda prepared, rays, surface: len(surface))
     camera = make.camera(WIDTH, HEIGHT, half=2.0, orthographic=orthographic)
     quad = make.quad(-9, 9, -9, 9, -2)
@@ -83,5 +83,5 @@ def test_no_step_is_long_where_integers_decide(make, monkeypatch):
 
     monkeypatch.setattr(Decisions, "by_integers", counted)
     assert longest() < BY_PYTHON + 6  # no ray is divided
-    monkeypatch.setattr(contest, "BY_INTEGERS", columns * rows * 6)
+    monkeypatch.setattr(ladder, "BY_INTEGERS", columns * rows * 6)
     assert longest() > BY_PYTHON  # what was counted is what the division keeps short

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from reference_tracer import certainty
+from reference_tracer.certified import arithmetic
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.scene import Region
@@ -118,7 +118,7 @@ def test_certified_in_float32_is_refused(method, ball, tmp_path, capsys):
 
 @pytest.fixture
 def broken_arithmetic(monkeypatch):
-    monkeypatch.setattr(certainty, "broken_assumptions", lambda: ["subnormal results"])
+    monkeypatch.setattr(arithmetic, "broken_assumptions", lambda: ["subnormal results"])
 
 
 @pytest.mark.usefixtures("broken_arithmetic")

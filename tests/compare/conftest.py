@@ -9,10 +9,10 @@ import pytest
 import trimesh
 from reference_tracer.compare.bounds import differing
 from reference_tracer.compare.cause import Cause
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.tracer.camera import pixel_size
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .cases import find_causes

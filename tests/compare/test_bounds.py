@@ -19,11 +19,11 @@ from reference_tracer.compare.bounds import (
 )
 from reference_tracer.compare.cause import Cause
 from reference_tracer.images import decoded, encoded
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer.camera import film_of
 from reference_tracer.tracer.nearest import Hits
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.vector import transform_points
 
 F = np.float32
@@ -60,7 +60,7 @@ def blenders_film(camera, world_from_object, local):
 def corner_hits(count):
     """Hits of `count` corners in turn: of triangle k its three."""
     index = np.arange(count)
-    return Hits(np.ones(count), 0 * index, index // 3, np.eye(3)[index % 3].T)
+    return Hits.of(np.ones(count), 0 * index, index // 3, np.eye(3)[index % 3].T)
 
 
 @pytest.mark.parametrize("orthographic", [False, True])
@@ -114,7 +114,7 @@ def test_the_bound_grows_with_the_distance_from_the_origin(make):
 def test_planes_have_a_place_too(make):
     scene = make.scene(make.camera(), make.quad(-1, 1, -1, 1, -5))
     scene = replace(scene, planes=(Plane(0, (1e6, 0, 0), (0, 0, 1)),))
-    hits = Hits(np.full(2, 5.0), np.array([1, 1]), np.array([-1, -1]), np.zeros((3, 2)))
+    hits = Hits.of(np.full(2, 5.0), np.array([1, 1]), np.array([-1, -1]), np.zeros((3, 2)))
     near, far = view_error(scene, hits, np.array([[0, 0, -5.0], [1e6, 0, 0]]))
     assert far > 1e5 * U32 > near > 0
 
@@ -122,7 +122,7 @@ def test_planes_have_a_place_too(make):
 def test_the_middle_of_a_triangle_carries_its_corners_errors(make):
     """A triangle from 1 000 km away that passes close by is where its far corners put it."""
     scene = make.scene(make.camera(), make.quad(-1e6, 1e6, -1e6, 1e6, -5))
-    hits = Hits(np.full(1, 5.0), np.array([0]), np.array([0]), np.array([[0.5], [0.0], [0.5]]))
+    hits = Hits.of(np.full(1, 5.0), np.array([0]), np.array([0]), np.array([[0.5], [0.0], [0.5]]))
     assert view_error(scene, hits, np.array([[0.0, 0, -5]]))[0] > 1e6 * U32
 
 

@@ -9,10 +9,10 @@ import pytest
 from reference_tracer.compare import causes
 from reference_tracer.compare.cause import _LISTED, Cause, Record
 from reference_tracer.compare.comparison import compare
+from reference_tracer.rendering import render
 from reference_tracer.report.comparison import difference_picture
 from reference_tracer.report.page.content import _hex, content
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from .cases import case_of
 

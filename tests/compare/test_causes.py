@@ -14,11 +14,11 @@ from reference_tracer.compare.bounds import differing, sample_band
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.checks.unmodelled import covered
 from reference_tracer.manifest import Unmodelled
+from reference_tracer.rendering import render
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import film_of, pixel_size
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .cases import find_causes

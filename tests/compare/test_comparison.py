@@ -17,10 +17,10 @@ from reference_tracer.compare.comparison import (
 )
 from reference_tracer.compare.metrics import boundary, count_pixels
 from reference_tracer.manifest import ObjectEntry, Unmodelled
+from reference_tracer.rendering import render
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .cases import MANIFEST, case_of

@@ -13,9 +13,9 @@ from reference_tracer.compare.engines import EngineRow
 from reference_tracer.compare.faults import FAULTS
 from reference_tracer.compare.picture import Picture, Source, numbered
 from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.rendering import render
 from reference_tracer.report.engines import lines, write
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from .cases import case_of
 

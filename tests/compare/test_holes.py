@@ -12,9 +12,9 @@ from reference_tracer.compare.causes import explain
 from reference_tracer.compare.checks.hidden import without
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture, numbered
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from .cases import case_of
 

@@ -11,8 +11,8 @@ from reference_tracer.certainty import Certainty
 from reference_tracer.compare import methods
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.compare.methods import list_methods
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .cases import case_of

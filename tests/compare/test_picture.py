@@ -12,8 +12,8 @@ from reference_tracer.compare.identity import NOTHING, UNKNOWN
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.images import decoded, to_display
 from reference_tracer.manifest import Effect, Unmodelled
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from .cases import case_of, find_causes
 

@@ -16,8 +16,8 @@ from reference_tracer.compare.faults import FAULTS, Fault
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.compare.self_check import FaultRow, self_check, table
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .cases import case_of

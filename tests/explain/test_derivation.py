@@ -15,8 +15,8 @@ from reference_tracer.explain.formulas import Rejection
 from reference_tracer.explain.textbook import Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Region, SceneError
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Precision, Settings
 
 FACING = [(-1, -1, -4), (1, -1, -4), (0, 1, -4)]  # the ray (0, 0, −1) meets it at t = 4

@@ -12,8 +12,8 @@ from reference_tracer.explain import document, html, reproducer, writers
 from reference_tracer.explain.candidates import gather_pixel
 from reference_tracer.explain.derivation import derive, derive_pixel
 from reference_tracer.explain.textbook import FLOATS, Arithmetic
+from reference_tracer.rendering import trace
 from reference_tracer.tracer.hits import NOWHERE
-from reference_tracer.tracer.render import trace
 from reference_tracer.tracer.settings import PLAIN_SETTINGS, Precision, Settings
 
 from ..tracer.hostile_scenes import hostile_scene

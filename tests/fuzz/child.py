@@ -32,8 +32,8 @@ from reference_tracer.explain import document, reproducer  # noqa: E402
 from reference_tracer.explain.derivation import derive_pixel  # noqa: E402
 from reference_tracer.framing import Choice  # noqa: E402
 from reference_tracer.images import read_picture  # noqa: E402
+from reference_tracer.rendering import render  # noqa: E402
 from reference_tracer.scene import Region  # noqa: E402
-from reference_tracer.tracer.render import render  # noqa: E402
 
 PICTURES = ".png", ".exr"
 

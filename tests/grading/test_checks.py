@@ -9,6 +9,7 @@ import pytest
 from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.triangle import TESTS
 from reference_tracer_grading.checks import SCALES, Group, make_checks
 from reference_tracer_grading.known import known
 
@@ -77,7 +78,7 @@ def test_scaled_pairs_are_exact_multiples(checks):
 
 def test_nothing_is_rounded_in_whole(checks):
     rows = np.flatnonzero(checks.of(Group.WHOLE))
-    hit, t, s = Method.TEXTBOOK_LITERAL.function(
+    hit, t, s = TESTS[Method.TEXTBOOK_LITERAL](
         Rays(checks.origins[rows].T, checks.directions[rows].T),
         *checks.triangles[rows].transpose(1, 2, 0),
     )
@@ -110,7 +111,7 @@ def test_known_is_true_and_bounds_hold(rng, aspect):
         for value, weight in zip(truth.s[k], weights, strict=True):
             assert abs(Fraction(float(value)) - weight) <= Fraction(float(truth.s_allowed[k]))
     for method in (Method.TEXTBOOK, Method.MOLLER_TRUMBORE, Method.WATERTIGHT):
-        _, t, weights = method.function(Rays(o.T, d.T), *p.transpose(1, 2, 0))
+        _, t, weights = TESTS[method](Rays(o.T, d.T), *p.transpose(1, 2, 0))
         assert (np.abs(t - truth.t) <= truth.t_allowed).all(), method
         assert (np.abs(weights.T - truth.s) <= truth.s_allowed[:, None]).all(), method
 
@@ -119,7 +120,7 @@ def test_float32_is_not_within_bounds(checks):
     rows = np.flatnonzero(checks.of(Group.FRONT))
     o, d, p = (a[rows].astype(np.float32) for a in (
         checks.origins, checks.directions, checks.triangles))  # fmt: skip
-    _, t, s = Method.MOLLER_TRUMBORE.function(Rays(o.T, d.T), *p.transpose(1, 2, 0))
+    _, t, s = TESTS[Method.MOLLER_TRUMBORE](Rays(o.T, d.T), *p.transpose(1, 2, 0))
     truth = checks.known
     assert (np.abs(t - truth.t[rows]) > truth.t_allowed[rows]).mean() > 0.99
     assert (np.abs(s.T - truth.s[rows]).max(axis=1) > truth.s_allowed[rows]).mean() > 0.99

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render
 from reference_tracer.scene import SceneError
 from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.examples import find_examples
 from reference_tracer_grading.extremes import extreme_scenes, held, plain, try_extremes

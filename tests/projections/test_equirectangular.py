@@ -11,6 +11,7 @@ import trimesh
 from reference_tracer.certified.rounding import check_rounding, rounding
 from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
 from reference_tracer.scene_files import load_scene, save_scene
 from reference_tracer.study.oracle import scene_sights
@@ -25,7 +26,6 @@ from reference_tracer.tracer.camera import (
 from reference_tracer.tracer.candidates import pixel_bounds
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..tracer.hostile_scenes import brute_force

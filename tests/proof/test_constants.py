@@ -23,8 +23,7 @@ _SHARE = "the share of the work that is shown to the user"
 TUNING = {
     "sweep.film": {"0.25": "where the bounds hold: the premise `ray_error_small` of Perspective.v"},
     "plain": {"_ROWS": _STEP},
-    "settle": {"CLIP": "the name of a doubt, for the reasons that a user reads"},
-    "contest": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
+    "ladder": {"BY_ORDER": _STEP, "BY_INTEGERS": _STEP},
     "sweep.boxes": {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
         **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
@@ -70,12 +69,12 @@ HAND = {
 }
 # Proven otherwise than by an expression of floats.
 ELSEWHERE = {
-    "certainty": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
+    "arithmetic": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
     "reasons": "words for the user, of what integers have decided",
     "exact": "integers; frexp's mantissa has 53 digits, so that 2^53 of it are one",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be what the boxes leave out by test_small_triangles.py",
-    "surfaces": "of barycentrics, which have no bound of their own: below it, integers divide",
+    "measures": "of barycentrics, which have no bound of their own: below it, integers divide",
 }
 
 

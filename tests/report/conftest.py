@@ -12,10 +12,10 @@ from reference_tracer.compare.comparison import compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
 from reference_tracer.projections import PROJECTIONS
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .browser import chromium, show

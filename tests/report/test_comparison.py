@@ -13,10 +13,10 @@ from reference_tracer.compare.comparison import SCHEMA, compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest
+from reference_tracer.rendering import render
 from reference_tracer.report.comparison import difference_picture, failure_written, write
 from reference_tracer.scene import SceneError
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 NAMES = ["blender.png", "comparison.json", "difference.png", "frame.npz", "page.html", "traced.png"]

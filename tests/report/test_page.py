@@ -17,6 +17,7 @@ import pytest
 from PIL import Image
 from reference_tracer.images import to_display
 from reference_tracer.projections import PROJECTIONS
+from reference_tracer.rendering import render
 from reference_tracer.report import page
 from reference_tracer.report.comparison import failure_written
 from reference_tracer.report.comparison import write as write_folder
@@ -24,7 +25,6 @@ from reference_tracer.report.page import arrays
 from reference_tracer.report.page.content import content
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 FOLDER = page._HERE

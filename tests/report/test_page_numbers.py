@@ -12,6 +12,7 @@ from reference_tracer.projections import PROJECTIONS
 from reference_tracer.report.page import arrays
 from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
+from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.world import world_corners
 
 pytestmark = pytest.mark.browser
@@ -44,7 +45,7 @@ def expected_bits(comparison, dtype):
     mesh = np.flatnonzero((instance >= 0) & (instance < count))
     corners = world_corners(scene, instance[mesh], triangle[mesh]).astype(dtype)
     for column, method in ((4, Method.TEXTBOOK_LITERAL), (5, Method.TEXTBOOK)):
-        hit, t, s = method.function(rays.take(mesh), *corners)
+        hit, t, s = TESTS[method](rays.take(mesh), *corners)
         out[mesh, 0], out[mesh, 1:4], out[mesh, column] = t, s.T, hit
     for k, infinite in enumerate(scene.planes):
         flat = np.flatnonzero(instance == count + k)

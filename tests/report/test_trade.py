@@ -176,7 +176,7 @@ def test_the_plot_says_what_it_shows(trade):
     said = plot.said()
     for words in (trade.advice, "a scene.blend: ", "16 × 16 rays", "160 × 90 pixels, one ray each"):
         assert words in said
-    assert all(m.words in said for m in MEASURED) and "certified, float64, proven" in said
+    assert all(m.record.words in said for m in MEASURED) and "certified, float64, proven" in said
     sizes = {(r.width, r.height, r.samples) for r in trade.rows if r.best_coverage}
     assert len(sizes) > 2  # and no name is left out
     for width, height, k in sizes:

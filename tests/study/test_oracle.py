@@ -8,6 +8,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.study.oracle import (
     EDGE,
@@ -21,7 +22,6 @@ from reference_tracer.study.oracle import (
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.hits import NOTHING, NOWHERE
 from reference_tracer.tracer.nearest import film_positions
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer.tracer.vector import transform_points
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.study import tradeoff
 from reference_tracer.study.oracle import scene_sights
@@ -25,7 +26,6 @@ from reference_tracer.study.tradeoff import (
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Precision, Settings
 
 pytestmark = pytest.mark.slow

@@ -16,6 +16,7 @@ from reference_tracer.certified.any_rays import decide
 from reference_tracer.methods import Method
 from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays
+from reference_tracer.tracer.triangle import TESTS
 
 AT_ONCE = 1 << 20  # pairs looked at by the cull, some tens of MiB
 DECIDED = 1 << 17  # pairs decided together
@@ -91,7 +92,7 @@ def decided(rays: Rays, corners: NDArray, method: Method) -> tuple[NDArray, NDAr
     if not method.is_plain:
         decision = decide(rays, corners)
         return decision.hit, decision.edge
-    hit, t, _ = method.function(rays, *corners)
+    hit, t, _ = TESTS[method](rays, *corners)
     with np.errstate(invalid="ignore"):
         return hit & (t > 0), np.zeros(len(hit), bool)
 

@@ -19,10 +19,10 @@ from itertools import product
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, SceneError, drop_non_finite
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import Rays
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..rays import nearest_hits

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.study.oracle import intersect_pairs
 from reference_tracer.tracer.camera import Rays, camera_rays
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..rays import nearest_hits

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.certainty import Certainty
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene
 from reference_tracer.study.oracle import intersect_pairs, scene_sights
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..moved import may, touched

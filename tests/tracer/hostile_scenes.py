@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.certified.contest import Contest
+from reference_tracer.certified.ladder import Ladder
 from reference_tracer.scene import Camera, Instance, Mesh, Plane, Region, Scene, ViewWindow
 from reference_tracer.tracer.camera import camera_rays, corner_rays, film_positions
 from reference_tracer.tracer.candidates import Pairs
@@ -153,7 +153,7 @@ def _scene(camera, corners, planes, rng, exact=False) -> Scene:
 
 
 def brute_force(scene: Scene, region: Region, dx: float = 0.0, dy: float = 0.0) -> Hits:
-    """Return what a contest makes of every ray with every triangle."""
+    """Return what the ladder decides of every ray with every triangle."""
     camera = scene.camera
     names = [
         (i, k)
@@ -164,15 +164,13 @@ def brute_force(scene: Scene, region: Region, dx: float = 0.0, dy: float = 0.0) 
     corners = world_corners(scene, instance, triangle)
     finite = np.flatnonzero(np.isfinite(corners).all(axis=(0, 1)))
     triangles = WorldTriangles(corners, instance, triangle).take(finite)
-    planes = [(p.point, p.normal) for p in scene.planes]
-    clip = camera.clip_start, camera.clip_end
     rays = camera_rays(camera, *film_positions(region, dx, dy))
     around = corner_rays(camera, dx, dy)  # the bounds are for all rays of the picture
-    contest = Contest(rays, planes, len(scene.instances), *clip, around)
+    ladder = Ladder.of(scene, rays, around)
     count = len(finite)
     ray, row = np.divmod(np.arange(region.width * region.height * count), max(count, 1))
-    contest.enter(Pairs(ray, row, triangles))
-    return result_of(contest.hits(Statistics()))
+    ladder.test(Pairs(ray, row, triangles))
+    return result_of(ladder.hits(Statistics()))
 
 
 def scaled_camera(camera: Camera, factor: float) -> Camera:

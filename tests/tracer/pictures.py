@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 from reference_tracer.certainty import Certainty
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.frame import Frame
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..moved import may, touched

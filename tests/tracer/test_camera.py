@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.projections import ORTHOGRAPHIC
+from reference_tracer.rendering import render
 from reference_tracer.scene import Region, ViewWindow
 from reference_tracer.tracer.camera import Rays, camera_rays, film_of, pixel_size, project
 from reference_tracer.tracer.nearest import film_positions
-from reference_tracer.tracer.render import render
 
 TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
 FRAMES = {

@@ -12,6 +12,7 @@ from reference_tracer.tracer import candidates, world
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.candidates import pixel_bounds, within
 from reference_tracer.tracer.nearest import film_positions, within_clip
+from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.world import batches, world_triangles
 
 from .hostile import hostile_camera, hostile_triangles
@@ -53,7 +54,7 @@ def hits_outside(camera, corners, bounds, dx, dy):
     inside = (px >= bounds[0]) & (px < bounds[1]) & (py >= bounds[2]) & (py < bounds[3])
     every = Rays(*(np.repeat(v, count, axis=1) for v in (o, d)))
     for method in (Method.TEXTBOOK, Method.MOLLER_TRUMBORE):
-        hit, t, _ = method.function(every, *np.tile(corners, (1, 1, pixels)))
+        hit, t, _ = TESTS[method](every, *np.tile(corners, (1, 1, pixels)))
         hit = (hit & within_clip(camera, t)).reshape(pixels, count)
         yield (
             [

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.images import curve, to_display
+from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Instance, Mesh, Region
 from reference_tracer.tracer.coloring import BACK, FARTHEST, Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
-from reference_tracer.tracer.render import render, steps
 from reference_tracer.tracer.settings import Settings
 
 SHAPES = [c for c in Color if c != Color.OBJECT]

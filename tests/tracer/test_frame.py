@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.hits import NOWHERE
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Precision, Settings
 
 from .pictures import CERTIFIED, mess, names_of
@@ -34,18 +34,6 @@ def test_wrong_against(make, rng, method, precision):
         assert not certified.wrong_against(certified).any()
     assert counted < differ
     assert counted > 3 or method != Method.TEXTBOOK_LITERAL
-
-
-def test_the_interval_encloses_t(make, rng):
-    scene = mess(make, rng, False, False)
-    frame = render(scene, CERTIFIED)
-    low, high = frame.t_interval()
-    hit = np.isfinite(frame.t)
-    assert (low < frame.t)[hit].all() and (frame.t < high)[hit].all()
-    assert np.array_equal(np.nextafter(low[hit], np.inf), frame.t[hit])
-    assert np.isposinf(high[~hit]).all()
-    plain = render(scene, Settings("watertight")).t_interval()
-    assert np.isneginf(plain[0]).all() and np.isposinf(plain[1]).all()
 
 
 def overflowing(make):

@@ -11,6 +11,7 @@ import pytest
 import trimesh
 from reference_tracer.cli.main import main
 from reference_tracer.images import save_png, to_display
+from reference_tracer.rendering import render
 from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer import memory
 from reference_tracer.tracer.memory import (
@@ -21,7 +22,6 @@ from reference_tracer.tracer.memory import (
     check_memory,
     free_memory,
 )
-from reference_tracer.tracer.render import render
 
 
 def test_free_memory_is_known_here():

@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 from reference_tracer.certified.sweep import boxes, chunks, rasterise, sweep, verdict
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
 from reference_tracer.study.oracle import scene_sights
-from reference_tracer.tracer import candidates, plane, render, world
+from reference_tracer.tracer import candidates, plane, world
 from reference_tracer.tracer import nearest as visibility
+from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.triangle import TESTS
 from reference_tracer.tracer.vector import transform_points
 from reference_tracer.tracer.world import WorldTriangles
 
@@ -71,7 +74,7 @@ def brute_force(scene, settings):
         mesh = scene.meshes[instance.mesh]
         world = transform_points(instance.world_from_object, mesh.vertices.T).astype(dtype)
         for k, triangle in enumerate(mesh.triangles):
-            hit, t, _ = settings.method.function(rays, *(world[:, [corner]] for corner in triangle))
+            hit, t, _ = TESTS[settings.method](rays, *(world[:, [corner]] for corner in triangle))
             enter(hit, t, (i, k))
     for i, infinite in enumerate(scene.planes):
         t = plane.intersect(
@@ -82,7 +85,7 @@ def brute_force(scene, settings):
 
 
 def traced(scene, settings=None):
-    return render.render(scene, settings)
+    return render(scene, settings)
 
 
 @for_all(PLAIN)
@@ -118,12 +121,12 @@ def test_certified_and_auto_against_exact_brute_force(mess):
 def test_the_division_of_the_work_does_not_matter(mess, settings, division, monkeypatch):
     whole = traced(mess, settings)
     for module, name, value in zip(
-        (candidates, world, render), ("PAIRS", "BATCH", "ROWS"), division, strict=True
+        (candidates, world, loop), ("PAIRS", "BATCH", "ROWS"), division, strict=True
     ):
         monkeypatch.setattr(module, name, value)
     if settings in PROVEN:
         pairs, triangles, rows = division
-        monkeypatch.setattr(render, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
+        monkeypatch.setattr(loop, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
         monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
         monkeypatch.setattr(chunks, "_CHUNK", triangles)
         for module, name in ((verdict, "_PAIRS"), (rasterise, "_BOXES"), (rasterise, "_CELLS")):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.methods import Method
+from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Region
 from reference_tracer.tracer import candidates, triangle
 from reference_tracer.tracer import render as rendering
@@ -18,7 +19,7 @@ from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions
-from reference_tracer.tracer.render import render, sample_offsets, steps, tiles
+from reference_tracer.tracer.render import sample_offsets, tiles
 from reference_tracer.tracer.settings import Precision, Settings
 from reference_tracer.tracer.triangle import textbook
 from trimesh.ray.ray_triangle import RayMeshIntersector

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified import settle, ties
+from reference_tracer.certified import ladder, ties
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Scene
 from reference_tracer.scene_files import load_scene
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from .hostile_scenes import hostile_scene
@@ -131,7 +131,7 @@ def test_another_rule_is_noticed(make, monkeypatch, orthographic):
     builds = [(build, seed) for build in (fan, cubes) for seed in range(3)]
     scenes = [build(make, np.random.default_rng(seed), orthographic) for build, seed in builds]
     for module, name, wrong in (
-        (settle, "seen_and_ties", sure_at_silhouettes),
+        (ladder, "seen_and_ties", sure_at_silhouettes),
         (ties, "_ways", lambda hits: ways(hits)[:1]),
     ):
         with monkeypatch.context() as patch:

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.tracer import shading
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import Hits
-from reference_tracer.tracer.render import render
 
 RED, GREEN, BLUE = ([1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1])
 NEAR = {"rtol": 0, "atol": 1e-6}
@@ -19,7 +19,7 @@ NEAR = {"rtol": 0, "atol": 1e-6}
 
 def hits(instance, triangle, t=1.0, s=(1, 0, 0)):
     count = len(instance)
-    return Hits(
+    return Hits.of(
         np.where(np.array(instance) == NOTHING, np.inf, t),
         np.array(instance, np.int32),
         np.array(triangle, np.int32),

@@ -9,11 +9,11 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from reference_tracer.rendering import render
 from reference_tracer.scene import Scene
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.command import built_in
 from reference_tracer_grading.subject import PIXELS, prepare

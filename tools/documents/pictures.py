@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 from reference_tracer.images import to_display
+from reference_tracer.rendering import render
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 from reference_tracer_grading.page import marked
 from reference_tracer_grading.picture import look

@@ -17,12 +17,12 @@ from ...certainty import Certainty
 from ...compare.cause import Cause
 from ...compare.causes import explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
+from ...rendering import steps
 from ...scene import Camera, Scene
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work, scaled
-from ...tracer.render import steps
 from ...tracer.settings import Settings
 from ...tracer.vector import parts
 from . import like_for_like
@@ -85,7 +85,7 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
     frame = yield from scaled(work, 0.4, 0.6)
     wrong = frame.wrong_against(truth)
     shown.color = ringed(shown.color, wrong)
-    name = f"{settings.precision} {settings.method.words}"
+    name = f"{settings.precision} {settings.method.record.words}"
     shown.line = f"{name}: {wrong.sum():,} wrong of {wrong.size:,} pixels"
 
 

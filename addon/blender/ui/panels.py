@@ -44,7 +44,7 @@ def both(part: type, suffix: str = "", **in_properties: Any) -> tuple[type, type
 
 def short_name(row: Any) -> str:
     """Return a row's method and precision, as short as a narrow table needs: 'Textbook 32'."""
-    name = Method(row.method).short
+    name = Method(row.method).record.short
     return f"{name[0].upper()}{name[1:]} {row.precision.removeprefix('float')}"
 
 

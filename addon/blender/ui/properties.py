@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
-from ...methods import Method
+from ...methods import RECORDS, Method
 from ..drawing import judges
 from . import results
 
@@ -31,7 +31,9 @@ SAID, SCENARIOS = (
 )
 _SCENE, _LAYER, _OBJECT, _WINDOW = (SAID[of] for of in ("scene", "layer", "object", "window"))
 
-METHOD_ITEMS = tuple((m.value, m.label, m.description, m.number) for m in reversed(Method))
+METHOD_ITEMS = tuple(
+    (m.value, r.label, r.description, r.number) for m, r in reversed(RECORDS.items())
+)
 PRECISIONS, SHADINGS, COLORS, PASS_ITEMS, SOURCES = (
     tuple(map(tuple, SAID[items]))
     for items in ("precisions", "shadings", "colors", "passes", "sources")

@@ -100,8 +100,8 @@ def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoi
         [((method, precision), count)] = holds.most_common(1)
         total = len({p.scenario for p in points})
         sentence += (
-            f"; of the other methods, {Method(method).words} in {precision} holds in the most "
-            f"sweeps: {count} of {total}"
+            f"; of the other methods, {Method(method).record.words} in {precision} holds in the "
+            f"most sweeps: {count} of {total}"
             if count
             else f"; every other method breaks in each of {total} sweeps"
         )

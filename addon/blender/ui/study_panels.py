@@ -190,7 +190,7 @@ def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> No
 
     proven = {p.scenario: p for p in points if p.method == Method.CERTIFIED}
     holds = all(p.never for p in proven.values())
-    _cells(layout, [m.head for m in (PLAIN if holds else MEASURED)])
+    _cells(layout, [m.record.head for m in (PLAIN if holds else MEASURED)])
     for name in proven:
         of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
         cells = [_point(of[m]) for m in PLAIN] + ([] if holds else [_point(proven[name])])

@@ -1,12 +1,14 @@
-"""Where vertices appear on the film, in homogeneous pixels, and how far that may be off.
+"""Projects vertices to the film, in homogeneous pixels, and bounds the rounding errors.
 
-A point of space has p, q, w: it appears at the film position (p / w, q / w), in pixels. Before a
-perspective camera w is the depth; for an orthographic one it is 1. A ray passes the film where its
-pixel says. So a ray and a triangle of space are a point and a triangle of the plane.
+A point of space has p, q, w: it appears at the film position (p / w, q / w), in pixels. For a
+perspective camera w is the depth; for an orthographic one it is 1. A ray passes the film at its
+pixel's position. So a ray and a triangle in space become a point and a triangle in the plane.
 
-Both are rounded, and the rays were before anything was projected. Their errors are bounded together
-as if the rays had none: p and q are off by at most `place`, w by `weight`, and the depth by
-`depth_error`, each linear in the vertex's `size`, the largest coordinate of |v| plus that of |o|.
+Vertices are rounded when they are projected, and rays were rounded before. The errors of both are
+bounded together, as if the rays had none: p and q are off by at most `place`, w by `weight`, and
+the depth by `depth_error`. Each is linear in the vertex's `size`, which is the largest |coordinate|
+of the vertex plus that of the camera's origin. Theorems: `Perspective.vertex_near`,
+`Orthographic.vertex_near'`.
 """
 
 from __future__ import annotations
@@ -15,30 +17,29 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...scene import Camera
 from ...tracer.camera import dual_axes, pixel_size
 from ...tracer.candidates import SAFETY, has_sound_axes
-from ...tracer.vector import Floats, Vectors, largest
+from ...tracer.vector import Bools, Floats, Index, Vectors, largest
 
 _EPS = 2.0**-52
-# Added to a vertex's size: its share in the bounds is far above what gradual underflow may lose.
-_TINY = 2.0**-960
-DELTA = 2.0**-25  # pixels: a film position is `certain` where it is off by no more
-_HUGE = 2.0**900  # metres: of what is smaller, and certain, nothing over- or underflows
-_OFF = 2  # pixels beyond the picture where boxes end
+_TINY = 2.0**-960  # added to a vertex's size: more than gradual underflow may lose
+DELTA = 2.0**-25  # pixels: the most that a `certain` film position is off
+_HUGE = 2.0**900  # metres: nothing over- or underflows for certain vertices of a smaller size
+_OFF = 2  # pixels beyond the picture to which boxes are clipped
 
 
 @dataclass(frozen=True, eq=False)
 class Vertices:
-    """Vertices on the film, (v,) each.
+    """v vertices on the film.
 
-    `box` (v, 4) holds, negated where it is an upper end, the pixels whose centres a triangle with
-    this vertex may cover: lowest x, lowest y, -highest x, -highest y. The minimum over its corners
-    is a triangle's own. It holds only where `ahead`: where the vertex surely is before the eye.
-    `x`, `y` is the film position; it is off by at most DELTA where `certain`, which are ahead.
-    `nearest` is the most that the nearness (`edge_functions.py`) of what is seen there can be.
+    `box` (v, 4) is lowest x, lowest y, -highest x, -highest y of the pixels whose centres a
+    triangle may cover at this vertex. The minimum over its three corners is a triangle's box. It
+    holds only where `ahead`: where the vertex surely is in front of the eye.
+    `x`, `y` (v,) is the film position. It is off by at most DELTA where `certain`; then the vertex
+    is ahead, too. `nearest` (v,) bounds the nearness (`edge_functions.py`) of the vertex from
+    above. `finite` (v,) says whether the vertex is finite in world space.
     """
 
     p: Floats
@@ -49,24 +50,35 @@ class Vertices:
     depth: Floats
     size: Floats
     nearest: Floats
-    box: NDArray[np.integer]
-    ahead: NDArray[np.bool_]
-    certain: NDArray[np.bool_]
-    finite: NDArray[np.bool_]
+    box: Index
+    ahead: Bools
+    certain: Bools
+    finite: Bools
 
     @classmethod
-    def empty(cls, count: int, dtype: np.dtype | type) -> Vertices:
-        """Return room for vertices."""
-        floats = (np.empty(count) for _ in range(8))
-        box = np.empty((count, 4), dtype)
-        return cls(*floats, box, *(np.empty(count, bool) for _ in range(3)))
+    def empty(cls, count: int, dtype: type[np.integer]) -> Vertices:
+        """Return arrays for this many vertices, to be filled; boxes are of this dtype."""
+        return cls(
+            p=np.empty(count),
+            q=np.empty(count),
+            w=np.empty(count),
+            x=np.empty(count),
+            y=np.empty(count),
+            depth=np.empty(count),
+            size=np.empty(count),
+            nearest=np.empty(count),
+            box=np.empty((count, 4), dtype),
+            ahead=np.empty(count, bool),
+            certain=np.empty(count, bool),
+            finite=np.empty(count, bool),
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """A camera's film, for rays that pass their pixel's centre at (dx, dy), at most half a pixel.
+    """A camera's film, for rays at (dx, dy) from their pixel's centre, at most half a pixel.
 
-    The bounds are those of `candidates.py`, with the largest term of each sum for all of its terms.
+    The bounds are those of `candidates.py`, with the largest term of a sum in place of every term.
     """
 
     camera: Camera
@@ -80,15 +92,16 @@ class Film:
 
     @cached_property
     def is_sound(self) -> bool:
-        """Whether the bounds hold; where they do not, they are infinite."""
+        """Whether the bounds hold; if not, they are infinite."""
         parallel = self.camera.projection.shares_direction
         return has_sound_axes(self.camera) and (parallel or self.ray_error <= 0.25)
 
     @cached_property
     def ray_error(self) -> float:
-        """How far a stored ray's direction may be off, in camera space: relative to its depth.
+        """Bound the error of stored rays in camera space.
 
-        Of an orthographic camera: how far its origin may be off, in metres.
+        For a perspective camera, that of a direction, relative to its depth; for an orthographic
+        one, that of an origin, in metres.
         """
         c = self.camera
         reach = self._reach[0] + self._reach[1]
@@ -99,12 +112,13 @@ class Film:
 
     @cached_property
     def place(self) -> tuple[float, float]:
-        """c0, c1: p and q of a vertex, counted from any pixel, are off by at most c0 + c1 size."""
+        """c0, c1: p and q of a vertex, relative to any pixel, are off by at most c0 + c1 size."""
         c = self.camera
         if not self.is_sound:
             return np.inf, 0.0
         window = (c.window.left, c.window.bottom)
-        constant, slope = 0.0, 0.0
+        constant = 0.0
+        slope = 0.0
         for start, size, reach in zip(window, pixel_size(c), self._reach, strict=True):
             film = SAFETY * _EPS * (abs(start / size) + c.width + c.height)
             if c.projection.shares_direction:
@@ -125,11 +139,11 @@ class Film:
 
     @cached_property
     def depth_error(self) -> tuple[float, float]:
-        """c0, c1: the t of a vertex is off by at most c0 + c1 size, orthographic."""
+        """c0, c1: for parallel rays, the t of a vertex is off by at most c0 + c1 size."""
         return 2 * self.ray_error if self.is_sound else np.inf, SAFETY * _EPS * self._spread
 
     def nearest(self, depth: Floats, size: Floats) -> Floats:
-        """Return the most that the nearness of what is seen of vertices can be."""
+        """Bound the nearness of what is seen of vertices from above, (n,)."""
         if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return (constant + slope * size) - depth
@@ -137,14 +151,14 @@ class Film:
         return (1 + 2.0**-48 + 2 * self.ray_error) / before
 
     def certain_nearness(self, depth: Floats) -> Floats:
-        """Return the nearness of vertices that are `certain`."""
+        """Return the nearness of `certain` vertices, (n,)."""
         return -depth if self.camera.projection.shares_direction else 1 / depth
 
     def certain_error(self, nearness: Floats) -> Floats | float:
-        """Return by how much that of a ray may be another, of vertices as near as this or less.
+        """Bound the error of the nearness of `certain` vertices that are at most this near.
 
-        Where a vertex is certain, `weight` size / w is at most DELTA / 4 pixels of the picture's
-        size, and for parallel rays the slope of `place` times size at most DELTA / 2.
+        For certain vertices, `weight` size / w is at most DELTA / 4 / the picture's size in pixels;
+        for parallel rays, the slope of `place` times size is at most DELTA / 2.
         """
         if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
@@ -153,9 +167,10 @@ class Film:
         return (DELTA / far + 2 * self.ray_error + 2.0**-50) * nearness
 
     def enter(self, vertices: Vertices, first: int, world: Vectors) -> None:
-        """Project world points (3, n) into the n of these vertices from `first` on."""
+        """Project world points (3, n) into the n vertices from `first` on."""
         part = slice(first, first + world.shape[1])
-        camera, window = self.camera, self.camera.window
+        camera = self.camera
+        window = camera.window
         size = largest(*np.abs(world))
         vertices.finite[part] = np.isfinite(size)
         size += np.abs(camera.origin).max() + _TINY
@@ -163,24 +178,33 @@ class Film:
         right, up, depth = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2] for d in self.dual)
         w = camera.projection.scale(depth)
         width, height = pixel_size(camera)
-        x = (right - window.left * w) * (1 / width) - self.dx * w
-        y = (up - window.bottom * w) * (1 / height) - self.dy * w
-        vertices.p[part], vertices.q[part], vertices.w[part] = x, y, w
-        vertices.depth[part], vertices.size[part] = depth, size
-        # From here on film positions. Where w is off by less than a thousandth, what appears far
-        # beside the picture truly lies on that side of it, and the rest at most `margin` away.
+        vertices.p[part] = (right - window.left * w) * (1 / width) - self.dx * w
+        vertices.q[part] = (up - window.bottom * w) * (1 / height) - self.dy * w
+        vertices.w[part] = w
+        vertices.depth[part] = depth
+        vertices.size[part] = size
+        vertices.nearest[part] = self.nearest(depth, size)
+        self._enter_positions(vertices, part)
+
+    def _enter_positions(self, vertices: Vertices, part: slice) -> None:
+        """Divide p and q by w, and bound the error of that: film positions, and boxes of pixels."""
+        camera = self.camera
+        w = vertices.w[part]
+        size = vertices.size[part]
+        # Where w is off by less than a thousandth, a point that is projected far beside the picture
+        # truly lies on that side of it, and the others lie at most `margin` away.
         constant, slope = self.place
         margin = constant + slope * size
         vertices.ahead[part] = w > 2.0**10 * self.weight * size
-        x, y = np.divide(x, w, out=vertices.x[part]), np.divide(y, w, out=vertices.y[part])
+        x = np.divide(vertices.p[part], w, out=vertices.x[part])
+        y = np.divide(vertices.q[part], w, out=vertices.y[part])
         far = 2 * max(camera.width, camera.height)
         margin += far * self.weight * size
         margin = 1.01 * (margin / w)
-        # Half of DELTA is for the rounding of the division.
+        # The other half of DELTA is for the rounding of the division.
         certain = np.less_equal(margin, 0.5 * DELTA, out=vertices.certain[part])
         certain &= vertices.ahead[part] & (largest(np.abs(x), np.abs(y)) <= far) & (size < _HUGE)
         margin += 0.5
-        vertices.nearest[part] = self.nearest(depth, size)
         for axis, (at, end) in enumerate(((x, camera.width), (y, camera.height))):
             vertices.ahead[part] &= np.isfinite(at)
             lowest = at - margin
@@ -192,10 +216,12 @@ class Film:
 
     @property
     def _spread(self) -> float:
+        """The sum of all |elements| of the dual axes."""
         a, b, c, d, e, f, g, h, i = np.abs(self.dual).ravel()
         return float(((a + b) + (c + d)) + ((e + f) + (g + h)) + i)
 
     @property
     def _reach(self) -> tuple[float, float]:
+        """The largest |x| and |y| of the view window."""
         w = self.camera.window
         return max(abs(w.left), abs(w.right)), max(abs(w.bottom), abs(w.top))

@@ -1,13 +1,12 @@
 """What every pixel of a region sees, of all its fragments.
 
 In come the winners and their rivals that a sweep has found; out go `Hits`. A pixel whose winner has
-no rival is decided. The rays of all others, and all that they may see, go to a `Contest`.
+no rival is decided. The rays of all others, and all that they may see, go to a `Ladder`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,16 +14,17 @@ from numpy.typing import NDArray
 from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
-from ...tracer.candidates import Pairs
-from ...tracer.hits import NOTHING, Hits, LazyHits, Measured, Statistics, Ties
+from ...tracer.frame_measures import PIXELS
+from ...tracer.hits import NOTHING, Hits, Statistics, Ties
 from ...tracer.progress import Steps, mapped
 from ...tracer.vector import Index, gather, grouped, groups, parts
-from ...tracer.world import WorldTriangles, world_corners
-from ..contest import Contest
-from ..measures import PIXELS, measured
+from ...tracer.world import Pairs, WorldTriangles, world_corners
+from ..ladder import Ladder
+from ..measures import Known, Measured
 from .chunks import Numbering
 from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
+from .tournament import tournament
 
 _PAIRS = 1 << 15  # that a contest tests at a time
 _FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
@@ -66,15 +66,15 @@ class Verdict:
             beside = np.flatnonzero((own != NOTHING) & is_open)
             pairs.append((part.start + beside, gather(own, beside)))
             yield "verdict"
-        out = LazyHits(instance, triangle, certainty)
-        yield from self._enter_open(out, open_, pairs)
-        given = self.scene, region, (instance, triangle), out.known
-        out.measure = partial(measured, *given, dx=self.film.dx, dy=self.film.dy)
+        measured = Measured(self.scene, region, Known.none(), self.film.dx, self.film.dy)
+        out = Hits(instance, triangle, certainty, measured)
+        known = yield from self._enter_open(out, open_, pairs)
+        out.measures = replace(measured, known=known)
         return out
 
     def _enter_open(
-        self, hits: LazyHits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
-    ) -> Steps[None]:
+        self, hits: Hits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
+    ) -> Steps[Known]:
         """Enter the pixels that may see several surfaces, or none for sure: some at a time.
 
         `pairs` are these pixels and their surfaces; they are used up.
@@ -95,17 +95,20 @@ class Verdict:
                 if len(own):
                     members.append((pixel[own], surface[own]))
             yield "contest"
-        ties, known = [], [Measured.none()]
+        ties, known = [], [Known.none()]
         for (first, last), members in zip(ends, contests, strict=True):
             which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             members.clear()
             ray = np.searchsorted(which, pixel)
             found = yield from self._contest(which, ray, surface)
-            hits.enter(which, found)
+            hits.instance[which] = found.instance
+            hits.triangle[which] = found.triangle
+            hits.certainty[which] = found.certainty
             ties.append(found.ties.numbered(which))
-            known.append(Measured(which, np.vstack((found.t, found.s))))
-        hits.ties, hits.known = Ties.joined(ties), Measured.joined(known)
+            known.append(Known(which, found.values))
+        hits.ties = Ties.joined(ties)
+        return Known.joined(known)
 
     def _contest(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
         """Decide the rays of pixels, each with all surfaces that it may see: pairs of the two."""
@@ -115,7 +118,7 @@ class Verdict:
         ray, surface = ray[on_mesh], surface[on_mesh]
         surface, row = np.unique(surface, return_inverse=True)
         around = corner_rays(film.camera, film.dx, film.dy)
-        contest = Contest.of(scene, camera_rays(film.camera, *at), around)
+        ladder = Ladder.of(scene, camera_rays(film.camera, *at), around)
         names = self.numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
         # Ray by ray, and once each: a triangle of unknown orientation has two set-ups.
@@ -123,6 +126,6 @@ class Verdict:
         key = key[np.flatnonzero(np.diff(key, prepend=-1))]
         ray, row = np.divmod(key, max(1, len(surface)))
         for part in parts(len(ray), _PAIRS):
-            contest.enter(Pairs(ray[part], row[part], triangles))
+            ladder.test(Pairs(ray[part], row[part], triangles))
             yield "contest"
-        return (yield from mapped(contest.hits(self.statistics), lambda _: "contest"))
+        return (yield from mapped(ladder.hits(self.statistics, tournament), lambda _: "contest"))

@@ -9,12 +9,12 @@ from dataclasses import replace
 
 from ... import images
 from ...certified.rounding import check_rounding
+from ...rendering import render
 from ...report import folders
 from ...scene import Scene, SceneError
 from ...scene_files import MESH_SUFFIXES, save_scene
 from ...tracer.coloring import Color
 from ...tracer.progress import result_of
-from ...tracer.render import render
 from ..arguments import add_pixel, add_settings, printable, settings_from
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load

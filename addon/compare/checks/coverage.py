@@ -17,6 +17,7 @@ from ...tracer.camera import camera_rays, film_beside
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import Hits, Pairs, test_pairs, test_planes, within_clip
 from ...tracer.progress import Work
+from ...tracer.triangle import TESTS
 from .probe import Probe
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
@@ -68,7 +69,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
         x, y = nearest[:, near] + share * inward
         pixel = some.pixel[near]
         rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
-        hit, t, s = settings.method.function(rays, *some.corners[..., near])
+        hit, t, s = TESTS[settings.method](rays, *some.corners[..., near])
         hit = np.flatnonzero(hit & within_clip(scene.camera, t))
         of, offset = some.take(near[hit]), np.stack((x, y))[:, hit]
         distance = np.abs(nearest[:, near[hit]]).max(axis=0)
@@ -85,7 +86,7 @@ def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
     points, normals = probe.points(sure)[pixel].T, shading.normals(scene, own).T
     behind = np.where(own.instance != NOTHING, plane.intersect(rays, points, normals), np.inf)
     behind = np.where(np.isnan(behind), own.t, behind)
-    return Coverage(pixel, distance, Hits(t, instance, triangle, s), sure, behind)
+    return Coverage(pixel, distance, Hits.of(t, instance, triangle, s), sure, behind)
 
 
 def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:

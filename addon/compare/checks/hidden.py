@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ...rendering import steps
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
-from ...tracer.render import steps
 from ...tracer.settings import Settings
 from ..case import Alternative
 from ..cause import Cause, Hidden

@@ -221,7 +221,7 @@ def _shown(
     Between corners, a triangle may have any colour.
     """
     count = len(instance)
-    hits = Hits(np.zeros(count), instance, triangle, np.zeros((3, count)))
+    hits = Hits.of(np.zeros(count), instance, triangle, np.zeros((3, count)))
     color = picture.same_color(scene, hits) | interpolated(scene, instance)
     return np.stack((color, ~picture.other_object(instance)))
 

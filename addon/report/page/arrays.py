@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...methods import Method
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
@@ -22,6 +21,7 @@ from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
+from ...tracer.triangle import textbook
 from ...tracer.world import world_corners
 
 _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
@@ -130,7 +130,7 @@ def _textbook_t(scene: Scene, rays: Rays, surfaces: SeenSurfaces, number: NDArra
     on_mesh = np.flatnonzero(instance < count)
     corners = world_corners(scene, instance[on_mesh], triangle[on_mesh])
     some = rays.take(seen_[on_mesh])
-    out[seen_[on_mesh]] = Method.TEXTBOOK.function(some, *corners)[1]
+    out[seen_[on_mesh]] = textbook(some, *corners)[1]
     for index, infinite in enumerate(scene.planes, start=count):
         which = seen_[instance == index]
         point, normal = infinite.point[:, None], infinite.normal[:, None]

@@ -16,6 +16,7 @@ from ...compare.checks.probe import BLOCK, Probe, blocks, parts_of
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
 from ...methods import Method
+from ...rendering import steps
 from ...study import extremes, tradeoff
 from ...study.trade import Trade
 from ...tracer import shading
@@ -23,7 +24,6 @@ from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
-from ...tracer.render import steps
 from ...tracer.settings import Precision, Settings
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again

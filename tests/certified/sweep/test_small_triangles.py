@@ -10,9 +10,9 @@ from reference_tracer.certified.sweep.boxes import InstanceBoxes, boxes_of
 from reference_tracer.certified.sweep.chunks import Chunk, expand
 from reference_tracer.certified.sweep.film import Film
 from reference_tracer.certified.sweep.small_triangles import SmallTriangles
+from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Region, Scene
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ...tracer.hostile_scenes import offsets

@@ -1,4 +1,4 @@
-"""The sweep sees what a contest of every ray with every triangle does, however it is divided."""
+"""The sweep sees what the ladder with every ray with every triangle does, however it is divided."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.certainty import Certainty
-from reference_tracer.certified import contest, measures, surfaces
+from reference_tracer.certified import ladder, measures
 from reference_tracer.certified.sweep import (
     boxes,
     chunks,
@@ -19,9 +19,10 @@ from reference_tracer.certified.sweep import (
     verdict,
 )
 from reference_tracer.certified.sweep.edge_functions import set_up
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, Region, Scene
 from reference_tracer.study.oracle import scene_sights
-from reference_tracer.tracer import render
+from reference_tracer.tracer import render as loop
 from reference_tracer.tracer.hits import NOTHING, Hits
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
@@ -61,7 +62,7 @@ def test_the_clip_range_begins_where_it_does_not_end(make, orthographic, end):
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_as_a_contest_of_every_ray_with_every_triangle(make, part):
+def test_as_the_ladder_with_every_ray_and_every_triangle(make, part):
     """Ids, t and ties; and it is never more in doubt."""
     count = Counter()
     for seed in range(part * SEEDS, (part + 1) * SEEDS):
@@ -134,9 +135,9 @@ DIVISIONS = {
     "cells of 2 and 64": sizes(2, 64),
     "cells of 1 and 1": sizes(1, 1),
     "vertices by twos": [(chunks, "_CHUNK", 2)],
-    "hits by ones": [(surfaces, "TOGETHER", 1)],
-    "integers by ones": [(contest, "BY_INTEGERS", 1)],
-    "orders by ones": [(contest, "BY_ORDER", 1)],
+    "hits by ones": [(measures, "TOGETHER", 1)],
+    "integers by ones": [(ladder, "BY_INTEGERS", 1)],
+    "orders by ones": [(ladder, "BY_ORDER", 1)],
     "pixels by ones": [(m, "PIXELS", 1) for m in (verdict, measures)],
     "rays by ones": [(verdict, "_RAYS", 1)],
     "fragments by threes": [(verdict, "_FRAGMENTS", 3), (sweep, "_PAIRS", 3)],
@@ -252,15 +253,13 @@ def test_bands_of_a_frame_do_not_matter(undivided, monkeypatch):
     """A whole frame with samples, as memory divides it."""
     for seed, scene, *_ in undivided[:6]:
         settings = Settings("certified", samples=2)
-        monkeypatch.setattr(render, "BYTES_PER_PIXEL", 224)
-        whole = render.render(scene, settings)
+        monkeypatch.setattr(loop, "BYTES_PER_PIXEL", 224)
+        whole = render(scene, settings)
         for rows in (1, 4):
             width = scene.camera.region.width
-            monkeypatch.setattr(render, "BYTES_PER_PIXEL", settings.memory // (rows * width))
-            assert len(render.bands(scene.camera, settings)) == -(
-                -scene.camera.region.height // rows
-            )
-            found = render.render(scene, settings)
+            monkeypatch.setattr(loop, "BYTES_PER_PIXEL", settings.memory // (rows * width))
+            assert len(loop.bands(scene.camera, settings)) == -(-scene.camera.region.height // rows)
+            found = render(scene, settings)
             for name, values in found.passes().items():
                 assert values.tobytes() == whole.passes()[name].tobytes(), (seed, name)
             assert found.ties == whole.ties, seed

@@ -7,8 +7,8 @@ import pytest
 from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.checks.anti_aliasing import NEAR, distance_to_triangles, is_mix
 from reference_tracer.compare.picture import Picture
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..cases import find_causes

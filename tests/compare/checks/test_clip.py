@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from reference_tracer.compare.bounds import depth_resolution
 from reference_tracer.compare.cause import Cause
+from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Mesh
-from reference_tracer.tracer.render import render
 
 
 def wall(make, camera: Camera, depth: float):

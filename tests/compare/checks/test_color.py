@@ -10,8 +10,8 @@ from reference_tracer.compare.cause import Cause
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture
 from reference_tracer.images import curve, curve_undone, decoded
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from ..cases import find_causes
 

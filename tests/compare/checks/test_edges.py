@@ -16,10 +16,10 @@ from reference_tracer.compare.checks import clip, edges
 from reference_tracer.compare.checks import probe as probing
 from reference_tracer.compare.checks.probe import may_be_seen
 from reference_tracer.compare.picture import Picture
+from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..cases import find_causes

@@ -11,8 +11,8 @@ from reference_tracer.compare.cause import Cause, Hidden
 from reference_tracer.compare.checks.hidden import with_object, without
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.manifest import ObjectEntry
+from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 
 from ..cases import find_causes
 

@@ -14,6 +14,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions, plan, trace_tile
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
+from reference_tracer.tracer.triangle import TESTS
 
 TILE = Region(2, 3, 18, 13)
 PLAIN = Settings("watertight")  # a probe has no certified ray
@@ -76,7 +77,7 @@ def test_layers_come_in_order_each_once(scene, settings, wanted):
     expected = [[] for _ in range(count)]
     for k, triangle in enumerate(mesh.triangles):
         corners = (mesh.vertices[c].astype(dtype)[:, None] for c in triangle)
-        hit, t, _ = settings.method.function(rays, *corners)
+        hit, t, _ = TESTS[settings.method](rays, *corners)
         for pixel in np.flatnonzero(hit):
             expected[pixel] += [(float(t[pixel]), i, k) for i in (0, 1)]
     hits, found = None, [[] for _ in range(count)]

@@ -11,10 +11,10 @@ from reference_tracer.compare.causes import explain
 from reference_tracer.compare.checks import anti_aliasing, coverage, probe
 from reference_tracer.compare.checks import color as coloring
 from reference_tracer.compare.picture import Picture
+from reference_tracer.rendering import render
 from reference_tracer.tracer import candidates, nearest
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.progress import result_of
-from reference_tracer.tracer.render import render
 from reference_tracer.tracer.settings import Settings
 
 from ..cases import case_of

@@ -1,4 +1,4 @@
-"""`certified/contest.py` and `order.py`: what the bounds decide."""
+"""`certified/ladder.py` and `order.py`: what the bounds decide."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
-from reference_tracer.certified import contest, order
+from reference_tracer.certified import ladder, order
 from reference_tracer.tracer.camera import Rays
 
 from .bounds import FIRST
@@ -22,14 +22,14 @@ _RAY = dict(ox=0.11, oy=0.07, oz=0.3, o0x=-0.5, o0y=-0.4, o0z=0.25, dx=0.01, dy=
 def _sides(v: Inputs) -> Kept:
     edges = v.vector("e1 e2 e3"), v.one("error")
     prepared = SimpleNamespace(edges=lambda row, rays: edges)
-    sure, _ = contest.sides(prepared, FIRST, None)
+    sure, _ = ladder.sides(prepared, FIRST, None)
     return {"sides_possible": v.chosen(0), "sides_sure": sure}
 
 
 def _in_range(v: Inputs, prefix: str) -> Kept:
     fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
     ends = v.scalar("start"), v.scalar("end")
-    low, high, outside, doubt = contest.in_range(fractions, v.one("sure"), *ends)
+    low, high, outside, doubt = ladder.in_range(fractions, v.one("sure"), *ends)
     names = f"{prefix}_low", f"{prefix}_high", f"{prefix}_outside", f"{prefix}_doubt"
     return dict(zip(names, (low, high, outside, doubt), strict=True))
 
@@ -75,14 +75,14 @@ def _order_theorems(prefix: str) -> dict[str, str]:
 RECORDS = (
     Record(
         "sides",
-        "contest.sides",
+        "ladder.sides",
         _EDGES,
         _sides,
         {"sides_possible": "Pairs.sides_impossible_right", "sides_sure": "Pairs.sides_sure_right"},
     ),
     Record(
         "in_range",
-        "contest.in_range",
+        "ladder.in_range",
         _RANGE | {"start": 0.5},
         lambda v: _in_range(v, "in_range"),
         _range_theorems("in_range"),
@@ -90,7 +90,7 @@ RECORDS = (
     ),
     Record(
         "in_range_behind",
-        "contest.in_range",
+        "ladder.in_range",
         _RANGE | {"start": -0.5},
         lambda v: _in_range(v, "in_range_behind"),
         _range_theorems("in_range_behind"),

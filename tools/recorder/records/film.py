@@ -97,7 +97,7 @@ def of(v: Inputs, projection: Projection, *known: str) -> Film:
 
 def _enter(v: Inputs, prefix: str, projection: Projection) -> Kept:
     own = of(v, projection, "dual", "place", "weight", "ray_error", "depth_error")
-    with python(film), locals_of(Film.enter) as local:
+    with python(film), locals_of(Film._enter_positions) as local:
         vertices = Vertices.empty(1, np.int32)
         own.enter(vertices, 0, v.vector("vx vy vz"))
     kept = {f"{prefix}_{name}": getattr(vertices, name) for name in _FIELDS}

@@ -1,4 +1,4 @@
-"""What is kept, and what is dropped, by what is in front: `contest.py`, `sweep/`."""
+"""What is kept, and what is dropped, by what is in front: `ladder.py`, `sweep/`."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
-from reference_tracer.certified import contest
-from reference_tracer.certified.contest import Contest
+from reference_tracer.certified import ladder
+from reference_tracer.certified.ladder import Ladder
 from reference_tracer.certified.sweep.boxes import InstanceBoxes
 from reference_tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
 from reference_tracer.certified.sweep.rasterise import Covered
@@ -28,7 +28,7 @@ _RAYS = dict(x1=0.5, y1=-1.5, z1=0.25, x2=-0.75, y2=2.5, z2=1.25)
 
 def _candidates(v: Inputs, prefix: str) -> Kept:
     """t's interval is variables: `Fractions.interval` and `in_range` are recorded by themselves."""
-    own = Contest.__new__(Contest)
+    own = Ladder.__new__(Ladder)
     own._clip, own._farthest = (v.scalar("start"), v.scalar("end")), v.one("farthest")
     fractions = SimpleNamespace(interval=lambda: (v.one("low"), v.one("high")))
     own._candidates(FIRST, FIRST, fractions, v.one("sure"))
@@ -43,11 +43,11 @@ def _prepare(v: Inputs, shares_origin: bool) -> Kept:
     """Of two rays around all others: `corner_rays` has four."""
     several = v.stacked([v.vector(f"{k}1 {k}2").reshape(-1) for k in "xyz"])
     one = np.zeros((3, 1))
-    own = Contest.__new__(Contest)
+    own = Ladder.__new__(Ladder)
     own._around = Rays(one, several) if shares_origin else Rays(several, one)
     with (
-        mock.patch.object(contest, "FromPoint", lambda _, reach, __: [reach]),
-        mock.patch.object(contest, "Parallel", lambda _, low, high, __: [low, high]),
+        mock.patch.object(ladder, "FromPoint", lambda _, reach, __: [reach]),
+        mock.patch.object(ladder, "Parallel", lambda _, low, high, __: [low, high]),
     ):
         found = own._prepare(None)
     names = ("reach",) if shares_origin else ("low", "high")
@@ -118,7 +118,7 @@ RECORDS = (
     *(
         Record(
             name,
-            "contest.Contest._candidates",
+            "ladder.Ladder._candidates",
             _HIT | dict(sure=sure),
             lambda v, name=name: _candidates(v, name),
             _named("CodeRange.candidates_is", f"{name}_certain {name}_kept {name}_farthest"),
@@ -131,7 +131,7 @@ RECORDS = (
     ),
     Record(
         "around_directions",
-        "contest.Contest._prepare",
+        "ladder.Ladder._prepare",
         _RAYS,
         lambda v: _prepare(v, True),
         _named("AroundRays.reach_is", "around_reach_x around_reach_y around_reach_z"),
@@ -139,7 +139,7 @@ RECORDS = (
     ),
     Record(
         "around_origins",
-        "contest.Contest._prepare",
+        "ladder.Ladder._prepare",
         _RAYS,
         lambda v: _prepare(v, False),
         _named(

@@ -11,14 +11,14 @@ import sys
 
 import numpy as np
 import pytest
-from reference_tracer import certainty
-from reference_tracer.certainty import (
+from reference_tracer.certainty import Certainty
+from reference_tracer.certified import arithmetic
+from reference_tracer.certified.arithmetic import (
     AssumptionError,
-    Certainty,
     broken_assumptions,
     check_assumptions,
 )
-from reference_tracer.tracer import render
+from reference_tracer.rendering import render
 from reference_tracer.tracer.settings import Settings
 
 GLIBC_X86 = platform.machine() in ("x86_64", "AMD64") and platform.libc_ver()[0] == "glibc"
@@ -29,8 +29,8 @@ SWITCH = """
 import ctypes
 import numpy as np
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
-from reference_tracer.certainty import AssumptionError, broken_assumptions
-from reference_tracer.tracer.render import render
+from reference_tracer.certified.arithmetic import AssumptionError, broken_assumptions
+from reference_tracer.rendering import render
 from reference_tracer.tracer.settings import Settings
 
 libm = ctypes.CDLL("libm.so.6")
@@ -112,16 +112,16 @@ def broken(monkeypatch):
     def add(x, y):
         return np.nextafter(np.add(x, y), np.inf)
 
-    checks = tuple((w, add if o is np.add else o, *n) for w, o, *n in certainty._CHECKS)
-    monkeypatch.setattr(certainty, "_CHECKS", checks)
+    checks = tuple((w, add if o is np.add else o, *n) for w, o, *n in arithmetic._CHECKS)
+    monkeypatch.setattr(arithmetic, "_CHECKS", checks)
 
 
 def test_certified_refuses_and_auto_falls_back(make, broken):
     scene = make.scene(make.camera(5, 4), make.quad(-9, 9, -9, 9.3, -2))
     with pytest.raises(AssumptionError, match=r"rounding to nearest.*choose another method"):
-        render.render(scene, Settings("certified"))
-    frame = render.render(scene, Settings("auto"))
-    plain = render.render(scene, Settings("watertight"))
+        render(scene, Settings("certified"))
+    frame = render(scene, Settings("auto"))
+    plain = render(scene, Settings("watertight"))
     assert frame.statistics.method == plain.statistics.method == "watertight"
     assert (frame.certainty == Certainty.NOT_CERTIFIED).all() and not frame.ties
     assert np.array_equal(frame.t, plain.t) and frame.color.tobytes() == plain.color.tobytes()
@@ -133,12 +133,12 @@ def test_certified_refuses_and_auto_falls_back(make, broken):
 def test_plain_methods_do_not_ask(make, broken):
     scene = make.scene(make.camera(5, 4), make.quad(-9, 9, -9, 9.3, -2))
     for method in ("textbook_literal", "textbook", "moller_trumbore", "watertight"):
-        assert not render.render(scene, Settings(method)).statistics.notes
+        assert not render(scene, Settings(method)).statistics.notes
 
 
 def test_auto_is_certified_here(make):
     scene = make.scene(make.camera(5, 4), make.quad(-9, 9, -9, 9.3, -2))
-    frame, certified = (render.render(scene, Settings(m)) for m in ("auto", "certified"))
+    frame, certified = (render(scene, Settings(m)) for m in ("auto", "certified"))
     assert frame.statistics.method == "certified" and not frame.statistics.notes
     for name, values in frame.passes().items():
         assert values.tobytes() == certified.passes()[name].tobytes(), name

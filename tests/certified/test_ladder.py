@@ -10,10 +10,9 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from reference_tracer.certainty import Certainty
+from reference_tracer.certainty import Certainty, Reason
 from reference_tracer.certified.any_rays import decide
-from reference_tracer.certified.contest import Contest
-from reference_tracer.certified.reasons import Reason
+from reference_tracer.certified.ladder import Ladder
 from reference_tracer.study.oracle import EDGE, intersect_pairs, sights
 from reference_tracer.tracer.camera import Rays
 from reference_tracer.tracer.candidates import Pairs
@@ -228,14 +227,14 @@ def test_batches_and_their_parts_do_not_matter(rng, together, what):
     names = np.arange(TRIANGLES, dtype=np.int32)
     every = WorldTriangles(c, np.zeros_like(names), names)
     ray, row = (v.ravel() for v in np.meshgrid(np.arange(RAYS), np.arange(11), indexing="ij"))
-    contest = Contest(rays)
+    ladder = Ladder(rays)
     for some in (every.take(names[19:]), every.take(names[8:19]), every.take(names[:8])):
         inside = np.flatnonzero(row < len(some.instance))
         for at in range(0, len(inside), together * RAYS):
             part = inside[at : at + together * RAYS]
-            contest.enter(Pairs(ray[part], row[part], some))
+            ladder.test(Pairs(ray[part], row[part], some))
     statistics = Statistics()
-    hits = result_of(contest.hits(statistics))
+    hits = result_of(ladder.hits(statistics))
     for name in ("t", "instance", "triangle", "s"):
         assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
     assert hits.ties == expected.ties

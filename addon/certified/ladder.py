@@ -1,0 +1,336 @@
+"""Finds each ray's nearest surface with proof: error bound, then order of depths, then integers.
+
+Read from top to bottom. Each step decides what it can, and leaves the rest to the next, which costs
+more and decides more:
+
+1. **Error bound** (`Ladder.test`, `bounds.py`). A pair of a ray and a surface that the rounding
+   errors cannot make a hit is dropped. Every other one is a candidate, with an interval that holds
+   its t. A candidate that begins behind the end of a certain hit is dropped, too. A ray with one
+   candidate left, which certainly is a hit, is decided.
+2. **Order of depths** (`Decisions.by_order`, `order.py`). Where all candidates of a ray are certain
+   hits, only who is nearer is open. That depends on two surfaces alone, so that integers find it
+   once for many rays.
+3. **Integers** (`Decisions.by_integers`, `exact.py`, `ties.py`). Whatever is open is decided as
+   `definition.py` says.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..certainty import Certainty, Reason
+from ..tracer.camera import Rays
+from ..tracer.hits import Hits, Statistics, Ties
+from ..tracer.progress import Work
+from ..tracer.vector import Bools, Floats, Index, occurring
+from ..tracer.world import Pairs, WorldTriangles
+from . import exact, order
+from .bounds import Fractions, FromPoint, Parallel, plane_fractions
+from .measures import Prepared
+from .reasons import reasons
+from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces
+from .ties import seen_and_ties
+
+if TYPE_CHECKING:
+    from ..scene import Scene
+
+# Candidates that are decided at a time, which takes some ten milliseconds.
+BY_ORDER = 1 << 14
+BY_INTEGERS = 1 << 11
+
+Met = list[exact.Hit | None]
+# Returns how the first of two candidates lies to the second, (p,) each: codes of `order.py`.
+Compare = Callable[[Index, Index], NDArray[np.int8]]
+# Finds the nearest candidate of each ray by comparing; see `one_by_one`.
+Nearest = Callable[[Compare, Index], tuple[Index, Bools, Bools]]
+
+
+class Ladder:
+    """n rays, and the surfaces that may be the nearest to each so far.
+
+    Parameters
+    ----------
+    rays : Rays
+        n rays in float64, finite.
+    surfaces : Surfaces
+        The infinite planes; triangles come with the pairs.
+    clip : (start, end) float
+        Hits with start <= t <= end are seen, but none at t = 0 where start is 0.
+    around : Rays, optional
+        Rays that share what these share, and whose components enclose those of these, which are
+        the default. Bounds for all rays at once are bounds for them: so how a ray is decided does
+        not depend on which others it is traced with.
+    room : float
+        How far beside these rays, by component, what is said of planes also holds.
+    """
+
+    def __init__(
+        self,
+        rays: Rays,
+        surfaces: Surfaces | None = None,
+        clip: tuple[float, float] = (0.0, np.inf),
+        around: Rays | None = None,
+        room: float = 0.0,
+    ) -> None:
+        self._rays = rays
+        self._planes = surfaces or Surfaces()
+        self._clip = clip
+        self._around = around or rays
+        self._farthest = np.full(rays.count, np.inf)  # the nearest hit is not farther than this
+        self._found = [Candidates.none()]
+        self._surfaces = len(self._planes.planes)
+        self._triangles = [WorldTriangles.none()]
+        self._batch: WorldTriangles | None = None  # of the last pairs
+        self._prepared: FromPoint | Parallel | None = None
+        for number, (point, normal) in enumerate(self._planes.planes):
+            self._test_plane(number, point[:, None], normal[:, None], room)
+
+    @classmethod
+    def of(cls, scene: Scene, rays: Rays, around: Rays | None = None, room: float = 0.0) -> Ladder:
+        """Return one with a scene's planes, in its camera's clip range."""
+        clip = scene.camera.clip_start, scene.camera.clip_end
+        return cls(rays, Surfaces.planes_of(scene), clip, around, room)
+
+    def test(self, pairs: Pairs) -> None:
+        """Find the candidates among pairs of a ray and a triangle, by the error bound.
+
+        Pairs of one batch of triangles follow one another.
+        """
+        if pairs.triangles is not self._batch:
+            self._batch = pairs.triangles
+            self._prepared = self._prepare(pairs.triangles.corners)
+        rays, row, prepared = self._rays.take(pairs.pixel), pairs.row, self._prepared
+        with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
+            if prepared is None:  # rays that share nothing: each pair by itself
+                prepared = FromPoint(rays.origins, np.abs(rays.directions), pairs.corners)
+                row = np.arange(len(row))
+            sure, possible = sides(prepared, row, rays)
+            fractions = prepared.fractions(row[possible], rays.take(possible))
+            found = self._candidates(pairs.pixel[possible], pairs.row[possible], fractions, sure)
+        used, number = occurring(found.surface, len(pairs.triangles))
+        self._found.append(replace(found, surface=number + self._surfaces))
+        self._triangles.append(pairs.triangles.take(used))
+        self._surfaces += len(used)
+
+    def hits(self, statistics: Statistics, nearest: Nearest | None = None) -> Work[Hits]:
+        """Decide which surface is nearest to each ray, in small steps that all yield 1.
+
+        Counts in the statistics what integers were asked for. `nearest` finds the nearest of
+        candidates by their order; `one_by_one` is the default.
+        """
+        hits = Hits.none(self._rays.count, Certainty.BOUND)
+        found, clear, surfaces = self.left()
+        if not len(found):
+            return hits
+        decisions = Decisions(hits, self._rays, surfaces, self._clip, self._around)
+        some = found.take(np.flatnonzero(clear))
+        for _ in decisions.by_bound(some.ray, some.surface):
+            yield 1.0
+        for part in found.take(np.flatnonzero(~clear)).by_ray(BY_ORDER):
+            with np.errstate(all="ignore"):
+                rest = decisions.by_order(part, nearest or one_by_one)
+            yield 1.0
+            for some in rest.by_ray(BY_INTEGERS):
+                with np.errstate(all="ignore"):
+                    met, first = decisions.by_integers(some)
+                    why = reasons(some, met, first, self._rays, surfaces)
+                statistics.reasons.update(why)
+                yield 1.0
+        hits.ties = Ties.joined(decisions.ties)
+        statistics.reasons += decisions.reasons
+        return hits
+
+    def left(self) -> tuple[Candidates, Bools, Surfaces]:
+        """Return the candidates that are left, which the bound decides, and their surfaces."""
+        found = Candidates.joined(self._found)
+        found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
+        alone = np.bincount(found.ray, minlength=self._rays.count)[found.ray] == 1
+        surfaces = replace(self._planes, triangles=WorldTriangles.joined(self._triangles))
+        return found, alone & (found.doubt == SURE), surfaces
+
+    def _test_plane(self, number: int, point: Floats, normal: Floats, room: float) -> None:
+        every = np.arange(self._rays.count)
+        with np.errstate(all="ignore"):
+            fractions = plane_fractions(self._rays, point, normal)
+            for error in (fractions.numerator_error, fractions.denominator_error):
+                error += room * np.abs(normal).sum()
+            plane = np.full(len(every), number)
+            found = self._candidates(every, plane, fractions, np.ones(len(every), bool))
+        self._found.append(found)
+
+    def _prepare(self, corners: Floats) -> FromPoint | Parallel | None:
+        """Return what of triangles (3, 3, m) is the same for all the rays; None if nothing is."""
+        o, d = self._around.origins, self._around.directions
+        with np.errstate(all="ignore"):
+            if o.shape[1] == 1:
+                return FromPoint(o, np.abs(d).max(axis=1, keepdims=True), corners)
+            if d.shape[1] == 1:
+                ends = o.min(axis=1, keepdims=True), o.max(axis=1, keepdims=True)
+                return Parallel(d, *ends, corners)
+        return None
+
+    def _candidates(
+        self, ray: Index, surface: Index, fractions: Fractions, sure: Bools
+    ) -> Candidates:
+        """Return what may be in the clip range, and not behind what certainly is."""
+        low, high, outside, doubt = in_range(fractions, sure, *self._clip)
+        certain = np.flatnonzero(doubt == SURE)
+        np.minimum.at(self._farthest, ray[certain], high[certain])
+        keep = np.flatnonzero(~outside & (low <= self._farthest[ray]))
+        return Candidates(ray, surface, low, high, doubt).take(keep)
+
+
+def sides(prepared: FromPoint | Parallel, row: Index, rays: Rays) -> tuple[Bools, Index]:
+    """Return which of the pairs that may be hits certainly are, and which pairs may be."""
+    edges, error = prepared.edges(row, rays)
+    low, high = edges.min(axis=0), edges.max(axis=0)
+    possible = np.flatnonzero(~((low < -error) & (high > error)))
+    sure = ((low > error) | (high < -error))[possible]
+    return sure, possible
+
+
+def in_range(
+    fractions: Fractions, sure: Bools, start: float, end: float
+) -> tuple[Floats, Floats, Bools, NDArray[np.uint8]]:
+    """Return the ends of each t's interval, whether it certainly is clipped, and the doubt."""
+    low, high = fractions.interval()
+    inside = (low > start) & (high < end)
+    doubt = np.where(sure & np.isfinite(high), np.where(inside, SURE, CLIP), EDGE).astype(np.uint8)
+    outside = (high < start) | (low > end)
+    if start < 0:  # the interval leaves out what is behind the origin
+        outside &= np.isfinite(high)
+        low = np.where(np.isfinite(high), low, -np.inf)
+    return low, high, outside, doubt
+
+
+@dataclass(eq=False)
+class Decisions:
+    """Writes into `hits` what each step decides; `clip` and `around` are those of a `Ladder`."""
+
+    hits: Hits
+    rays: Rays
+    surfaces: Surfaces
+    clip: tuple[float, float]
+    around: Rays
+    reasons: Counter[Reason] = field(default_factory=Counter)  # why bounds did not decide
+    ties: list[Ties] = field(default_factory=list)
+
+    def by_bound(self, ray: Index, surface: Index) -> Iterator[None]:
+        """Enter the surfaces that rays certainly hit first: finds t and barycentrics, in steps."""
+        surfaces, surface = self.surfaces.only(surface)
+        yield from Prepared(self.around, surfaces).enter(self.hits, ray, surface, self.rays.take)
+
+    def by_order(self, found: Candidates, nearest: Nearest) -> Candidates:
+        """Decide rays that certainly hit all their candidates, where the order of these is known.
+
+        All candidates of a ray come together. Returns those of the other rays.
+        """
+        doubtful = np.zeros(len(self.hits), bool)
+        doubtful[found.ray[found.doubt != SURE]] = True
+        doubtful = doubtful[found.ray]
+        if not order.applies(self.around, self.clip[0]) or doubtful.all():
+            return found
+        rest = found.take(np.flatnonzero(doubtful))
+        found = found.take(np.flatnonzero(~doubtful))
+        found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], found.ray)))
+        of_ray = np.cumsum(np.diff(found.ray, prepend=-1) != 0) - 1
+        first, decided, tied = nearest(self._compare(found), of_ray)
+        beaten = decided[of_ray]
+        rest = Candidates.joined((rest, found.take(np.flatnonzero(~beaten))))
+        beaten[first] = False
+        tied &= beaten
+        coplanar = int(tied.sum())
+        self.reasons[Reason.COPLANAR] += coplanar
+        self.reasons[Reason.CLOSE] += int(beaten.sum()) - coplanar
+        won = found.take(first[decided])
+        for _ in self.by_bound(won.ray, won.surface):
+            pass
+        self.hits.certainty[won.ray] = Certainty.EXACT
+        tied[first[np.unique(of_ray[tied])]] = True
+        ties = found.take(np.flatnonzero(tied))  # what lies in one plane, sorted by ray
+        self.ties.append(Ties.of(ties.ray, *self.surfaces.names(ties.surface)))
+        self.hits.certainty[ties.ray] = Certainty.AMBIGUOUS
+        return rest
+
+    def _compare(self, found: Candidates) -> Compare:
+        """Return what compares two candidates of one ray by their depths."""
+        none = np.zeros_like(found.ray)
+        batch, _, numbers = self.surfaces.integers(self.around, none, found.surface)
+        surface = np.array(numbers)
+
+        def compare(one: Index, other: Index) -> NDArray[np.int8]:
+            rays = self.rays.take(found.ray[other])
+            return order.order_of(self.around, rays, batch, surface[one], surface[other])
+
+        return compare
+
+    def by_integers(self, found: Candidates) -> tuple[Met, Met]:
+        """Decide rays, sorted, with all their candidates, as `definition.py` does.
+
+        Returns the exact hit on each candidate, and the hit that its ray sees.
+        """
+        batch, *pairs = self.surfaces.integers(self.rays, found.ray, found.surface, self.clip)
+        met = [batch.hit(*pair) for pair in zip(*pairs, strict=True)]
+        instance, triangle = (v.tolist() for v in self.surfaces.names(found.surface))
+        names = list(zip(instance, triangle, strict=True))
+        starts = np.flatnonzero(np.diff(found.ray, prepend=-1)).tolist()
+        firsts: Met = []
+        tied = []
+        for start, end in zip(starts, [*starts[1:], len(met)], strict=True):
+            ray = int(found.ray[start])
+            hits = [(names[k], hit) for k in range(start, end) if (hit := met[k])]
+            seen, ties = seen_and_ties(hits)
+            self.hits.certainty[ray] = Certainty.AMBIGUOUS if ties else Certainty.EXACT
+            tied += [(ray, *name) for name in sorted(ties)]
+            first = None
+            if seen >= 0:
+                name, first = hits[seen]
+                self.hits.instance[ray], self.hits.triangle[ray] = name
+                self.hits.t[ray] = batch.t(first)
+                self.hits.s[:, ray] = first.weights
+            firsts += [first] * (end - start)
+        ray_of, *name_of = np.array(tied, np.int64).reshape(-1, 3).T
+        self.ties.append(Ties.of(ray_of, *name_of))
+        return met, firsts
+
+
+def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
+    """Find the nearest of each ray's candidates by comparing it with one after the other.
+
+    Parameters
+    ----------
+    compare : callable
+        Compares candidates of one ray.
+    of_ray : (c,) int
+        Which ray each candidate is of, counted from 0; they are sorted by it.
+
+    Returns
+    -------
+    first : (r,) int
+        The nearest candidate of each ray.
+    decided : (r,) bool
+        Whether it is known to be.
+    tied : (c,) bool
+        Which candidates lie in one plane with the nearest of their ray, itself included.
+    """
+    count = np.bincount(of_ray)
+    begin = np.cumsum(count) - count
+    first = begin.copy()
+    decided = np.ones(len(count), bool)
+    coplanar_with = np.arange(len(of_ray))
+    for number in range(1, int(np.max(count, initial=0))):
+        ray = np.flatnonzero(count > number)
+        other = begin[ray] + number
+        result = compare(first[ray], other)
+        decided[ray[result == order.UNDECIDED]] = False
+        coplanar = result == order.COPLANAR
+        coplanar_with[other[coplanar]] = first[ray[coplanar]]
+        nearer = result == order.FARTHER  # the nearest so far is farther than this one
+        first[ray[nearer]] = other[nearer]
+    return first, decided, coplanar_with == first[of_ray]

@@ -1,0 +1,149 @@
+"""Renders a scene by any method: the table of methods, and what is chosen from it.
+
+The loop over a picture is `tracer/render.py`. What differs between methods is how hits are found:
+
+- a plain method tests triangles in floating point (`tracer/nearest.py`);
+- `certified` proves each answer: `certified/definition.py` says what is proven,
+  `certified/plain.py` finds it, and `certified/sweep/` finds the same sooner where the picture is
+  linear in the film position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from .certified import any_rays, plain
+from .certified.arithmetic import AssumptionError, check_assumptions
+from .certified.rounding import rounding
+from .certified.sweep.sweep import sweep
+from .methods import PLAIN, Method
+from .scene import Scene
+from .tracer import nearest
+from .tracer import render as loop
+from .tracer.camera import Rays
+from .tracer.frame import Frame
+from .tracer.hits import Hits, Statistics
+from .tracer.nearest import TraceBand
+from .tracer.progress import Work, result_of
+from .tracer.render import Tracer, bands
+from .tracer.settings import Precision, Settings
+from .tracer.world import refused
+
+TraceRays = Callable[[Scene, Rays, Settings, Statistics], Work[Hits]]
+
+
+def certified_tracer(
+    scene: Scene, settings: Settings, reach: float, statistics: Statistics
+) -> Work[TraceBand]:
+    """Prepare to trace bands of a picture with proof; yields nothing, as nothing is traced yet."""
+    statistics.refused = refused(scene)
+    statistics.rounding = str(rounding(scene))
+    find = sweep if scene.camera.projection.is_linear else plain.plain
+    memory = settings.memory // 2
+    return lambda band, dx, dy: find(scene, band, memory, dx, dy, statistics)
+    yield  # a generator, as all tracers are
+
+
+# By method: what traces a picture's bands, and what traces any rays.
+TRACERS: dict[Method, Tracer] = {
+    **dict.fromkeys(PLAIN, nearest.tracer),
+    Method.CERTIFIED: certified_tracer,
+}
+RAY_TRACERS: dict[Method, TraceRays] = {
+    **dict.fromkeys(PLAIN, nearest.trace_rays),
+    Method.CERTIFIED: any_rays.trace_rays,
+}
+
+
+def render(
+    scene: Scene,
+    settings: Settings | None = None,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    tracer: Tracer | None = None,
+) -> Frame:
+    """Trace a scene.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Called with the share of the work that is done, 0 to 1; 1 only at the end.
+    cancelled : callable, optional
+        Asked after every step; once it says True, the frame is returned with the rows that are
+        done, and marked `cancelled`.
+    tracer : Tracer, optional
+        Traces the rays in place of the method's own, for instance on other machines.
+
+    Raises
+    ------
+    AssumptionError
+        If the method is `certified`, and this process's arithmetic allows no proof.
+    """
+    frame = Frame.empty(scene)
+    for share in steps(scene, settings or Settings(), frame, tracer):
+        if progress:
+            progress(share)
+        if share < 1 and cancelled and cancelled():
+            frame.cancel()
+            break
+    return frame
+
+
+def steps(
+    scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
+) -> Iterator[float]:
+    """Trace a scene into an empty frame, as `tracer.render.steps`, by any method."""
+    settings = resolved(settings, frame.statistics)
+    yield from loop.steps(scene, settings, frame, tracer or TRACERS[Method(settings.method)])
+
+
+def trace(
+    scene: Scene, settings: Settings, statistics: Statistics | None = None, rays: Rays | None = None
+) -> Hits:
+    """Return what the rays through the centres of the region's pixels meet, and nothing else.
+
+    Row by row from the lowest.
+
+    Parameters
+    ----------
+    settings : Settings
+        The number of samples has no effect.
+    statistics : Statistics, optional
+        To count in.
+    rays : Rays, optional
+        Any rays to trace instead. The camera's clip range applies to t, in lengths of a direction.
+        Each is tested with every triangle.
+    """
+    statistics = statistics or Statistics()
+    settings = resolved(settings, statistics)
+    method = Method(settings.method)
+    if rays:
+        dtype = settings.precision.dtype
+        rays = Rays(rays.origins.astype(dtype), rays.directions.astype(dtype))
+        return result_of(RAY_TRACERS[method](scene, rays, settings, statistics))
+    trace_band = result_of(TRACERS[method](scene, settings, 0.0, statistics))
+    found = [result_of(trace_band(band, 0.0, 0.0)) for band in bands(scene.camera, settings)]
+    return Hits.joined(found)
+
+
+def resolved(settings: Settings, statistics: Statistics) -> Settings:
+    """Return settings with a method of the table: `auto` is certified where that is possible.
+
+    Where it is not, it is watertight in float64, and a note in the statistics says why.
+
+    Raises
+    ------
+    AssumptionError
+        If the method is `certified`, and this process's arithmetic allows no proof.
+    """
+    if settings.method.is_plain:
+        return settings
+    try:
+        check_assumptions()
+    except AssumptionError as error:
+        if settings.method != Method.AUTO:
+            raise
+        statistics.notes.append(f"traced by watertight in float64, as {error}")
+        return replace(settings, method=Method.WATERTIGHT, precision=Precision.FLOAT64)
+    return replace(settings, method=Method.CERTIFIED)

@@ -1,0 +1,69 @@
+"""t and the barycentrics of a picture, each row found when it is first asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .hits import FindMeasures, Hits, Measures, no_measures
+from .vector import Index
+
+PIXELS = 1 << 17  # found together: a step of some ten milliseconds
+_KNOWN = -1  # of a row whose values are there
+
+
+class FrameMeasures:
+    """t and the barycentrics of a picture of h x w pixels.
+
+    Parameters
+    ----------
+    instance, triangle : (h, w) int32
+        The surface that each pixel shows. These are the frame's own arrays, which it still fills.
+    """
+
+    def __init__(self, instance: NDArray[np.int32], triangle: NDArray[np.int32]) -> None:
+        self._instance = instance
+        self._triangle = triangle
+        self._height, self._width = instance.shape
+        self._bands: list[tuple[int, FindMeasures]] = []  # first row, and what finds its rays'
+        self._band_of = np.full(self._height, _KNOWN)  # of each row that was not asked for yet
+
+    @cached_property
+    def _values(self) -> Measures:
+        return no_measures(self._height, self._width)
+
+    def enter(self, rows: slice, hits: Hits) -> None:
+        """Take over the measures of a band's rows, found or to be found."""
+        if callable(hits.measures):
+            self._band_of[rows] = len(self._bands)
+            self._bands.append((rows.start, hits.measures))
+        else:
+            self._band_of[rows] = _KNOWN
+            self._values[:, rows] = hits.measures.reshape(4, -1, self._width)
+
+    def of(self, rows: slice) -> Measures:
+        """Return t, inf where nothing is hit, and the barycentrics of k rows, (4, k, w)."""
+        for _ in self.steps(rows):
+            pass
+        return self._values[:, rows]
+
+    def steps(self, rows: slice) -> Iterator[None]:
+        """Find what is not known yet of some rows, in small steps."""
+        first, last, _ = rows.indices(self._height)
+        together = max(1, PIXELS // self._width)
+        for y in range(first, last, together):
+            band_of = self._band_of[y : min(y + together, last)]
+            for band in np.unique(band_of[band_of != _KNOWN]).tolist():
+                self._find(band, y + np.flatnonzero(band_of == band))
+            yield
+
+    def _find(self, band: int, row: Index) -> None:
+        """Find the measures of some rows of one band."""
+        first, find = self._bands[band]
+        ray = ((row - first)[:, None] * self._width + np.arange(self._width)).ravel()
+        found = find(ray, self._instance[row].ravel(), self._triangle[row].ravel())
+        self._values[:, row] = found.reshape(4, -1, self._width)
+        self._band_of[row] = _KNOWN
