@@ -180,8 +180,8 @@ def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[NDArr
         seen = np.flatnonzero(hits.instance != NOTHING)
         hits = hits.take(seen)
         view = view_error(scene, hits, frame.positions(rows)[seen])
-        row = seen // frame.shape[1] + (camera.region.y0 + rows.start + 0.5)
-        y = camera.window.bottom + row * pixel_size(camera)[1]
+        below = camera.region.y0 + (rows.start or 0) + 0.5
+        y = camera.window.bottom + (seen // frame.shape[1] + below) * pixel_size(camera)[1]
         own[rows].reshape(-1)[seen] = pixel_error(camera, hits.t, view, y)
         yield number / len(all_rows)
     return (yield from spread_error(own))
