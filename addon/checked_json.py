@@ -1,28 +1,33 @@
-"""Content of a JSON file -> what it describes; what is wrong in it is named by where it stands.
+"""Reads numbers, texts and cameras from a JSON file's content, and names what is wrong there.
 
-Whoever calls adds the file's name to the SceneError.
+The caller adds the file's name to the SceneError.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Floats
 from .projections import projection_of
 from .scene import Camera, Region, SceneError, ViewWindow
+
+Content = dict[str, Any]  # an object of JSON
+T = TypeVar("T")
 
 ENDLESS = "inf"  # JSON has no number for it
 
 
-def camera_of(c: dict) -> Camera:
-    """Return a camera of which all is there."""
-    window = part(c, "window", "camera.", dict)
-    region = part(c, "region", "camera.", dict)
-    if (projection := projection_of(c.get("orthographic"))) is None:
-        part(c, "orthographic", "camera.", bool)  # says what is wrong with it
-    sides, ends = ("left", "right", "bottom", "top"), ("x0", "y0", "x1", "y1")
+def camera_of(c: Content) -> Camera:
+    """Return a camera; nothing of it may be missing."""
+    window: Content = part(c, "window", "camera.", dict)
+    region: Content = part(c, "region", "camera.", dict)
+    projection = projection_of(c.get("orthographic"))
+    if projection is None:
+        raise SceneError("camera.orthographic must be true or false")
+    sides = "left", "right", "bottom", "top"
+    ends = "x0", "y0", "x1", "y1"
     if (clip_end := c.get("clip_end")) not in (ENDLESS, np.inf):
         clip_end = numbers(c, "clip_end", "camera.", ())
     return Camera(
@@ -38,18 +43,18 @@ def camera_of(c: dict) -> Camera:
     )
 
 
-def part(content: dict, key: str, where: str, kind: type) -> Any:
-    """Return what an object has by a name, of a kind."""
+def part(content: Content, key: str, where: str, kind: type[T]) -> T:
+    """Return the value of a key, which must be of this type."""
     if key not in content:
         raise SceneError(f"{where}{key} is missing")
     value = content[key]
-    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+    if not isinstance(value, kind) or isinstance(value, bool):
         names = {dict: "an object in braces", list: "a list", str: "text", int: "an integer"}
-        raise SceneError(f"{where}{key} must be {names.get(kind, 'true or false')}")
+        raise SceneError(f"{where}{key} must be {names[kind]}")
     return value
 
 
-def whole(content: dict, key: str, where: str) -> int:
+def whole(content: Content, key: str, where: str) -> int:
     """Return an integer that is not negative."""
     value = part(content, key, where, int)
     if not 0 <= value < 2**31:
@@ -57,9 +62,7 @@ def whole(content: dict, key: str, where: str) -> int:
     return value
 
 
-def numbers(
-    content: dict, key: str, where: str, shape: tuple[int, ...] | None
-) -> NDArray[np.float64]:
+def numbers(content: Content, key: str, where: str, shape: tuple[int, ...] | None) -> Floats:
     """Return finite numbers of a shape, any if None."""
     if key not in content:
         raise SceneError(f"{where}{key} is missing")

@@ -1,4 +1,4 @@
-"""What is wrong with a mesh, by trimesh: whether it is closed, how it is wound, what is double."""
+"""Diagnoses meshes with trimesh: whether they are closed, how they are wound, what is double."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ def diagnose(mesh: Mesh) -> dict[str, Any]:
     positions, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
     faces = index.reshape(-1)[mesh.triangles]
     whole = trimesh.Trimesh(positions.astype(np.float64), faces, process=False)
-    with np.errstate(all="ignore"):  # of what is huge, or has no side
+    with np.errstate(all="ignore"):  # faces may be huge, or have no area
         return {
             "closed": bool(whole.is_watertight),
             "consistent_winding": bool(whole.is_winding_consistent),
             "degenerate_faces": int((~whole.nondegenerate_faces()).sum()),
-            "duplicate_faces": len(faces) - len(trimesh.grouping.unique_rows(np.sort(faces))[0]),
+            "duplicate_faces": len(faces) - len(np.unique(np.sort(faces), axis=0)),
         }
 
 
@@ -45,11 +45,14 @@ def diagnosed(scene: Scene, manifest: Manifest) -> Generator[float, None, Manife
         own.setdefault(scene.objects[instance.object], set()).add(instance.mesh)
     entries = []
     for entry in manifest.objects:
-        of = [diagnoses[mesh] for mesh in own.get(entry.name, ())]
-        # Closed if all are, and the sum of each count.
-        joined = {
-            key: (all if isinstance(value, bool) else sum)(d[key] for d in of)
-            for key, value in (of[0].items() if of else ())
-        }
-        entries.append(replace(entry, diagnosis=joined or None))
+        found = [diagnoses[mesh] for mesh in own.get(entry.name, ())]
+        entries.append(replace(entry, diagnosis=_joined(found) if found else None))
     return replace(manifest, objects=tuple(entries))
+
+
+def _joined(diagnoses: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return the diagnosis of several meshes: closed if all are, and the sum of each count."""
+    return {
+        key: (all if isinstance(value, bool) else sum)(d[key] for d in diagnoses)
+        for key, value in diagnoses[0].items()
+    }

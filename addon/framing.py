@@ -1,7 +1,4 @@
-"""Cameras for scenes that have none: one that frames what is there, or one that is placed.
-
-In come points in world space, or where the eye is and what it looks at; out goes a `scene.Camera`.
-"""
+"""Makes cameras for scenes that have none: one that frames what is there, or one that is placed."""
 
 from __future__ import annotations
 
@@ -9,8 +6,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from .arrays import Floats
 from .projections import ORTHOGRAPHIC, PERSPECTIVE
 from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
@@ -24,9 +22,8 @@ NEAREST = 0.01  # depth of the nearest point at least, in sizes of all that is f
 
 
 def framing(
-    parts: Iterable[NDArray[np.floating]],
-    backward: ArrayLike,
-    up: ArrayLike,
+    parts: Iterable[Floats],
+    axes: Floats,
     width: int,
     height: int,
     angle: float = ANGLE,
@@ -34,16 +31,16 @@ def framing(
 ) -> Camera:
     """Return the camera that sees all points as large as nine tenths of the picture allow.
 
-    Each side of the view volume bounds the eye linearly, so that the nearest eye is exact. What is
-    framed spans that share of the picture's width or of its height, unless it would come nearer to
-    the eye than a hundredth of its own size.
+    Each side of the view volume bounds the eye's position linearly, so the nearest eye is exact.
+    What is framed spans nine tenths of the picture's width or of its height, unless it would come
+    nearer to the eye than a hundredth of its own size.
 
     Parameters
     ----------
     parts : iterable of (n, 3) float
-        Points in world space, finite, looked at one part after the other.
-    backward, up : (3,) float
-        Towards the eye, and what is up in the picture, in world space; of any length.
+        Points in world space, finite, read one part after the other.
+    axes : (3, 3) float64
+        The camera's right, up and backward as columns, in world space: see :func:`axes_of`.
     width, height : int
         Of the picture, in pixels.
     angle : float
@@ -54,17 +51,40 @@ def framing(
     Raises
     ------
     SceneError
-        If there is no point, the direction is zero, or the picture has no pixel.
+        If there is no point, or the picture has no pixel.
     """
     check_size(width, height)
-    half = np.tan(np.radians(angle) / 2)
+    half = float(np.tan(np.radians(angle) / 2))
     aspect = width / (tall * height)
     slope = FILLED * np.array((half * aspect, half))  # of the sides that are to be touched
+    center, ends = _extents(parts, axes, slope)
+    high, low, right, left = ends[:8].reshape(4, 2)
+    near, far = ends[8:] * (-1, 1)
+    size = max(*(high + low), far - near, 1e6 * np.spacing(np.abs(center).max()), 1e-30)
+    eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
+    at = center + axes @ (*((right - left) / 2), -eye)
+    return Camera(
+        _pose(axes, at),
+        _window(half, aspect),
+        width,
+        height,
+        PERSPECTIVE,
+        clip_start=(near - eye) / 2,
+        clip_end=(far - eye) * 2,
+        name="framing",
+    )
+
+
+def _extents(parts: Iterable[Floats], axes: Floats, slope: Floats) -> tuple[Floats, Floats]:
+    """Return a point, and how far all points reach from it in ten directions of the camera.
+
+    Along x, y, -x and -y; along the same, tilted by the slopes; and along z and -z.
+    """
     flat = np.concatenate((np.eye(2), -np.eye(2)))
     tilted = np.column_stack((flat, np.tile(slope, 2)))
     bounds = np.concatenate((np.pad(flat, ((0, 0), (0, 1))), tilted, [(0, 0, 1), (0, 0, -1)]))
-    axes = axes_of(backward, up)
-    ends, center = np.full(len(bounds), -np.inf), None
+    ends = np.full(len(bounds), -np.inf)
+    center = None
     for points in parts:
         if len(points):
             if center is None:  # near all of them, as what is far from the origin loses digits
@@ -72,17 +92,10 @@ def framing(
             ends = np.maximum(ends, ((points - center) @ (axes @ bounds.T)).max(axis=0))
     if center is None:
         raise SceneError("There is nothing to frame: no triangle is shown.")
-    (high, low, right, left), (near, far) = ends[:8].reshape(4, 2), ends[8:] * (-1, 1)
-    size = max(*(high + low), far - near, 1e6 * np.spacing(np.abs(center).max()), 1e-30)
-    eye = min(*(-(right + left) / (2 * slope)), near - NEAREST * size)
-    middle = (right - left) / 2
-    at, clip = center + axes @ (*middle, -eye), ((near - eye) / 2, (far - eye) * 2)
-    return _camera("framing", axes, at, width, height, half, aspect, PERSPECTIVE, clip)
+    return center, ends
 
 
-def shown_points(
-    meshes: Sequence[Mesh], instances: Iterable[Instance]
-) -> Iterator[NDArray[np.float64]]:
+def shown_points(meshes: Sequence[Mesh], instances: Iterable[Instance]) -> Iterator[Floats]:
     """Yield the corners of each instance's triangles in world space, (n, 3)."""
     used = []
     for mesh in meshes:
@@ -95,24 +108,27 @@ def shown_points(
 
 @dataclass(frozen=True)
 class Choice:
-    """What of a file is looked at, through which camera; of a .blend, `blender.choice` makes it so.
+    """What to look at in a file, and through which camera; None for what the file itself says.
 
-    What is None is as the file was saved, or is found from its meshes.
+    Of a .blend, `blender.choice` sets it in the open file.
     """
 
-    scene_name: str | None = None  # this and the next three are of a .blend
+    # Of a .blend alone.
+    scene_name: str | None = None
     view_layer: str | None = None
     frame: int | None = None
     camera: str | None = None  # the name of one that is there
-    frame_all: bool = False  # or one that frames all
-    eye: Sequence[float] | None = None  # or one that is placed, up as in :func:`framing`
+    # A new camera: one that frames all, or one that is placed.
+    frame_all: bool = False
+    eye: Sequence[float] | None = None  # metres; up is as in :func:`framing`
     target: Sequence[float] | None = None  # where it looks; None for the origin
     angle: float | None = None  # vertical, degrees
     ortho_scale: float | None = None  # height of the picture, metres
-    width: int | None = None  # of the picture, pixels; of a .blend, the other follows from one
+    # The picture, pixels; of a .blend, one follows from the other.
+    width: int | None = None
     height: int | None = None
-    up: str | None = None  # which axis of a mesh's file is
     default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
+    up: str | None = None  # which axis of a mesh's file is up
     opened: bool = False  # the file is open, in the Blender that runs this
 
     def placed(self, width: int, height: int, tall: float = 1.0) -> Camera:
@@ -126,42 +142,60 @@ class Choice:
         check_size(width, height)
         projection = PERSPECTIVE if self.ortho_scale is None else ORTHOGRAPHIC
         if self.ortho_scale is None:
-            half = np.tan(np.radians(self.angle or ANGLE) / 2)
+            half = float(np.tan(np.radians(self.angle or ANGLE) / 2))
         else:
             half = self.ortho_scale / 2
+        eye = np.asarray(self.eye, np.float64)
         target = (0, 0, 0) if self.target is None else self.target
-        backward = np.subtract(self.eye, target, dtype=np.float64)
+        backward = eye - np.asarray(target, np.float64)
         distance = float(np.linalg.norm(backward))
         if not distance:
             raise SceneError("--eye and --target are the same point: move one of them.")
-        aspect, clip = width / (tall * height), (distance * 1e-3, distance * 1e3)
-        axes = axes_of(backward, UP)
-        return _camera("--eye", axes, self.eye, width, height, half, aspect, projection, clip)
+        return Camera(
+            _pose(axes_of(backward, UP), eye),
+            _window(half, width / (tall * height)),
+            width,
+            height,
+            projection,
+            clip_start=distance * 1e-3,
+            clip_end=distance * 1e3,
+            name="--eye",
+        )
 
 
-def _camera(name, axes, at, width, height, half, aspect, projection, clip) -> Camera:
-    """Return a camera whose picture is 2 `half` high, at depth 1 or in metres."""
+def _pose(axes: Floats, at: Floats) -> Floats:
+    """Return world_from_camera, (4, 4), of a camera at a point."""
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes, at
-    window = ViewWindow(-half * aspect, half * aspect, -half, half)
-    return Camera(matrix, window, width, height, projection, *clip, name=name)
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = at
+    return matrix
 
 
-def axes_of(backward: ArrayLike, up: ArrayLike) -> NDArray[np.float64]:
+def _window(half: float, aspect: float) -> ViewWindow:
+    """Return the window of a picture that is 2 `half` high, at depth 1 or in metres."""
+    return ViewWindow(-half * aspect, half * aspect, -half, half)
+
+
+def axes_of(backward: ArrayLike, up: ArrayLike) -> Floats:
     """Return right, up and backward of a camera as columns, (3, 3).
 
-    Where `up` is along the view, it is the last of the axes that are most across it.
+    Parameters
+    ----------
+    backward, up : (3,) float
+        Towards the eye, and what is up in the picture, in world space; of any length. Where `up`
+        is along the view, it is the last of the axes that are most across it.
 
     Raises
     ------
     SceneError
-        If the direction is zero or not finite.
+        If `backward` is zero or not finite.
     """
-    backward, right = np.asarray(backward, np.float64), np.cross(up, backward)
+    back = np.asarray(backward, np.float64)
+    right = np.cross(np.asarray(up, np.float64), back)
     if not right.any():
-        right = np.cross(np.eye(3)[2 - np.argmin(np.abs(backward[::-1]))], backward)
-    axes = np.stack((right, np.cross(backward, right), backward), axis=1)
+        right = np.cross(np.eye(3)[2 - int(np.argmin(np.abs(back[::-1])))], back)
+    axes = np.stack((right, np.cross(back, right), back), axis=1)
     lengths = np.linalg.norm(axes, axis=0)
     if not (lengths.all() and np.isfinite(lengths).all()):
-        raise SceneError(f"{backward}, from what is looked at to the eye, is zero or not finite.")
+        raise SceneError(f"{back}, from what is looked at to the eye, is zero or not finite.")
     return axes / lengths

@@ -1,7 +1,7 @@
-"""Arrays <-> picture files, and the way from linear colour to what a screen shows.
+"""Reads and writes picture files, and turns linear colours into what a screen shows.
 
 Pictures are (h, w, 4), row 0 at the bottom; files are written with their first row on top.
-A PNG is written with zlib alone. The rest takes OpenImageIO, the extra `images`.
+A PNG is written with zlib alone. All else needs OpenImageIO, the extra `images`.
 """
 
 from __future__ import annotations
@@ -19,36 +19,36 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array, Bytes, Colors, Floats
 from .runs import by_runs
 
-_LEVEL = 6  # of zlib: 9 takes several times as long for a few per cent
+_LEVEL = 6  # of zlib's compression: 9 takes several times as long for a few per cent
 _UP = 2  # PNG's filter: the difference from the row above
 _RGBA, _PALETTE = 6, 3  # PNG's colour types
-_ROWS = 64  # of an EXR at a time: several of its blocks
+_ROWS = 64  # of an EXR that are written at a time: several of its blocks
 
 
 class MissingLibraryError(RuntimeError):
     """An optional library is not installed; the message says how to get it."""
 
 
-def to_display(color: NDArray[np.floating]) -> NDArray[np.uint8]:
+def to_display(color: Floats) -> Bytes:
     """Return what a screen shows of linear RGBA with premultiplied alpha, (h, w, 4) uint8.
 
-    The transfer function is sRGB's (IEC 61966-2-1), Blender's view transform 'Standard'; values are
-    cut off at 1, and what is not a number is black.
+    The transfer function is sRGB's (IEC 61966-2-1), as of Blender's view transform 'Standard'.
+    Values are cut off at 1, and NaN is black.
     """
 
-    def shown(color: NDArray) -> NDArray[np.uint8]:
+    def shown(color: Array) -> Bytes:
         color = np.nan_to_num(color.astype(np.float64), posinf=1.0, neginf=0.0)
         return np.rint(255 * encoded(color)).astype(np.uint8)
 
     return by_runs(shown, np.reshape(color, (-1, 4))).reshape(np.shape(color))
 
 
-def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Return linear premultiplied RGBA or RGB (..., 4 or 3) as sRGB's curve, straight, 0 to 1."""
+def encoded(color: Floats) -> Floats:
+    """Return linear premultiplied RGBA or RGB, (..., 4 or 3), in sRGB's curve, straight, 0 to 1."""
     color = np.asarray(color, dtype=np.float64)
     alpha = np.clip(color[..., 3:], 0, 1)
     straight = color[..., :3]
@@ -57,8 +57,8 @@ def encoded(color: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.concatenate((curve(np.clip(straight, 0, 1)), alpha), axis=-1)
 
 
-def decoded(stored: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Return what :func:`encoded` was made of: linear RGBA or RGB, alpha premultiplied."""
+def decoded(stored: Floats) -> Floats:
+    """Undo :func:`encoded`: return linear RGBA or RGB, alpha premultiplied."""
     stored = np.asarray(stored, dtype=np.float64)
     linear, alpha = curve_undone(stored[..., :3]), stored[..., 3:]
     if stored.shape[-1] == 4:
@@ -66,18 +66,18 @@ def decoded(stored: NDArray[np.floating]) -> NDArray[np.float64]:
     return np.concatenate((linear, alpha), axis=-1)
 
 
-def curve(linear: NDArray[np.floating]) -> NDArray[np.float64]:
+def curve(linear: Floats) -> Floats:
     """Return sRGB's transfer function (IEC 61966-2-1) of linear values, 0 to 1."""
     with np.errstate(invalid="ignore"):
         return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
-def curve_undone(stored: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Return the linear values of which :func:`curve` makes the stored ones."""
+def curve_undone(stored: Floats) -> Floats:
+    """Undo :func:`curve`: return the linear values of stored ones."""
     return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
 
 
-def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
+def save_png(path: str | Path, picture: Bytes) -> None:
     """Write an (h, w, 4) uint8 sRGB picture, row 0 at the bottom.
 
     Raises
@@ -88,11 +88,14 @@ def save_png(path: str | Path, picture: NDArray[np.uint8]) -> None:
     Path(path).write_bytes(png(picture))
 
 
-def png(picture: NDArray[np.uint8]) -> bytes:
+def png(picture: Bytes) -> bytes:
     """Return an (h, w, 4) uint8 sRGB picture, row 0 at the bottom, as the content of a PNG file.
 
-    Source: the PNG specification, third edition (W3C): 8 bits a channel; every row is filtered by
-    its difference from the one above.
+    It has 8 bits a channel, and every row is filtered by its difference from the one above.
+
+    References
+    ----------
+    W3C, "Portable Network Graphics (PNG) Specification", third edition.
     """
     height, width = picture.shape[:2]
     rows = np.empty((height, 1 + 4 * width), np.uint8)
@@ -107,12 +110,12 @@ def png(picture: NDArray[np.uint8]) -> bytes:
     return b"".join(out)
 
 
-def data_uri(picture: NDArray[np.uint8]) -> str:
-    """Return the same PNG as the address of an image in a page."""
+def data_uri(picture: Bytes) -> str:
+    """Return a picture, as :func:`png` takes it, as the address of an image in a page."""
     return f"data:image/png;base64,{base64.b64encode(png(picture)).decode('ascii')}"
 
 
-def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
+def save_exr(path: str | Path, passes: dict[str, Array]) -> None:
     """Write passes to one EXR: `color` as RGBA, the others as channels of a layer of their name.
 
     All channels are float32: an index above 2^24 is rounded (`frame.npz` has it whole).
@@ -124,7 +127,8 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
     OSError
         If the file cannot be written.
     """
-    oiio, path = _library(), Path(path)
+    oiio = _library()
+    path = Path(path)
     pictures = {name: np.atleast_3d(v) for name, v in passes.items() if np.ndim(v) > 1}
     names = []
     for name, values in pictures.items():
@@ -152,7 +156,7 @@ def save_exr(path: str | Path, passes: dict[str, NDArray]) -> None:
 class StoredPicture:
     """A picture from a file."""
 
-    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
+    color: Colors  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
     levels: int  # above 0 of sRGB's curve in which it was stored; 0 for floats
     opaque: bool  # the file has no alpha
 
@@ -190,7 +194,8 @@ def _png_of(path: Path, file: Any) -> StoredPicture | None:
         return None
     with path.open("rb") as header:
         depth, kind = header.read(26)[24:]
-    most, channels = np.iinfo(stored.dtype).max, stored.shape[2]
+    most = np.iinfo(stored.dtype).max
+    channels = stored.shape[2]
     order = [0] * 3 if channels < 3 else [0, 1, 2]  # grey, or RGB
     order += [channels - 1] * (channels % 2 == 0)
     color = np.ones((*stored.shape[:2], 4), np.float32)
@@ -220,20 +225,20 @@ def _library() -> Any:
             "to read PNG files, and to read or write EXR files, takes the library OpenImageIO, "
             "the extra `images` of the Python package"
         ) from None
-    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG by the name of a PNG is none
+    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .png is refused
     return OpenImageIO
 
 
 def _error(of: Any) -> str:
     try:
         return " ".join(of.geterror().split())
-    except UnicodeDecodeError:  # it quotes what it read
+    except UnicodeDecodeError:  # the message quotes what it read
         return "its header is damaged"
 
 
 @contextmanager
 def redirected(number: int, into: int) -> Iterator[None]:
-    """Send what is written to one file descriptor, also by C libraries, to another meanwhile."""
+    """Send what is written to a file descriptor, also by C libraries, to another for a while."""
     own = os.dup(number)
     os.dup2(into, number)
     try:

@@ -1,6 +1,6 @@
-"""What was exported, what was not, and what the tracer does not model: nothing is lost in silence.
+"""Lists what was exported, what was not, and what the tracer does not model.
 
-In come entries from an exporter; out go lines for people and a dict for JSON.
+An exporter fills it, so that nothing is lost in silence. People get it as lines, programs as JSON.
 """
 
 from __future__ import annotations
@@ -11,32 +11,33 @@ from enum import Enum
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from .arrays import Floats
 
 OUTSIDE = "outside the view"
 
 
 @dataclass(frozen=True)
 class ObjectEntry:
-    """One object of the scene: exported, or skipped with the reason."""
+    """One object of the scene: exported, or skipped for a reason."""
 
     name: str
     type: str
     exported: bool
     reason: str = ""
-    triangles: int = 0  # of its meshes
+    triangles: int = 0  # of its meshes, each counted once
     vertices: int = 0
     instances: int = 0
-    outside: int = 0  # instances wholly outside the view, which are not exported
+    outside: int = 0  # instances that are not exported, as they are wholly outside the view
     traced_triangles: int = 0  # over all instances
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
-    hidden: bool = False  # Blender does not draw it either, for the reason that is given
+    hidden: bool = False  # Blender does not draw it either, for the same reason
     diagnosis: dict[str, Any] | None = None  # see diagnosis.py
 
 
 class Effect(Enum):
-    """What a feature that the tracer does not model does to the picture of the other side."""
+    """What a feature that the tracer does not model does to the other side's picture."""
 
     NONE = "it changes nothing that is compared"
     UNPLACED = "it may change the picture, and nobody knows where"
@@ -58,24 +59,23 @@ class Effect(Enum):
 class Unmodelled:
     """A feature of the scene that the tracer does not model.
 
-    `bounds` is the world-space box, (2, 3) metres, around what has it; None where it cannot be
-    placed. `by` are objects whose geometry nodes draw the object, too.
+    A box of bounds that are not finite is dropped, as it would explain anything.
     """
 
     object: str
     feature: str
     detail: str = ""
-    bounds: NDArray[np.float64] | None = None
+    bounds: Floats | None = None  # (2, 3) metres, a box in world space; None: anywhere
     effect: Effect = Effect.DRAWN
-    by: tuple[str, ...] = ()
+    by: tuple[str, ...] = ()  # objects whose geometry nodes draw the object, too
 
     def __post_init__(self) -> None:
         if self.bounds is not None and not np.isfinite(self.bounds).all():
-            object.__setattr__(self, "bounds", None)  # a box without an end explains nothing
+            object.__setattr__(self, "bounds", None)
 
     def __str__(self) -> str:
-        whose = self.object if self.object.startswith("scene '") else f"'{self.object}'"
-        return f"{self.feature} of {whose}"
+        owner = self.object if self.object.startswith("scene '") else f"'{self.object}'"
+        return f"{self.feature} of {owner}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the feature as JSON can hold it."""
@@ -89,11 +89,7 @@ class Unmodelled:
 
 @dataclass(frozen=True)
 class Manifest:
-    """The whole of one export.
-
-    `owners` has the name of the object whose colour Blender gives to each instance of the scene,
-    then to each plane: of a collection's instance that is the empty. It is not part of the JSON.
-    """
+    """What one export holds, and what it lacks."""
 
     file: str
     scene: str
@@ -104,6 +100,8 @@ class Manifest:
     objects: tuple[ObjectEntry, ...] = ()
     unmodelled: tuple[Unmodelled, ...] = ()
     notes: tuple[str, ...] = ()
+    # Of each instance of the scene, then of each plane, the object that gives it its colour in
+    # Blender: of a collection's instance that is the empty. It is not in the JSON.
     owners: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
@@ -146,7 +144,7 @@ class Manifest:
         for u in self.unmodelled:
             detail = f" ({u.detail})" if u.detail else ""
             none = u.effect is Effect.NONE
-            said = "not modelled, which is no matter here" if none else "not modelled"
+            said = "not modelled, but it changes nothing here" if none else "not modelled"
             yield f"  {said}: {u.object}: {u.feature}{detail}", not none
         for note in self.notes:
             yield f"  note: {note}", False

@@ -10,7 +10,7 @@ The loop over a picture is `tracer/render.py`. What differs between methods is h
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 from .certified import any_rays, plain
@@ -92,7 +92,7 @@ def render(
 
 def steps(
     scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
-) -> Iterator[float]:
+) -> Work[None]:
     """Trace a scene into an empty frame, as `tracer.render.steps`, by any method."""
     settings = resolved(settings, frame.statistics)
     yield from loop.steps(scene, settings, frame, tracer or TRACERS[Method(settings.method)])

@@ -1,4 +1,4 @@
-"""Runs of equal pixels: what follows from a pixel alone is computed once for each.
+"""Finds runs of equal pixels, so that what follows from a pixel alone is computed once a run.
 
 A picture in constant colours has some thousand runs, and millions of pixels.
 """
@@ -8,13 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
+
+from .arrays import Array, Places
 
 
-def run_starts(*values: NDArray) -> NDArray[np.intp]:
-    """Return where the runs of n items begin, (k,): in each, all of the values have the same bits.
+def run_starts(*values: Array) -> Places:
+    """Return where the runs of n items begin, (k,).
 
-    Each of `values` is (n, ...).
+    Each of `values` is (n, ...). In a run, all of them have the same bits.
     """
     count = len(values[0])
     new = np.zeros(count, bool)
@@ -27,10 +28,10 @@ def run_starts(*values: NDArray) -> NDArray[np.intp]:
     return np.flatnonzero(new)
 
 
-def by_runs(of: Callable[..., NDArray], *values: NDArray) -> NDArray:
-    """Return what a function makes of n items, (n, ...), which it makes of each by itself.
+def by_runs(of: Callable[..., Array], *values: Array) -> Array:
+    """Return what a function makes of n items, (n, ...); it has to treat each item by itself.
 
-    `values` are its arguments, (n, ...) each; the function is asked about the first of each run.
+    `values` are its arguments, (n, ...) each. The function is asked about the first of each run.
     """
     first, count = run_starts(*values), len(values[0])
     if 2 * len(first) > count:

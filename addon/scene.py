@@ -1,7 +1,7 @@
 """The contract between Blender (or a file) and the tracer: plain arrays in frozen dataclasses.
 
-In come numbers from an exporter; out goes a `Scene` whose input has been checked, so that
-nothing after this file has to ask whether an index is in range or a vertex is finite.
+A `Scene` checks its input, so that nothing after this file has to ask whether an index is in range
+or a vertex is finite.
 World space is Blender's: metres, Z up. Camera space: -Z forward, +Y up.
 """
 
@@ -13,8 +13,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array, Bools, Colors, Floats, Index, Integers, Places
 from .projections import PERSPECTIVE, PROJECTIONS, Projection
 
 # Of a camera's axes: their inverse, two factors by the determinant, is below 2^602.
@@ -85,7 +85,7 @@ class Camera:
         If there is nothing to see through it: an empty picture, clip range or window.
     """
 
-    world_from_camera: NDArray[np.float64]
+    world_from_camera: Floats
     window: ViewWindow
     width: int  # of the whole picture, in pixels
     height: int
@@ -112,6 +112,10 @@ class Camera:
                 f"The render border holds no pixel (x {r.x0} to {r.x1}, y {r.y0} to {r.y1} of "
                 f"{self.width} x {self.height}): enlarge it or switch it off."
             )
+        self._check_clip_range()
+        self._check_window()
+
+    def _check_clip_range(self) -> None:
         if not self.clip_start < self.clip_end:
             raise SceneError(
                 f"Camera '{self.name}' sees nothing: its clip start ({self.clip_start:g} m) is not "
@@ -122,6 +126,8 @@ class Camera:
                 f"Camera '{self.name}' has a clip start of {self.clip_start:g} m: what a "
                 f"{self.projection.name} camera sees begins in front of it, so raise it above 0."
             )
+
+    def _check_window(self) -> None:
         w = self.window
         reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))
         with np.errstate(all="ignore"):
@@ -140,22 +146,22 @@ class Camera:
             )
 
     @property
-    def origin(self) -> NDArray[np.float64]:
+    def origin(self) -> Floats:
         """Position in world space, (3,) float64, metres."""
         return self.world_from_camera[:3, 3]
 
     @property
-    def right(self) -> NDArray[np.float64]:
+    def right(self) -> Floats:
         """World-space direction of +X in the picture, (3,) float64."""
         return self.world_from_camera[:3, 0]
 
     @property
-    def up(self) -> NDArray[np.float64]:
+    def up(self) -> Floats:
         """World-space direction of +Y in the picture, (3,) float64."""
         return self.world_from_camera[:3, 1]
 
     @property
-    def forward(self) -> NDArray[np.float64]:
+    def forward(self) -> Floats:
         """World-space viewing direction, (3,) float64."""
         return -self.world_from_camera[:3, 2]
 
@@ -177,21 +183,23 @@ class Mesh:
         If shapes do not fit, an index is out of range, or a vertex is not finite.
     """
 
-    vertices: NDArray[np.floating]  # (v, 3) float32 or float64, metres, finite
-    triangles: NDArray[np.int32]  # (n, 3), indices into `vertices`
+    vertices: Floats  # (v, 3) float32 or float64, metres, finite
+    triangles: Integers  # (n, 3), indices into `vertices`
     # Which of an instance's `colors` each triangle shows, (n,); all 0 by default.
-    slots: NDArray[np.int32] = None  # type: ignore[assignment]
+    slots: Integers = None  # type: ignore[assignment]
     # Linear RGBA at each corner, (n, 3, 4); where given, it is what the mesh shows.
-    corner_colors: NDArray[np.float32] | None = None
+    corner_colors: Colors | None = None
     name: str = "Mesh"
 
     def __post_init__(self) -> None:
-        vertices = np.asarray(self.vertices)
+        what = f"Mesh '{self.name}'"
+        vertices: Array = np.asarray(self.vertices)
         if vertices.dtype not in (np.float32, np.float64):
             vertices = vertices.astype(np.float64)
-        triangles = np.asarray(self.triangles)
-        slots = np.zeros(len(triangles), np.int32) if self.slots is None else self.slots
-        slots, what = np.asarray(slots), f"Mesh '{self.name}'"
+        triangles: Array = np.asarray(self.triangles)
+        slots: Array = np.asarray(self.slots)
+        if self.slots is None:
+            slots = np.zeros(len(triangles), np.int32)
         for name, array in (("triangles", triangles), ("slots", slots)):
             if array.size and array.dtype.kind not in "iu":
                 raise SceneError(f"{what}: {name} must be integers, not {array.dtype}.")
@@ -210,12 +218,13 @@ class Mesh:
             if colors.shape != (len(triangles), 3, 4):
                 raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
             _store(self, "corner_colors", _locked(colors))
-        triangles, slots = (a.astype(np.int32, copy=False) for a in (triangles, slots))
+        triangles = triangles.astype(np.int32, copy=False)
+        slots = slots.astype(np.int32, copy=False)
         for name, array in (("vertices", vertices), ("triangles", triangles), ("slots", slots)):
             _store(self, name, _locked(array))
 
     @cached_property
-    def bounds(self) -> NDArray[np.float64]:
+    def bounds(self) -> Floats:
         """Lowest and highest coordinates of the vertices, (2, 3); zero where there are none."""
         if not len(self.vertices):
             return np.zeros((2, 3))
@@ -229,9 +238,9 @@ class Instance:
 
     mesh: int  # index into `Scene.meshes`
     object: int  # index into `Scene.objects`: which object of the scene this is
-    world_from_object: NDArray[np.float64]  # (4, 4)
+    world_from_object: Floats  # (4, 4)
     # Linear RGBA by material slot, (k, 4); a slot past the end shows the last one.
-    colors: NDArray[np.float32] = field(default_factory=lambda: np.array([GREY], np.float32))
+    colors: Colors = field(default_factory=lambda: np.array([GREY], np.float32))
 
     def __post_init__(self) -> None:
         what = f"instance of object {self.object}"
@@ -244,9 +253,9 @@ class Plane:
     """An infinite plane through `point` with the (not necessarily unit) `normal`, world space."""
 
     object: int
-    point: NDArray[np.float64]
-    normal: NDArray[np.float64]
-    color: NDArray[np.float32] = field(default_factory=lambda: np.array(GREY, np.float32))
+    point: Floats
+    normal: Floats
+    color: Colors = field(default_factory=lambda: np.array(GREY, np.float32))
 
     def __post_init__(self) -> None:
         for name in ("point", "normal"):
@@ -272,7 +281,7 @@ class Scene:
     instances: tuple[Instance, ...] = ()  # of surfaces exactly as near, the lower index is seen
     planes: tuple[Plane, ...] = ()
     # Linear RGBA of a pixel that sees nothing, (4,); alpha 0 for a transparent film.
-    background: NDArray[np.float32] = field(default_factory=lambda: np.zeros(4, np.float32))
+    background: Colors = field(default_factory=lambda: np.zeros(4, np.float32))
     objects: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -282,10 +291,11 @@ class Scene:
         for i in self.instances:
             if not 0 <= i.mesh < len(self.meshes):
                 raise SceneError(f"An instance names mesh {i.mesh} of {len(self.meshes)}.")
-        for what, shown in (("instance", self.instances), ("infinite plane", self.planes)):
-            for s in shown:
-                if not 0 <= s.object < len(self.objects):
-                    raise SceneError(f"An {what} names object {s.object} of {len(self.objects)}.")
+        every: tuple[Instance | Plane, ...] = (*self.instances, *self.planes)
+        for shown in every:
+            if not 0 <= shown.object < len(self.objects):
+                what = "infinite plane" if isinstance(shown, Plane) else "instance"
+                raise SceneError(f"An {what} names object {shown.object} of {len(self.objects)}.")
 
     def seen_by(self, camera: Camera) -> Scene:
         """Return the same scene with another camera; what is known of it stays known."""
@@ -294,23 +304,24 @@ class Scene:
         return other
 
     @cached_property
-    def instance_meshes(self) -> NDArray[np.intp]:
+    def instance_meshes(self) -> Places:
         """Which mesh each instance shows, (k,)."""
         return np.array([i.mesh for i in self.instances], np.intp)
 
     @cached_property
-    def instance_objects(self) -> NDArray[np.int32]:
+    def instance_objects(self) -> Integers:
         """Which object each instance and plane is, and -1 at the end, for nothing: (k + 1,)."""
-        return np.array([*(i.object for i in (*self.instances, *self.planes)), -1], np.int32)
+        of_instances = [i.object for i in self.instances]
+        return np.array([*of_instances, *(p.object for p in self.planes), -1], np.int32)
 
     @cached_property
-    def instance_matrices(self) -> NDArray[np.float64]:
+    def instance_matrices(self) -> Floats:
         """world_from_object of every instance, (4, 4, k)."""
         matrices = [i.world_from_object for i in self.instances]
         return np.stack(matrices, axis=-1) if matrices else np.zeros((4, 4, 0))
 
     @cached_property
-    def color_table(self) -> NDArray[np.float32]:
+    def color_table(self) -> Colors:
         """The colours of all instances below one another, of the planes, and the background.
 
         (r, 4) linear RGBA; those of surfaces are opaque.
@@ -321,7 +332,7 @@ class Scene:
         return table
 
     @cached_property
-    def color_rows(self) -> NDArray[np.int32]:
+    def color_rows(self) -> Integers:
         """First and last row in `color_table`, (2, k + 1): of instances, planes, and nothing."""
         counts = np.array([*(len(i.colors) for i in self.instances), *(1,) * len(self.planes), 1])
         ends = np.cumsum(counts)
@@ -345,9 +356,7 @@ def check_size(width: int, height: int) -> None:
         )
 
 
-def drop_non_finite(
-    vertices: NDArray[np.floating], triangles: NDArray[np.integer]
-) -> tuple[NDArray[np.floating], NDArray[np.bool_]]:
+def drop_non_finite(vertices: Floats, triangles: Index) -> tuple[Floats, Bools]:
     """Make vertices finite, and say which triangles may stay.
 
     Returns
@@ -368,21 +377,21 @@ def _store(instance: object, name: str, value: object) -> None:
     object.__setattr__(instance, name, value)  # the one way into a frozen dataclass
 
 
-def _locked(array: NDArray) -> NDArray:
+def _locked(array: Array) -> Array:
     if array.flags.writeable:
         array = array.view()
         array.flags.writeable = False
     return array
 
 
-def _matrix(value: object, what: str) -> NDArray[np.float64]:
+def _matrix(value: object, what: str) -> Floats:
     matrix = np.array(value, dtype=np.float64)
     if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
         raise SceneError(f"The matrix of {what} must be 4 x 4 finite numbers.")
     return _locked(matrix)
 
 
-def _colors(value: object, what: str) -> NDArray[np.float32]:
+def _colors(value: object, what: str) -> Colors:
     colors = np.array(value, dtype=np.float32)
     if colors.ndim != 2 or colors.shape[1] != 4 or len(colors) < 1:
         raise SceneError(f"The colours of {what} must be (k, 4) linear RGBA, not {colors.shape}.")

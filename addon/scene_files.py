@@ -1,4 +1,4 @@
-"""Scene <-> .npz, and meshes from OBJ, PLY, STL and GLB files, through trimesh.
+"""Writes and reads scenes as .npz, and reads meshes from OBJ, PLY, STL and GLB files by trimesh.
 
 A .npz is read without pickle: it can hold numbers and nothing that runs.
 """
@@ -17,15 +17,18 @@ from zipfile import ZipFile
 
 import numpy as np
 
+from .arrays import Array, Floats, Index
 from .checked_json import camera_of, whole
-from .framing import ANGLE, BACKWARD, UP, framing, shown_points
+from .framing import ANGLE, BACKWARD, UP, axes_of, framing, shown_points
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
 from .tracer.memory import free_memory
 
+Placed = tuple[Mesh, Floats]  # with its world_from_object, (4, 4)
+
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
-_NO_FACES = np.zeros((0, 3), np.int64)
-_ARRAYS = {  # of a .npz, by what has them: their shapes
+_NO_FACES: Index = np.zeros((0, 3), np.int64)
+_ARRAYS = {  # the arrays of a .npz and their shapes, by what has them
     "mesh": {"vertices": "n3", "triangles": "n3", "slots": "n", "corner_colors": "n34"},
     "instance": {"world_from_object": "44", "colors": "n4"},
     "plane": {"point": "3", "normal": "3", "color": "4"},
@@ -46,14 +49,14 @@ def save_scene(path: str | Path, scene: Scene) -> None:
         "instances": [{"mesh": i.mesh, "object": i.object} for i in scene.instances],
         "planes": [{"object": p.object} for p in scene.planes],
     }
-    arrays: dict[str, np.ndarray] = {"scene": np.array(json.dumps(head, default=np.generic.item))}
+    arrays: dict[str, Array] = {"scene": np.array(json.dumps(head, default=np.generic.item))}
     parts = scene.meshes, scene.instances, scene.planes
     for (part, names), things in zip(_ARRAYS.items(), parts, strict=True):
         for k, thing in enumerate(things):
             held = {f"{part}{k}_{name}": getattr(thing, name) for name in names}
             arrays |= {name: array for name, array in held.items() if array is not None}
     with open(path, "wb") as file:  # given a name, numpy would add .npz to one in capitals
-        np.savez_compressed(file, **arrays)
+        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # none is "allow_pickle"
 
 
 def load_scene(path: str | Path) -> Scene:
@@ -80,7 +83,7 @@ def _scene(stored: ZipFile) -> Scene:
     if head.get("schema") != _SCHEMA:
         raise SceneError(f"its schema is {head.get('schema')!r}, not {_SCHEMA!r}")
 
-    def arrays(kind: str, k: int, without: str = "") -> dict[str, np.ndarray]:
+    def arrays(kind: str, k: int, without: str = "") -> dict[str, Array]:
         shapes = {name: shape for name, shape in _ARRAYS[kind].items() if name != without}
         return {name: _array(stored, f"{kind}{k}_{name}", s) for name, s in shapes.items()}
 
@@ -95,18 +98,18 @@ def _scene(stored: ZipFile) -> Scene:
     planes = [
         Plane(whole(p, "object", ""), **arrays("plane", k)) for k, p in enumerate(head["planes"])
     ]
-    camera = camera_of({"orthographic": False} | head["camera"])
+    camera = camera_of(head["camera"])
     background, objects = np.array(head["background"]), tuple(map(str, head["objects"]))
     return Scene(camera, tuple(meshes), tuple(instances), tuple(planes), background, objects)
 
 
-def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> np.ndarray:
+def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> Array:
     """Return one array of a .npz, once its header says that it is what is asked for."""
-    info, read = stored.getinfo(f"{name}.npy"), np.lib.format
+    info = stored.getinfo(f"{name}.npy")
+    read = np.lib.format
     with stored.open(info) as file:
-        first = read.read_magic(file) == (1, 0)
-        header = read.read_array_header_1_0 if first else read.read_array_header_2_0
-        own, _, dtype = header(file)
+        read.read_magic(file)
+        own, _, dtype = read.read_array_header_1_0(file)
         fits = all(n == str(m) or (n == "n" and m is not None) for n, m in zip_longest(shape, own))
         if not fits or dtype.kind not in kinds:
             raise SceneError(f"{name} holds {own} of {dtype}, not ({', '.join(shape)}) numbers")
@@ -131,11 +134,11 @@ def check_is_file(path: str | Path) -> None:
         raise SceneError(f"'{path}' cannot be read: {getattr(error, 'strerror', error)}") from error
 
 
-def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.ndarray]]:
+def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
     """Read the meshes of an OBJ, PLY, STL or GLB file.
 
-    `up` is which of the file's axes is up, "y" or "z": by default Y of a GLB, as its specification
-    has it, and Z of the others, which do not say.
+    `up` is the file's axis that is up, "y" or "z": by default Y of a GLB, as its specification
+    says, and Z of the others, which do not say.
 
     Returns
     -------
@@ -156,7 +159,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # trimesh's, of its own work
             kind = path.suffix.lower().lstrip(".")
-            loaded = trimesh.load(
+            loaded: Any = trimesh.load(
                 path, file_type=kind, force="scene", process=False, skip_materials=True
             )
             is_y_up = (up or ("y" if kind == "glb" else "z")) == "y"
@@ -173,8 +176,8 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[tuple[Mesh, np.
     return out
 
 
-def _mesh_of(loaded: Any, node: str) -> Iterator[tuple[Mesh, np.ndarray]]:
-    """Yield what a node of a trimesh.Scene shows, if that has triangles."""
+def _mesh_of(loaded: Any, node: str) -> Iterator[Placed]:
+    """Yield the mesh of a node of a trimesh.Scene, if it has triangles."""
     matrix, name = loaded.graph[node]
     geometry = loaded.geometry[name]
     faces = np.concatenate((getattr(geometry, "faces", _NO_FACES), _strips(geometry)))
@@ -183,7 +186,7 @@ def _mesh_of(loaded: Any, node: str) -> Iterator[tuple[Mesh, np.ndarray]]:
         yield Mesh(vertices, faces[keep], name=str(name)), np.array(matrix)
 
 
-def _strips(geometry: Any) -> np.ndarray:
+def _strips(geometry: Any) -> Index:
     """Return the triangles of a PLY's strips, (n, 3), which trimesh reads but does not show.
 
     In a strip -1 begins another one; triangles that name a vertex twice only join strips.
@@ -204,15 +207,16 @@ def _strips(geometry: Any) -> np.ndarray:
 
 
 def scene_of_meshes(
-    meshes: list[tuple[Mesh, np.ndarray]],
+    meshes: list[Placed],
     camera: Camera | None,
     width: int,
     height: int,
     angle: float = ANGLE,
 ) -> Scene:
-    """Return a scene of meshes, each in its own grey, seen by `camera` or by one that frames them.
+    """Return a scene of meshes, each in its own grey.
 
-    That one's vertical angle of view is given in degrees.
+    It is seen by `camera`, or else by one that frames the meshes, with a vertical angle of view of
+    `angle` degrees.
 
     Raises
     ------
@@ -232,7 +236,7 @@ def scene_of_meshes(
         check_size(width, height)
         try:
             with np.errstate(all="ignore"):  # Camera refuses what is not finite
-                camera = framing(points, BACKWARD, UP, width, height, angle)
+                camera = framing(points, axes_of(BACKWARD, UP), width, height, angle)
         except SceneError as error:
             raise SceneError("it is too large to be framed: scale it down") from error
     return Scene(camera, shown, instances, objects=names)

@@ -17,6 +17,17 @@ from numpy.typing import NDArray
 from reference_tracer.compare.bounds import difference, differing
 from reference_tracer.compare.case import Alternative, Case
 from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import (
+    ANTI_ALIASING,
+    CAUSES,
+    CLIP_PLANE,
+    COLOR,
+    DEPTH_TIE,
+    EDGE,
+    HIDDEN,
+    NOT_DECIDABLE,
+    NOT_MODELLED,
+)
 from reference_tracer.compare.checks.unmodelled import covered
 from reference_tracer.compare.identity import NOTHING, UNKNOWN
 from reference_tracer.compare.metrics import boundary
@@ -643,42 +654,39 @@ def beside_the_box(subject: Subject) -> Attacked | None:
 
 
 ATTACKS = (
+    *(Attack(f"moved_{n}", EDGE, f"the picture moved by {n} px", _moved(n)) for n in (1, 2, 3)),
     *(
-        Attack(f"moved_{n}", Cause.EDGE, f"the picture moved by {n} px", _moved(n))
+        Attack(f"object_moved_{n}", EDGE, f"one object moved by {n} px", _object_moved(n))
         for n in (1, 2, 3)
     ),
-    *(
-        Attack(f"object_moved_{n}", Cause.EDGE, f"one object moved by {n} px", _object_moved(n))
-        for n in (1, 2, 3)
-    ),
-    Attack("grown", Cause.EDGE, "a line one pixel wide around an object", grown),
-    Attack("shrunk", Cause.EDGE, "an object's outermost pixels left out", shrunk),
-    Attack("half_pixel", Cause.ANTI_ALIASING, "the picture resampled by half a pixel", half_pixel),
-    Attack("overshot", Cause.ANTI_ALIASING, "sharpened edges in an anti-aliased picture", overshot),
+    Attack("grown", EDGE, "a line one pixel wide around an object", grown),
+    Attack("shrunk", EDGE, "an object's outermost pixels left out", shrunk),
+    Attack("half_pixel", ANTI_ALIASING, "the picture resampled by half a pixel", half_pixel),
+    Attack("overshot", ANTI_ALIASING, "sharpened edges in an anti-aliased picture", overshot),
     Attack(
         "beyond_the_filter",
-        Cause.ANTI_ALIASING,
+        ANTI_ALIASING,
         "edges smeared farther than the filter reaches",
         beyond_the_filter,
     ),
     Attack(
         "of_no_one_near",
-        Cause.ANTI_ALIASING,
+        ANTI_ALIASING,
         "edges in a colour that no filter reaches",
         of_no_one_near,
     ),
-    Attack("swapped_depth", Cause.DEPTH_TIE, "the farther of two objects shown", swapped_depth),
+    Attack("swapped_depth", DEPTH_TIE, "the farther of two objects shown", swapped_depth),
     Attack(
         "blocks_of_what_is_behind",
-        Cause.DEPTH_TIE,
+        DEPTH_TIE,
         "holes that show what lies behind",
         blocks_of_what_is_behind,
     ),
-    Attack("blocks_of_another", Cause.EDGE, "blocks in another object's colour", blocks_of_another),
-    Attack("clip_start", Cause.CLIP_PLANE, "surfaces cut behind the clip start", _clipped(False)),
-    Attack("clip_end", Cause.CLIP_PLANE, "surfaces cut before the clip end", _clipped(True)),
+    Attack("blocks_of_another", EDGE, "blocks in another object's colour", blocks_of_another),
+    Attack("clip_start", CLIP_PLANE, "surfaces cut behind the clip start", _clipped(False)),
+    Attack("clip_end", CLIP_PLANE, "surfaces cut before the clip end", _clipped(True)),
     *(
-        Attack(f"one_{name}", Cause.COLOR, f"one object of many {words}", one_recoloured(of))
+        Attack(f"one_{name}", COLOR, f"one object of many {words}", one_recoloured(of))
         for (name, of), words in zip(
             SHADES.items(),
             (
@@ -694,31 +702,31 @@ ATTACKS = (
     *(
         Attack(
             f"all_but_one_{name}",
-            Cause.COLOR,
+            COLOR,
             "one object left out of a transform",
             all_but_one(of),
         )
         for name, of in SHADES.items()
     ),
-    Attack("beside_the_box", Cause.NOT_MODELLED, "damage beside a feature's box", beside_the_box),
-    Attack("dropped_instance", Cause.HIDDEN, "an instance left out", dropped_instance),
-    Attack("a_frame_off", Cause.HIDDEN, "the frame after this one", a_frame_off),
-    Attack("another_is_gone", Cause.HIDDEN, "not the object that a flag hides", another_is_gone),
-    Attack("partly_gone", Cause.HIDDEN, "holes in an object that a flag hides", partly_gone),
-    Attack("gone_and_moved", Cause.HIDDEN, "damage besides an object that is gone", gone_and_moved),
+    Attack("beside_the_box", NOT_MODELLED, "damage beside a feature's box", beside_the_box),
+    Attack("dropped_instance", HIDDEN, "an instance left out", dropped_instance),
+    Attack("a_frame_off", HIDDEN, "the frame after this one", a_frame_off),
+    Attack("another_is_gone", HIDDEN, "not the object that a flag hides", another_is_gone),
+    Attack("partly_gone", HIDDEN, "holes in an object that a flag hides", partly_gone),
+    Attack("gone_and_moved", HIDDEN, "damage besides an object that is gone", gone_and_moved),
     Attack(
         "mirrored_x",
-        Cause.NOT_DECIDABLE,
+        NOT_DECIDABLE,
         "the picture mirrored left to right",
         _rearranged(np.fliplr),
     ),
     Attack(
         "mirrored_y",
-        Cause.NOT_DECIDABLE,
+        NOT_DECIDABLE,
         "the picture mirrored upside down",
         _rearranged(np.flipud),
     ),
-    Attack("noise", Cause.NOT_DECIDABLE, "random colours of random objects", noise),
+    Attack("noise", NOT_DECIDABLE, "random colours of random objects", noise),
 )
 
 
@@ -726,6 +734,6 @@ def withstood() -> dict[Cause, tuple[str, ...]]:
     """Return which attacks each cause withstands, in words: for the documents."""
     return {
         cause: tuple(dict.fromkeys(a.text for a in ATTACKS if a.imitates is cause))
-        for cause in Cause
-        if cause.explains or cause is Cause.NOT_DECIDABLE
+        for cause in CAUSES
+        if cause.explains or cause is NOT_DECIDABLE
     }

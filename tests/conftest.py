@@ -14,6 +14,20 @@ from reference_tracer.scene import Camera, Instance, Mesh, Plane, Scene, ViewWin
 COLORS = ((0.9, 0.1, 0.1), (0.1, 0.8, 0.2), (0.2, 0.3, 0.9), (0.9, 0.8, 0.1))
 
 
+@pytest.fixture
+def exit_code():
+    """Return the function that runs `reftrace`, for the exit code also where argparse ends it."""
+    from reference_tracer.cli.main import main
+
+    def run(argv) -> int:
+        try:
+            return main(argv)
+        except SystemExit as stop:
+            return stop.code
+
+    return run
+
+
 MARKED = {  # all tests of a folder
     "tests/benchmarks/": "slow",
     "tests/blender/": "blender",

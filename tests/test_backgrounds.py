@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from reference_tracer import images
 from reference_tracer.compare.case import Case
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import UNEXPLAINED
 from reference_tracer.compare.comparison import compare, trace_and_compare
 from reference_tracer.compare.picture import Picture
 from reference_tracer.manifest import Manifest
@@ -79,7 +79,7 @@ def test_damage_in_it_is_found(scene, background, size):
     assert (render(scene).instance_index[patch] < 0).all()
     color[patch] = (1, 0, 0, 1)
     found = compared(scene, stored(color))
-    assert np.array_equal(found.causes.cause == Cause.UNEXPLAINED, patch)
+    assert np.array_equal(found.causes.cause == UNEXPLAINED, patch)
     assert found.verdict == "differences"
 
 

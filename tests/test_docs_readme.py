@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import trimesh
 from reference_tracer.cli.main import parser
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import CAUSES
 from reference_tracer.report.page.content import _hex
 
 PROJECT = Path(__file__).parent.parent
@@ -74,5 +74,5 @@ def test_its_code_runs(tmp_path, monkeypatch, capsys):
 def test_the_table_of_causes_is_that_of_the_code():
     rows = re.findall(r"^\| [^|]*`(#[0-9a-f]{6})` \| \**(\d+) ([^|*]+)\** \|", TEXT, re.M)
     assert {(int(n), label.strip(), color) for color, n, label in rows} == {
-        (int(cause), cause.label, _hex(cause.color)) for cause in Cause if cause.color is not None
+        (int(cause), cause.label, _hex(cause.color)) for cause in CAUSES if cause.color is not None
     }

@@ -33,11 +33,11 @@ METHOD = {
 }
 SEES_METHOD = """
 from reference_tracer.cli.arguments import add_settings
+from reference_tracer.cli.parser import Parser
 from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import extreme_plots
 from reference_tracer.study import tradeoff
-import argparse
-parser = argparse.ArgumentParser()
+parser = Parser()
 add_settings(parser)
 assert "never" in parser.format_help()
 frame = render(scene, Settings("never", "float32"))
@@ -107,6 +107,127 @@ derivation = derive(new, 4, 4)
 assert "cos v" in str(derivation.camera)
 assert to_dict(derivation)["camera"]["orthographic"] == "equirectangular"
 """
+CAUSE = {
+    "compare/checks/comet.py": (
+        "",
+        "from ..cause import Cause\n\n"
+        "COMET = Cause(\n"
+        "    42, 'comet', 'comet', 'it passed {figure:.0f} km away (seen to {allowed:.0f} km)',\n"
+        "    'km', (0.9, 0.8, 0.1), explains=True, warns=True,\n"
+        ")\n\n\n"
+        "def check(pixels):\n"
+        "    white = (pixels.picture.color == 1).all(axis=-1)\n"
+        "    pixels.give(pixels.open & white, COMET, 7.0, 9.0)\n"
+        "    yield 1.0\n",
+    ),
+    "compare/causes.py": (
+        "from .checks.edges import",
+        "from .checks import comet\n",
+        "    NOT_DECIDABLE,\n",
+        "    comet.COMET,\n",
+        "    (color.check, ",
+        "    (comet.check, 1.0),\n",
+    ),
+}
+FAULT = {
+    "compare/faults.py": (
+        '    Fault("half_pixel"',
+        "    Fault('dark', 'no light', partial(_recolored_picture, lambda c: 0 * c)),\n",
+    ),
+}
+COMPARED = """
+import json
+from reference_tracer.compare.case import Case
+from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.picture import Picture
+from reference_tracer.manifest import Manifest
+from reference_tracer.tracer.progress import result_of
+manifest = Manifest("a.blend", "Scene", "ViewLayer", 1, "FILE", "Camera")
+color = render(scene, Settings()).color
+case = Case(scene, manifest, Settings(), Picture(color))
+"""
+SEES_CAUSE = (
+    COMPARED
+    + """
+from dataclasses import replace
+from reference_tracer.report.comparison import difference_picture
+from reference_tracer.report.page.content import content
+color[3:5, 4:9] = 1
+found = result_of(trace_and_compare(case))
+pixels = found.pixels
+assert pixels["by_cause"]["comet"] == pixels["explained"] == pixels["differ"] == 8
+assert pixels["unexplained"] == 0 and found.verdict == "warnings"
+assert "  comet: 8, as at (4, 3)" in "\\n".join(found.lines())
+held = json.loads(json.dumps(found.to_dict()))["causes"]["comet"]
+assert held["number"] == 42 and held["unit"] == "km", held
+assert (difference_picture(found)[3:5, 4:8, :3] == np.float32((0.9, 0.8, 0.1))).all()
+[entry] = [c for c in content(found)["causes"] if c["name"] == "comet"]
+assert entry["label"] == "Comet" and entry["pixels"] == 8 and entry["value"] == 42
+assert found.told(4, 3) == "it passed 7 km away (seen to 9 km)"
+"""
+)
+SEES_FAULT = (
+    COMPARED
+    + """
+from dataclasses import replace
+found = result_of(trace_and_compare(replace(case, self_check=True)))
+assert found.self_check[0].name == "dark" and found.self_check[0].result == "caught"
+assert "no light" in "\\n".join(found.lines())
+assert found.to_dict()["self_check"][0]["text"] == "no light"
+"""
+)
+COMMAND = {
+    "cli/commands/count.py": (
+        "",
+        "from dataclasses import dataclass\n"
+        "from pathlib import Path\n"
+        "from ..camera_options import add_camera, choice_from\n"
+        "from ..opening import SOURCES, load\n"
+        "from ..parser import AGREE\n\n\n"
+        "@dataclass(frozen=True)\n"
+        "class CountOptions:\n"
+        "    scene: Path\n"
+        "    choice: object\n\n\n"
+        "def add(parser):\n"
+        "    def run(given):\n"
+        "        return count(CountOptions(given.scene, choice_from(given, given.scene)))\n\n"
+        "    parser.runs(run, 'reftrace count scene.npz')\n"
+        "    parser.add_scene(SOURCES)\n"
+        "    add_camera(parser)\n\n\n"
+        "def count(options):\n"
+        "    print('triangles:', load(options.scene, options.choice)[0].triangle_count)\n"
+        "    return AGREE\n",
+    ),
+    "cli/commands/__init__.py": (
+        "COMMANDS = {",
+        "def _count():\n    from . import count\n\n    return count\n\n\n",
+        '    "judge": Command(',
+        '    "count": Command("count the triangles of a scene", _count),\n',
+    ),
+}
+SEES_COMMAND = """
+from contextlib import redirect_stdout
+from io import StringIO
+from reference_tracer.cli.main import main
+from reference_tracer.scene_files import save_scene
+save_scene("scene.npz", scene)
+with redirect_stdout(StringIO()) as said:
+    assert main(["count", "scene.npz"]) == 0
+    try:
+        main(["--help"])
+    except SystemExit:
+        pass
+assert "triangles: 1" in said.getvalue() and "count the triangles" in said.getvalue()
+assert main(["count", "scene.npz", "--frame", "3"]) == 4
+"""
+SEES_COMMAND_IN_BLENDER = """
+from contextlib import redirect_stdout
+from io import StringIO
+from reference_tracer.blender import commands
+with redirect_stdout(StringIO()) as said:
+    assert commands.run(["--help"]) == 0
+assert "count the triangles" in said.getvalue()
+"""
 SCENE = """
 import numpy as np
 from reference_tracer.scene import Camera, Instance, Mesh, Scene, ViewWindow
@@ -173,11 +294,32 @@ def test_a_pass_is_its_property_and_its_record(tmp_path):
     seen(tmp_path, PASS, SEES_PASS)
 
 
+def test_a_cause_is_a_file_with_its_check_and_a_line_in_the_lists(tmp_path):
+    files = {f.replace("comet.py", "") for f in CAUSE}
+    assert files == named("a cause") and len(CAUSE) == 2
+    seen(tmp_path, CAUSE, SEES_CAUSE)
+
+
+def test_a_fault_is_its_record(tmp_path):
+    assert FAULT.keys() == named("a fault of the self-check")
+    seen(tmp_path, FAULT, SEES_FAULT)
+
+
+def test_a_command_is_its_file_and_its_record(tmp_path):
+    files = {f.replace("count.py", "") for f in COMMAND}
+    assert files == named("a command") and len(COMMAND) == 2
+    seen(tmp_path, COMMAND, SEES_COMMAND)
+
+
 @pytest.mark.blender
 @pytest.mark.parametrize(
     ("changes", "script"),
-    [(METHOD, SEES_METHOD_IN_BLENDER), (PASS, SEES_PASS_IN_BLENDER)],
-    ids=["method", "pass"],
+    [
+        (METHOD, SEES_METHOD_IN_BLENDER),
+        (PASS, SEES_PASS_IN_BLENDER),
+        (COMMAND, SEES_COMMAND_IN_BLENDER),
+    ],
+    ids=["method", "pass", "command"],
 )
 def test_blender_shows_a_new_record(tmp_path, changes, script):
     seen(tmp_path, changes, script)

@@ -29,7 +29,9 @@ def test_what_is_framed_fills_nine_tenths_of_the_width_or_the_height(stretch, aw
         backward, up = rng.normal(size=(2, 3))
         points = rng.normal(size=(50, 3)) * stretch + away * rng.normal(size=3)
         tall = rng.choice([1.0, 0.5, 3.0])
-        camera = framing(np.split(points, [1, 7]), backward, up, width, height, angle, tall)
+        camera = framing(
+            np.split(points, [1, 7]), axes_of(backward, up), width, height, angle, tall
+        )
         both = np.array(spans(camera, points))
         axes, rounding = axes_of(backward, up), 1e-9 * max(1, away)
         assert np.abs(both - 0.5).max() <= FILLED / 2 + rounding
@@ -48,7 +50,7 @@ def test_what_is_framed_fills_nine_tenths_of_the_width_or_the_height(stretch, aw
 def test_what_has_no_width_is_seen_all_the_same(along):
     """A point, or a line that the eye looks along."""
     points = np.linspace((5, 6, 7), np.add((5, 6, 7), along), 4)
-    camera = framing([points], (0, 0, 1), (0, 1, 0), 20, 10)
+    camera = framing([points], np.eye(3), 20, 10)
     both = np.array(spans(camera, points))
     assert np.allclose(both, 0.5, atol=1e-3)
 
@@ -56,7 +58,7 @@ def test_what_has_no_width_is_seen_all_the_same(along):
 def test_nothing_to_frame():
     for nothing in ([], [np.zeros((0, 3))]):
         with pytest.raises(SceneError, match="nothing to frame"):
-            framing(nothing, (1, 0, 0), (0, 0, 1), 20, 10)
+            framing(nothing, np.eye(3), 20, 10)
 
 
 def test_axes_are_a_right_handed_frame(rng):

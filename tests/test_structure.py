@@ -11,6 +11,7 @@ ADDON = Path(__file__).parent.parent / "addon"
 
 # From the ground up. A module may import from its own floor and those below it.
 FLOORS = {
+    "arrays": 0,
     "certainty": 0,
     "checked_json": 0,
     "images": 0,
@@ -28,6 +29,7 @@ FLOORS = {
     "compare": 3,
     "study": 3,
     "explain": 3,
+    "errors": 3,
     "report": 4,
     "blender": 5,
     "cli": 5,

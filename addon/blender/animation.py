@@ -12,8 +12,8 @@ from typing import Any
 
 import bpy
 
-from ..cli.arguments import words
 from ..compare.animation import CODES, FrameRow, frames_named
+from ..errors import words
 from ..report import animation as report
 from ..scene import SceneError
 from ..tracer.progress import Work, result_of, scaled
@@ -22,7 +22,6 @@ from .drawing.temporary import values_kept
 from .reading.camera import export_camera
 from .stepping import bake_bodies, visited
 
-_NOT_MADE_BY = "frames", "out", "scheduler", "verify", "placed"  # by which no frame is another
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
 
 
@@ -83,41 +82,45 @@ def frames_of(scene: Any) -> range:
     return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
 
 
-def compare_open_file(options: Any, progress: Any, **choices: Any) -> int:
-    """Compare the frames that the options name, print the table, return the worst's exit code.
+def compare_open_file(
+    named: str,
+    directory: str,
+    options: dict[str, str],
+    progress: Callable[[float], None],
+    **choices: Any,
+) -> int:
+    """Compare the frames that are named, print the table, return the worst's exit code.
+
+    The options are those of the command line that a frame's comparison depends on: a frame that was
+    compared with others, or of another file, is compared again.
 
     Raises what :func:`compare_frames` does.
     """
     scene = bpy.context.scene
-    frames = frames_named(options.frames) or frames_of(scene)
+    frames = frames_named(named) or frames_of(scene)
     bake_bodies(scene, frames[-1])
     begin = "\r\033[K" if sys.stderr.isatty() else ""  # over the progress bar
 
     def told(rows: list[FrameRow]) -> None:
         print(begin + report.line(rows[-1]), file=sys.stderr, flush=True)
 
-    work = compare_frames(options.out, frames, told, _made_by(options), **choices)
+    work = compare_frames(directory, frames, told, _made_by(options), **choices)
     try:
         rows = result_of(work, progress)
     except KeyboardInterrupt:
         print("what is done is kept: the same command goes on from there", file=sys.stderr)
         raise
-    print(*report.lines(frames, rows), f"written to {options.out}", sep="\n")
-    print(f"open {Path(options.out) / report.PAGE} in a browser")
+    print(*report.lines(frames, rows), f"written to {directory}", sep="\n")
+    print(f"open {Path(directory) / report.PAGE} in a browser")
     return CODES[report.verdict(rows)]
 
 
-def _made_by(options: Any) -> dict[str, Any]:
-    """Return all that a frame's comparison is made by, but for the frame's number."""
+def _made_by(options: dict[str, str]) -> dict[str, Any]:
+    """Return all that a frame's comparison depends on, but for the frame's number."""
     used = {bpy.data.filepath, *bpy.utils.blend_paths(absolute=True)}  # libraries, Alembic, images
     files = sorted(path for path in map(Path, used) if path.is_file())
-    typed = {
-        k: str(v)
-        for k, v in vars(options).items()
-        if v is not None and not (callable(v) or isinstance(v, Path) or k in _NOT_MADE_BY)
-    }
     return {
         "versions": [sys.modules[_ADDON].__version__, bpy.app.version_string],
         "files": {str(f): [f.stat().st_size, f.stat().st_mtime_ns] for f in files},
-        "options": typed,
+        "options": options,
     }

@@ -1,16 +1,39 @@
-"""`blender FILE --command reference_tracer compare|explain|trade|extremes`, for scripts.
+"""`blender FILE --command reference_tracer COMMAND`, for scripts.
 
-They are those of `reftrace`, for the file that is open.
+These are the commands of `reftrace` that are part of the add-on, for the file that is open.
 """
 
 from __future__ import annotations
 
+from argparse import Namespace
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import bpy
 
-_handle: Any = None
+from ..cli.parser import DONE_HELP, EXIT_CODES_HELP, Parser
+
+_registered: list[Any] = []
+
+
+class _Parser(Parser):
+    """A parser for the scene that is open, which knows Blender's paths."""
+
+    def runs(self, run: Callable[[Namespace], int], example: str, codes: str = DONE_HELP) -> None:
+        """Do without the example, which is reftrace's."""
+        super().runs(run, example, codes)
+        self.epilog = codes
+
+    def add_scene(self, sources: str) -> None:
+        """Take the file that is open; that none is open is said once one is needed."""
+        # A backup's name ends in .blend1.
+        file = Path(bpy.data.filepath or "none").with_suffix(".blend")
+        self.set_defaults(scene=file, opened=True)
+
+    def path(self, text: str) -> Path:
+        """Return a path that was typed; // is the folder of the file."""
+        return Path(bpy.path.abspath(text))
 
 
 def run(argv: list[str]) -> int:
@@ -27,36 +50,26 @@ def run(argv: list[str]) -> int:
 
 
 def _run(argv: list[str]) -> int:
-    options = _parser().parse_args(argv)
-    for name in ("out", "reproducer", "against"):
-        if path := getattr(options, name, None):  # // is beside the file
-            setattr(options, name, type(path)(bpy.path.abspath(str(path))))
-    return options.run(options)
-
-
-def _parser() -> Any:
-    from ..cli.commands import HELP, compare, files, studies
-    from ..cli.parser import EXIT_CODES_HELP, Parser
+    from ..cli.commands import COMMANDS
 
     parser = Parser("blender FILE --command reference_tracer", epilog=EXIT_CODES_HELP)
-    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
-    # A backup's name ends in .blend1; that no file is open is said once one is needed.
-    file = Path(bpy.data.filepath or "none").with_suffix(".blend")
-    adding = compare.add_compare, files.add_explain, studies.add_trade, studies.add_extremes
-    for add in adding:
-        name = add.__name__.removeprefix("add_")
-        own = commands.add_parser(name, help=HELP[name])
-        own.opened = file
-        add(own)
-    return parser
+    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=_Parser)
+    for name, command in COMMANDS.items():
+        if command.module:
+            command.module().add(commands.add_parser(name, help=command.help))
+    given = parser.parse_args(argv)
+    code: int = given.run(given)
+    return code
 
 
 def register() -> None:
     """Register the command."""
-    global _handle
-    _handle = bpy.utils.register_cli_command("reference_tracer", run)
+    handle = bpy.utils.register_cli_command(  # type: ignore[func-returns-value]  # the stubs' gap
+        "reference_tracer", run
+    )
+    _registered.append(handle)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
-    bpy.utils.unregister_cli_command(_handle)
+    bpy.utils.unregister_cli_command(_registered.pop())

@@ -45,7 +45,7 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
 
     def render(self, depsgraph: Any) -> None:
         """Render one view layer of one frame."""
-        from ..cli.arguments import failure
+        from ..errors import failure
         from .drawing.temporary import is_temporary
 
         captures = _captured is not None and is_temporary(depsgraph.scene)

@@ -1,164 +1,106 @@
-"""The options of the command lines, `reftrace` and `blender --command`, and what each must be."""
+"""What several commands share: the settings of the tracer, and where the work is done."""
 
 from __future__ import annotations
 
-import argparse
-import traceback
-from collections.abc import Callable, Iterable
+from argparse import Namespace
+from collections.abc import Iterable
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
-import numpy as np
-
-from ..certified.arithmetic import AssumptionError
-from ..compare.picture import SizeError
-from ..images import MissingLibraryError
-from ..methods import PLAIN, Method
+from ..methods import Method
 from ..scene import SceneError
-from ..tracer.memory import PictureTooLargeError
 from ..tracer.settings import Precision, Settings
-from .camera_options import CAMERA_OPTIONS, refuse, refuse_camera, typed
-from .parser import add_options
+from .parser import Parser
 
-# What a user can do something about; all else is a fault of ours, and its traceback is wanted.
-EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
-_PLAIN = ", ".join(PLAIN)
-_SETTINGS = "method", "precision", "samples", "color"
-
-# What a number must be, by its option, where the type alone does not say it.
-_RANGES = {
-    **dict.fromkeys(("width", "height", "rays", "limit"), (lambda v: v >= 1, "at least 1")),
-    **dict.fromkeys(("filter", "dither"), (lambda v: 0 <= v < np.inf, "a number of at least 0")),
-    **dict.fromkeys(("eye", "target"), (lambda v: np.isfinite(v).all(), "three finite numbers")),
-    "angle": (lambda v: 0 < v < 180, "between 0 and 180 degrees"),
-    "frame": (lambda v: abs(v) <= 1048574, "from -1048574 to 1048574, as Blender's frames are"),
-    "ortho_scale": (lambda v: v > 0, "above 0, as an orthographic scale is"),
-}
+# While it is entered, the parameters that have the work done elsewhere, as by a cluster; or none.
+Place = AbstractContextManager[dict[str, Any]]
 
 
-def add_settings(parser: argparse.ArgumentParser) -> None:
-    """Add what the user can trade; without an option, what the scene stores holds."""
-    methods, precisions = ({"choices": [m.value for m in kind]} for kind in (Method, Precision))
-    add_options(parser, "settings", method=methods, precision=precisions)
+@dataclass(frozen=True)
+class GivenSettings:
+    """The settings that a command line names; where it names none, the stored setting stays."""
 
+    method: str | None = None
+    precision: str | None = None
+    samples: int | None = None
+    color: str | None = None
 
-def add_judge(parser: argparse.ArgumentParser, judges: Iterable[str]) -> None:
-    """Add which of Blender's pictures, by the names of its judges, to compare with, and how."""
-    add_options(parser, "judge", judge={"choices": ["auto", *judges, "all"]})
-    parser.set_defaults(self_check=None)
+    def over(self, stored: Settings) -> Settings:
+        """Return the stored settings with those that are named in their place.
 
-
-def add_pixel(parser: argparse.ArgumentParser) -> None:
-    """Add which pixel is explained, and where that is written."""
-    from ..explain.candidates import LIMIT
-    from ..explain.writers import WRITERS
-
-    add_options(parser, "pixel", words={"writers": ", ".join(WRITERS), "limit": LIMIT})
-    parser.set_defaults(endings={"out": tuple(WRITERS), "reproducer": (".json",)})
-
-
-def check_options(options: argparse.Namespace) -> None:
-    """Find what is wrong with the options themselves, before any work.
-
-    Raises
-    ------
-    SceneError
-        If a number is out of range, a file has another ending than it should, an option would not
-        be heard, one that is needed is missing, or a method does not come in the precision.
-    """
-    for name, (holds, must) in _RANGES.items():
-        value = getattr(options, name, None)
-        if value is not None and not holds(value):
-            shown = f"{value:g}" if isinstance(value, float) else value
-            raise SceneError(f"{typed(name)} is {shown}; it must be {must}")
-    for name, endings in getattr(options, "endings", {}).items():
-        path = getattr(options, name)
-        if path and path.suffix.lower() not in endings:
-            raise SceneError(f"'{path}' must end in {' or '.join(endings)}")
-    _refuse_unheard(options)
-    if again := getattr(options, "reproducer", None):
-        if options.out and options.out.resolve() == again.resolve():
-            raise SceneError(f"--out and --reproducer are the same file, '{options.out}'")
-    if getattr(options, "pixel", ()) is None and _suffix(options) != ".json":
-        raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
-    # A .blend stores a method, which may be plain; so may the file that is open in Blender.
-    stores = _suffix(options) in (None, ".blend")
-    settings_from(options, Settings(Method.TEXTBOOK) if stores else Settings())
-
-
-def _refuse_unheard(options: argparse.Namespace) -> None:
-    """Refuse options that the others leave without a meaning."""
-    if (frames := getattr(options, "frames", None)) is not None:
-        from ..compare.animation import frames_named
-
-        why = "is for one frame, not for --frames"
-        refuse(options, ("frame", "against", "trade", "extremes"), why)
-        if options.judge == "all":
-            raise SceneError("--judge all is for one frame: name one judge with --frames")
+        Raises
+        ------
+        SceneError
+            If a value is out of range, or the method does not come in the precision.
+        """
+        chosen = {name: value for name, value in vars(self).items() if value is not None}
+        if not Method(self.method or stored.method).is_plain:
+            chosen.setdefault("precision", Precision.FLOAT64)  # that of a plain method is stored
         try:
-            frames_named(frames)
+            return replace(stored, **chosen)
         except ValueError as error:
-            raise SceneError(f"--frames {error}") from error
-    if getattr(options, "against", ""):
-        why = "is for Blender's picture, not for one of --against"
-        refuse(options, ("judge", "identity", "as_is"), why)
-    elif hasattr(options, "against"):
-        refuse(options, ("filter", "dither"), "is for a picture of --against")
-    refuse_camera(options, _suffix(options))
-    if hasattr(options, "pixel") and _suffix(options) == ".json":
-        why = f"is not for '{options.scene}', which is one pixel by itself"
-        refuse(options, ("pixel", "limit", *CAMERA_OPTIONS), why)
+            raise SceneError(f"--{error}") from error
 
 
-def _suffix(options: argparse.Namespace) -> str | None:
-    """Return the ending of the scene's file, None where no file is named."""
-    scene = getattr(options, "scene", None)
-    return scene and scene.suffix.lower()
+def add_settings(parser: Parser) -> None:
+    """Add the options for the settings of the tracer."""
+    group = parser.add_argument_group("how to trace (default: as the scene says)")
+    group.add_argument(
+        "--method",
+        choices=[m.value for m in Method],
+        help="how a ray is intersected with a triangle; auto is certified wherever this machine "
+        "allows a proof",
+    )
+    group.add_argument(
+        "--precision",
+        choices=[p.value for p in Precision],
+        help="floating-point type of rays and vertices; certified and auto need float64",
+    )
+    group.add_argument(
+        "--samples", type=int, metavar="N", help="trace N x N rays a pixel and show their mean"
+    )
 
 
-def settings_from(options: argparse.Namespace, stored: Settings) -> Settings:
-    """Return the stored settings with what the options say in their place.
+def settings_from(given: Namespace) -> GivenSettings:
+    """Return the settings that a command line names for its scene.
 
     Raises
     ------
     SceneError
         If a value is out of range, or the method does not come in the precision.
     """
-    given = {name: getattr(options, name, None) for name in _SETTINGS}
-    chosen = {name: value for name, value in given.items() if value is not None}
-    method = Method(chosen.get("method", stored.method))
-    if not method.is_plain:  # float64 in place of another precision that is stored
-        if chosen.setdefault("precision", Precision.FLOAT64) != Precision.FLOAT64:
-            do = "name a --method with --precision float32"
-            if "method" in chosen:
-                do = "leave out --precision float32, or name another --method"
-            raise SceneError(f"{do}, one of {_PLAIN}: {method} is proven for float64 only")
-    try:
-        return Settings(**vars(stored) | chosen)
-    except ValueError as error:
-        raise SceneError(f"--{error}") from error
+    color = getattr(given, "color", None)
+    chosen = GivenSettings(given.method, given.precision, given.samples, color)
+    stores = is_blend(given.scene)  # a method, which may be a plain one
+    chosen.over(Settings(Method.TEXTBOOK) if stores else Settings())
+    return chosen
 
 
-def printable(text: str) -> str:
-    """Return text that only shows: what steers a terminal, or is no letter, is spelt out."""
-    return "".join(
-        c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
-    )
+def place_from(given: Namespace) -> Place:
+    """Return where the work is done: here, unless a package's options say otherwise.
+
+    Such a package adds its options to the parser, and sets the default `place` to a function that
+    makes the answer of what was parsed.
+    """
+    place = getattr(given, "place", None)
+    return place(given) if place else nullcontext({})
 
 
-def words(error: BaseException) -> str:
-    """Return what a user is told of an error, in one line."""
-    text = " ".join(str(error).split())
-    if isinstance(error, MemoryError) and not isinstance(error, PictureTooLargeError):
-        return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"
-    return text or type(error).__name__
+def refuse(given: Namespace, names: Iterable[str], why: str) -> None:
+    """Raise a SceneError if one of these options is given, since it would have no effect."""
+    for name in names:
+        value = getattr(given, name, None)
+        if value is not None and value is not False:  # 0 is given
+            raise SceneError(f"{typed(name)} {why}")
 
 
-def failure(work: Callable[..., object], *arguments: object) -> str:
-    """Do some work; returns what went wrong, if something did, in words."""
-    try:
-        work(*arguments)
-    except (*EXPECTED, ValueError) as error:
-        return words(error)
-    except Exception as error:  # whatever it is, the user must hear of it
-        traceback.print_exc()
-        return f"Reference Tracer failed: {type(error).__name__}: {error}"
-    return ""
+def typed(name: str) -> str:
+    """Return an option as it is typed."""
+    return f"--{name.removesuffix('_name').replace('_', '-')}"
+
+
+def is_blend(path: Path) -> bool:
+    """Return whether a file is Blender's."""
+    return path.suffix.lower() == ".blend"

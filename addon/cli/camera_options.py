@@ -1,84 +1,132 @@
-"""The options that choose what of a file is looked at, and through which camera: a `Choice`."""
+"""The options that choose what is looked at in a file, and through which camera."""
 
 from __future__ import annotations
 
-import argparse
-from collections.abc import Iterable
+from argparse import Namespace, _ActionsContainer
 from pathlib import Path
+from typing import Any
 
 from ..framing import ANGLE, Choice
-from ..scene import SceneError
 from ..scene_files import MESH_SUFFIXES
-from .parser import add_options
+from .arguments import is_blend, refuse
+from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
-_OF_BLEND = "scene_name", "view_layer", "frame", "camera"  # of a .blend alone: see add_camera
+_OF_BLEND = "scene_name", "view_layer", "frame", "camera"
 _OF_MESH = "width", "height", "frame_all", "eye", "target", "angle", "ortho_scale", "up"
 CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND
+SIZE_OF_STUDY = 160, 90  # of a mesh's picture, pixels
+
+_DEGREES = number(float, lambda value: 0 < value < 180, "between 0 and 180 degrees")
+_FRAME = number(
+    int, lambda value: abs(value) <= 1048574, "from -1048574 to 1048574, as Blender's frames are"
+)
 
 
-def add_camera(
-    parser: argparse.ArgumentParser, width: int = 960, height: int = 540, of_scenes: bool = False
-) -> None:
-    """Add which camera sees what; `default_size` is that of a mesh's picture.
+def add_camera(parser: Parser, of_study: bool = False) -> None:
+    """Add the options for the camera and its picture; a study has a --width of its own."""
+    group = parser.add_argument_group(
+        "the camera and its picture (default: a scene's own, or one that frames the mesh)"
+    )
+    width, height = SIZE_OF_STUDY if of_study else Choice.default_size
+    if not of_study:
+        group.add_argument(
+            "--width",
+            type=COUNT,
+            metavar="PIXELS",
+            help=f"default {width} for a mesh; for a scene its own, or what --height implies",
+        )
+    implied = "" if of_study else "; for a scene its own, or what --width implies"
+    group.add_argument(
+        "--height", type=COUNT, metavar="PIXELS", help=f"default {height} for a mesh{implied}"
+    )
+    group.add_argument(
+        "--up",
+        choices=["y", "z"],
+        help="which axis of a mesh is up (default y of a .glb, z of others); it is turned to Z",
+    )
+    _add_which(group.add_mutually_exclusive_group())
+    group.add_argument(
+        "--target",
+        type=FINITE,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="with --eye: the point it looks at (default the origin); Z is up",
+    )
+    lens = group.add_mutually_exclusive_group()
+    lens.add_argument(
+        "--angle",
+        type=_DEGREES,
+        metavar="DEGREES",
+        help=f"vertical angle of view of a new camera (default {ANGLE:g})",
+    )
+    lens.add_argument(
+        "--ortho-scale",
+        type=POSITIVE,
+        metavar="METRES",
+        help="with --eye: make the camera orthographic, with a picture of this height",
+    )
+    _add_parts_of_blend(parser)
 
-    With `of_scenes`, the width is that of the largest picture, and no scene's own.
-    """
-    size = "size_of_mesh" if of_scenes else "size"
-    words = {"width": width, "height": height, "angle": ANGLE}
-    add_options(parser, size, "camera", words=words)
-    add_options(parser, "blend")
-    parser.set_defaults(default_size=(width, height), heard=("width",) if of_scenes else ())
+
+def _add_which(group: _ActionsContainer) -> None:
+    """Add the three ways to choose a camera."""
+    group.add_argument("--camera", metavar="NAME", help="use this camera of a .blend")
+    group.add_argument(
+        "--frame-all",
+        action="store_true",
+        help="use a new camera, from the front, the right and above, that frames all that is shown",
+    )
+    group.add_argument(
+        "--eye",
+        type=FINITE,
+        nargs=3,
+        metavar=("X", "Y", "Z"),
+        help="use a new camera at this position",
+    )
 
 
-def choice_from(options: argparse.Namespace, path: Path | None = None) -> Choice:
-    """Return what the options choose of a file; without one, of the .blend that is open.
+def _add_parts_of_blend(parser: Parser) -> None:
+    group = parser.add_argument_group("what to take of a .blend (default: as it was saved)")
+    group.add_argument("--scene", metavar="NAME", dest="scene_name", help="the scene")
+    group.add_argument("--view-layer", metavar="NAME", help="the view layer")
+    group.add_argument(
+        "--frame",
+        type=_FRAME,
+        metavar="N",
+        help="the frame; simulations are stepped to it from the first one",
+    )
+
+
+def choice_from(given: Namespace, path: Path, of_study: bool = False) -> Choice:
+    """Return what the options choose of a file.
 
     Raises
     ------
     SceneError
-        If an option is not for such a file.
+        If an option has no effect for such a file, or beside the others.
     """
-    suffix = path.suffix.lower() if path else ".blend"
-    names = [name for name in CAMERA_OPTIONS if name not in options.heard]
-    if suffix in MESH_SUFFIXES:
-        names += options.heard
-        refuse(options, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")
+    is_mesh = path.suffix.lower() in MESH_SUFFIXES
+    names = set(CAMERA_OPTIONS)
+    if of_study and not is_mesh:
+        refuse(given, ("height",), "is for meshes: --width sets the size of a scene's picture")
+        names.remove("width")
+    _refuse_without_camera(given, is_mesh)
+    if is_mesh:
+        refuse(given, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")
     else:
-        refuse(options, ("up",), "is for meshes: in a scene it is Z")
-    if suffix not in (*MESH_SUFFIXES, ".blend"):
-        why = f"is for a .blend or a mesh: '{path}' has its own camera, and what that one sees"
-        refuse(options, names, why)
-    chosen = {name: getattr(options, name, None) for name in names}
-    opened = getattr(options, "opened", False)
-    return Choice(**chosen, default_size=options.default_size, opened=opened)
+        refuse(given, ("up",), "is for meshes: in a scene Z is up")
+        if not is_blend(path):
+            why = f"is for a .blend or a mesh: '{path}' has its own camera and its own picture"
+            refuse(given, sorted(names), why)
+    chosen: dict[str, Any] = {name: getattr(given, name) for name in names}
+    if of_study:
+        chosen["default_size"] = SIZE_OF_STUDY
+    return Choice(**chosen, opened=getattr(given, "opened", False))
 
 
-def refuse_camera(options: argparse.Namespace, suffix: str | None) -> None:
-    """Refuse what the other options, or the file's ending, leave without a meaning."""
-    if getattr(options, "heard", ()) and suffix not in MESH_SUFFIXES:
-        why = "is for meshes: of a scene --width sets the size of its picture, the height follows"
-        refuse(options, ("height",), why)
-    if getattr(options, "camera", None) is not None:
-        refuse(options, ("frame_all", "eye"), "is for a camera beside that of --camera")
-    if getattr(options, "frame_all", False):
-        why = "is not for --frame-all, which finds where the camera stands and what it sees"
-        refuse(options, ("eye", "ortho_scale"), why)
-    elif getattr(options, "eye", None) is None and suffix not in MESH_SUFFIXES:
-        refuse(options, ("angle",), "is for a camera that --eye or --frame-all places")
-    elif getattr(options, "ortho_scale", None) is not None:
-        refuse(options, ("angle",), "is not for the orthographic camera of --ortho-scale")
-    if getattr(options, "eye", None) is None:
-        refuse(options, ("target", "ortho_scale"), "is for a camera that --eye places")
-
-
-def refuse(options: argparse.Namespace, names: Iterable[str], why: str) -> None:
-    """Raise a SceneError for an option that is given, but would not be heard."""
-    for name in names:
-        value = getattr(options, name, None)
-        if value is not None and value is not False:  # 0 is given
-            raise SceneError(f"{typed(name)} {why}")
-
-
-def typed(name: str) -> str:
-    """Return an option as it is typed."""
-    return f"--{name.removesuffix('_name').replace('_', '-')}"
+def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:
+    """Refuse options about a new camera where none is made."""
+    if given.eye is None:
+        refuse(given, ("target", "ortho_scale"), "is for a camera that --eye places")
+        if not is_mesh and not given.frame_all:
+            refuse(given, ("angle",), "is for a camera that --eye or --frame-all places")

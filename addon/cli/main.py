@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from .. import __version__
 from . import running
-from .commands import FILES, HELP
+from .commands import COMMANDS
 from .parser import EXIT_CODES_HELP, Parser
 
 
@@ -24,18 +24,16 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(argv: Sequence[str]) -> int:
     with running.held():
         known = parser(argv)
-    options = known.parse_args(argv)
-    return options.run(options)
+    given = known.parse_args(argv)
+    code: int = given.run(given)
+    return code
 
 
 def parser(argv: Sequence[str]) -> Parser:
-    """Return the parser of these words: of all commands it knows the options of theirs alone.
+    """Return the parser for these words, which knows the options of their command alone.
 
-    What it parses has a `run`.
+    The result of parsing has a function `run`, which takes that result.
     """
-    from importlib import import_module
-    from importlib.metadata import entry_points
-
     out = Parser(
         "reftrace",
         epilog=EXIT_CODES_HELP,
@@ -47,35 +45,33 @@ def parser(argv: Sequence[str]) -> Parser:
     out.add_argument("--version", action="version", version=f"reftrace {__version__}")
     commands = out.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     asked = next((word for word in argv if not word.startswith("-")), None)
-    installed = {found.name: found for found in entry_points(group="reference_tracer.commands")}
-    for name, text in HELP.items():
-        file = FILES.get(name)
-        if not file and name not in installed:
-            # Without a prefix of options, all that follows is positional, --help too.
-            missing = commands.add_parser(
-                name, help="(not installed here)", add_help=False, prefix_chars="\0"
-            )
-            missing.add_argument("rest", nargs="*")
-            missing.set_defaults(run=_missing, name=name)
-            continue
+    for name, command in COMMANDS.items():
+        text = command.help
         own = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
-        if name == asked and file:
-            getattr(import_module(f"{__package__}.commands.{file}"), f"add_{name}")(own)
-            for found in entry_points(group="reference_tracer.options"):
-                found.load()(own, name)
-        elif name == asked:
-            installed[name].load().add(own)
+        if name == asked:
+            _add_options(own, name)
     return out
 
 
-def _missing(options: object) -> int:
-    """Say how to get a command."""
-    from ..scene import SceneError
+def _add_options(own: Parser, name: str) -> None:
+    """Add a command's options, and those that packages beside the add-on have for it."""
+    from importlib.metadata import entry_points
 
-    raise SceneError(
-        f"the command {options.name} is not part of the add-on: pip install --editable . in a "
-        "clone of the project installs it"
-    )
+    for found in entry_points(group="reference_tracer.commands"):
+        if found.name == name:
+            found.load().add(own)
+            return
+    module = COMMANDS[name].module
+    if module is None:
+        from ..scene import SceneError
+
+        raise SceneError(
+            f"the command {name} is not part of the add-on: pip install --editable . in a clone "
+            "of the project installs it"
+        )
+    module().add(own)
+    for found in entry_points(group="reference_tracer.options"):
+        found.load()(own, name)
 
 
 if __name__ == "__main__":

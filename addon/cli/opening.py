@@ -1,4 +1,4 @@
-"""A file that the user names, and a camera for meshes -> the scene in it.
+"""Opens the file that a user names, and gives the scene in it.
 
 A .blend is opened with the `bpy` module, in the one function here that imports it; scenes and
 meshes from other files need no Blender.
@@ -58,9 +58,10 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
 
 
 def import_trimesh() -> None:
-    """Import trimesh without libraries that take half a second, for nothing that is asked here."""
+    """Import trimesh without the libraries that it does not need here: they take half a second."""
     hidden = [name for name in ("scipy", "networkx") if name not in sys.modules]
-    sys.modules.update(dict.fromkeys(hidden))
+    for name in hidden:
+        sys.modules[name] = None  # type: ignore[assignment]  # "it cannot be imported"
     try:
         import trimesh  # noqa: F401
     finally:

@@ -1,4 +1,4 @@
-"""What every command line does around its work: it hears signals, prints, and says what is wrong.
+"""What every command line does around its work: hears signals, prints, and says what is wrong.
 
 Python turns Ctrl-C into a KeyboardInterrupt at whatever it runs at that moment. Where that is a
 callback from C, as in Blender, it is printed and forgotten; in the middle of an import it leaves
@@ -15,13 +15,28 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stdout, suppress
+from dataclasses import dataclass
+from typing import TextIO
 
 _NAMED = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "hung up"}
 # What ends the work, and in what word: those that this system has.
 SIGNALS = {getattr(signal, name): word for name, word in _NAMED.items() if hasattr(signal, name)}
 
-_heard = 0  # the latest signal
-_holding = False
+
+@dataclass
+class _Signals:
+    """What is known of signals in this process, which has them once."""
+
+    latest: int = 0
+    are_held: bool = False
+
+    def hear(self, number: int, _: object) -> None:
+        self.latest = number
+        if not self.are_held:
+            raise KeyboardInterrupt
+
+
+_signals = _Signals()
 
 
 def run(work: Callable[[], int], program: str) -> int:
@@ -48,7 +63,8 @@ def run(work: Callable[[], int], program: str) -> int:
 
 def _failed(error: Exception, program: str) -> int:
     """Say on stderr what is wrong, a fault of ours with its traceback; return the exit code."""
-    from .arguments import EXPECTED, SizeError, words
+    from ..compare.picture import SizeError
+    from ..errors import EXPECTED, words
     from .parser import INPUT_ERROR, SIZES_DIFFER
 
     said = words(error)
@@ -86,7 +102,7 @@ def _said(work: Callable[[], int]) -> int:
             raise OSError(f"standard output: {error.strerror}; files that were written stay")
 
 
-def _written(stream: io.TextIOBase, text: str) -> OSError | None:
+def _written(stream: TextIO, text: str) -> OSError | None:
     """Write a stream to its end; return why not, and drop the rest: Python would try it again."""
     try:
         stream.write(text)
@@ -108,7 +124,7 @@ def heard() -> Iterator[None]:
         for number in SIGNALS:
             handler = signal.getsignal(number)
             if handler in (signal.SIG_DFL, signal.default_int_handler):
-                signal.signal(number, _hear)
+                signal.signal(number, _signals.hear)
                 before[number] = handler
     if not before:
         yield
@@ -122,42 +138,41 @@ def heard() -> Iterator[None]:
         answered()  # what comes later is not meant
 
 
-def _hear(number: int, _: object) -> None:
-    global _heard
-    _heard = number
-    if not _holding:
-        raise KeyboardInterrupt
-
-
 def check() -> None:
     """Raise the KeyboardInterrupt that was swallowed or held."""
-    if _heard:
+    if _signals.latest:
         raise KeyboardInterrupt
 
 
 def answered() -> None:
     """Forget the signal that was heard: what it was to end has ended, and the rest goes on."""
-    global _heard
-    _heard = 0
+    _signals.latest = 0
 
 
 def ended() -> tuple[int, str]:
     """Return the exit code, as shells have it, of what a KeyboardInterrupt ended, and a word."""
-    number = signal.Signals(_heard or signal.SIGINT)
+    number = signal.Signals(_signals.latest or signal.SIGINT)
     return 128 + number, SIGNALS[number]
 
 
 @contextmanager
 def held() -> Iterator[None]:
     """Let signals wait until the block, and each one around it, has ended without an error."""
-    global _holding
-    before, _holding = _holding, True
+    before = _signals.are_held
+    _signals.are_held = True
     try:
         yield
     finally:
-        _holding = before
-    if not _holding:
+        _signals.are_held = before
+    if not before:
         check()
+
+
+def printable(text: str) -> str:
+    """Return text that is safe to show: what steers a terminal, or is no letter, is spelt out."""
+    return "".join(
+        c if c.isprintable() or c in "\n\t" else c.encode("unicode_escape").decode() for c in text
+    )
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Frame after frame of an animation, each compared by itself: the numbers, and the worst."""
+"""What came of an animation whose frames are compared one by one."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from typing import Any, NamedTuple
 from .comparison import EXIT_CODES
 
 FAILED = "failed"
-CODES = EXIT_CODES | {FAILED: 4}  # the gravest last: a frame that is no input for a comparison
+CODES = EXIT_CODES | {FAILED: 4}  # the gravest last: a frame that could not be compared
 _NAMED = re.compile(r"(-?\d{1,7})(?:-(-?\d{1,7})(?::(\d{1,7}))?)?")
-_LAST = 1_048_574  # Blender's frames are so far from 0 at most
+_LAST = 1_048_574  # Blender's largest frame number
 
 
 def frames_named(text: str) -> range | None:
-    """Return the frames that a user names; None for `all`, those of the scene.
+    """Return the frames that a user names; None for `all`, which is the scene's own range.
 
     Raises
     ------
     ValueError
-        If it names none.
+        If the text names no frames.
     """
     if text == "all":
         return None
@@ -34,7 +34,7 @@ def frames_named(text: str) -> range | None:
 
 
 class FrameRow(NamedTuple):
-    """What came of one frame: counts of pixels, or why it is not compared."""
+    """What came of one frame: counts of pixels, or why it was not compared."""
 
     frame: int
     verdict: str = FAILED
@@ -53,8 +53,9 @@ class FrameRow(NamedTuple):
 
 def worst_first(rows: Iterable[FrameRow]) -> list[FrameRow]:
     """Sort rows by verdict, then by unexplained pixels, then by all that differ."""
+    order = list(CODES)
 
     def gravity(row: FrameRow) -> tuple[int, ...]:
-        return -list(CODES).index(row.verdict), -row.unexplained, -row.explained, row.frame
+        return -order.index(row.verdict), -row.unexplained, -row.explained, row.frame
 
     return sorted(rows, key=gravity)

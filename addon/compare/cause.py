@@ -1,73 +1,74 @@
-"""The causes: one record each, with all that is said, drawn and counted of it.
+"""What is said of a pixel: a cause's record, and what a comparison found out about every pixel.
 
-A new cause is a member of `Cause`, its record in `cause.toml` and a check in `checks/`. The counts,
-the texts, the JSON, the page's legend, the panel and the difference picture read the record.
+The record of a cause stands beside the check that gives it, in `checks/`; the four below have no
+check. `causes.py` lists them all. Counts, texts, JSON, the page's legend, the panel and the
+difference picture read the record.
 """
 
 from __future__ import annotations
 
-import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from enum import IntEnum
-from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ..arrays import Bools, Bytes, Floats, Integers, Places
 
 Color = tuple[float, float, float]
 
-
-@dataclass
-class Record:
-    """What there is to say of a cause: an entry of `cause.toml`, which says what is what."""
-
-    label: str
-    sentence: str
-    unit: str = ""
-    color: Color | None = None
-    explains: bool = False
-    warns: bool = False
-    rounding: bool = False
-    see_through: bool = False
-
-    def __post_init__(self) -> None:
-        self.color = self.color and tuple(self.color)
+# A cause explains why a pixel differs; but these do not, and have counts of their own in the JSON.
+COUNTED_APART = ("agree", "not_decidable", "unexplained", "not_traced")
 
 
-_LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+@dataclass(frozen=True, eq=False)
+class Cause(int):
+    """What can be said of a pixel. It compares and sorts as its number.
 
-
-class Cause(IntEnum):
-    """What is said of a pixel, in the order of the legend; its attributes are its `Record`'s.
-
-    The numbers are stored in `frame.npz`: they stay.
+    Raises
+    ------
+    ValueError
+        If the record contradicts itself.
     """
 
-    AGREE = 0
-    EDGE = 1
-    DEPTH_TIE = 2
-    CLIP_PLANE = 7
-    ANTI_ALIASING = 8
-    COLOR = 9
-    NOT_MODELLED = 3
-    HIDDEN = 10
-    NOT_DECIDABLE = 4
-    UNEXPLAINED = 5
-    NOT_TRACED = 6
+    number: int  # `frame.npz` stores it: it stays
+    key: str  # its name in JSON
+    label: str
+    # With the pixel's {figure} and its bound {allowed}, or the {name} that an index stands for.
+    sentence: str
+    unit: str = ""  # of the figure; 'index' where it counts things that have a name
+    # Linear RGB in the difference picture, which colour-blind readers tell apart, too; None for
+    # pixels that agree.
+    color: Color | None = None
+    explains: bool = False  # the pixel differs, and this is why
+    warns: bool = False  # with such a pixel the verdict is no better than 'warnings'
+    rounding: bool = False  # Blender's own float32 arithmetic accounts for the pixel
+    see_through: bool = False  # whole surfaces have it: they stay visible in the difference picture
 
-    def __init__(self, _: int) -> None:
-        self.__dict__.update(vars(Record(**_LISTED[self.key])))
+    def __new__(cls, number: int, *_: object, **__: object) -> Self:
+        """Return the number, to which the record's fields are added."""
+        return super().__new__(cls, number)
 
-    @property
-    def key(self) -> str:
-        """The name in JSON."""
-        return self.name.lower()
+    def __post_init__(self) -> None:
+        for rule, holds in self._rules():
+            if not holds:
+                raise ValueError(f"the cause '{self.key}' contradicts itself: {rule}")
 
-    @property
-    def differs(self) -> bool:
-        """Whether a pixel with this cause counts as one that differs."""
-        return self.explains or self is Cause.UNEXPLAINED
+    def _rules(self) -> Iterator[tuple[str, bool]]:
+        """Yield what has to hold for a record, and whether it does."""
+        apart = self.key in COUNTED_APART
+        of_index = self.unit == "index"
+        of_figure = bool(self.unit) and not of_index
+        yield "it must explain a difference, or be counted apart", self.explains != apart
+        may_warn = self.explains or self.key == "not_decidable"
+        yield "only what explains a difference warns", may_warn or not self.warns
+        yield "only what explains a difference is rounding", self.explains or not self.rounding
+        yield (
+            "only a pixel that agrees has no colour",
+            (self.color is None) == (self.key == "agree"),
+        )
+        yield "a figure and its unit go together", of_figure == ("{figure" in self.sentence)
+        yield "an index and its name go together", of_index == ("{name" in self.sentence)
 
     def told(self, figure: float, allowed: float, name: object = "") -> str:
         """Return the sentence with a pixel's numbers, or the name that its index stands for."""
@@ -76,7 +77,27 @@ class Cause(IntEnum):
     def to_dict(self) -> dict[str, int | str]:
         """Return what a reader of JSON needs to know of the cause."""
         told = {"label": self.label, "sentence": self.sentence, "unit": self.unit}
-        return {"number": int(self), **told}
+        return {"number": self.number, **told}
+
+
+AGREE = Cause(0, "agree", "agree", "both show the same")
+NOT_DECIDABLE = Cause(
+    4,
+    "not_decidable",
+    "not decidable",
+    "float32 may move Blender's surfaces by {figure:.3g} px there "
+    "(decidable up to {allowed:.3g} px)",
+    "px",
+    (0.25, 0.3, 0.6),
+    warns=True,
+    see_through=True,
+)
+UNEXPLAINED = Cause(
+    5, "unexplained", "unexplained", "no check accounts for the difference", color=(1.0, 0.0, 0.0)
+)
+NOT_TRACED = Cause(
+    6, "not_traced", "not traced", "the picture was cancelled before", color=(0.0, 0.0, 0.0)
+)
 
 
 class Shade(NamedTuple):
@@ -104,32 +125,27 @@ class Hidden(NamedTuple):
 
 @dataclass(eq=False)
 class Causes:
-    """What is said of every pixel, with the figure that says it.
+    """What is said of every pixel (h, w), with the figure that says it."""
 
-    `cause` is (h, w) uint8, a `Cause` each; `figure` (h, w) float64, NaN where there is none, and
-    `allowed` (h, w) the bound that it was held against: the cause's sentence says what they mean.
-    An index is one into the manifest's `unmodelled`, or into `hidden`. `transform` is what was
-    found to turn the traced colours into those of the picture, in words; "" for nothing. `blind`
-    (h, w) int32 is the feature of `unmodelled` that keeps a pixel from being judged, else -1.
-    """
-
-    cause: NDArray[np.uint8]
-    figure: NDArray[np.float64]
-    allowed: NDArray[np.float64]
-    blind: NDArray[np.int32]
-    hidden: list[Hidden] = field(default_factory=list)
-    transform: str = ""
+    cause: Bytes  # the number of its `Cause`
+    figure: Floats  # as the cause's sentence says; NaN where there is none
+    allowed: Floats  # the bound that the figure was held against
+    # The feature of the manifest's `unmodelled` that keeps the pixel from being judged, else -1.
+    blind: Integers
+    hidden: list[Hidden] = field(default_factory=list)  # a figure may be an index into it
+    transform: str = ""  # what turns the traced colours into the picture's, in words
     shades: list[Shade] = field(default_factory=list)
     # Differing pixels that no check looked at, (n,), numbered row by row.
-    passed_over: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, np.intp))
+    passed_over: Places = field(default_factory=lambda: np.zeros(0, np.intp))
 
     @classmethod
-    def none(cls, shape: tuple[int, int]) -> Causes:
+    def none(cls, shape: tuple[int, ...]) -> Causes:
         """Return those of a picture (h, w) that agrees."""
-        figures = np.full(shape, np.nan), np.full(shape, np.nan)
-        return cls(np.zeros(shape, np.uint8), *figures, np.full(shape, -1, np.int32))
+        figure = np.full(shape, np.nan)
+        blind = np.full(shape, -1, np.int32)
+        return cls(np.zeros(shape, np.uint8), figure, figure.copy(), blind)
 
     @property
-    def unjudged(self) -> NDArray[np.bool_]:
-        """Which pixels (h, w) cannot be judged: whatever were shown there would not be found."""
-        return (self.blind >= 0) | (self.cause == Cause.NOT_DECIDABLE)
+    def unjudged(self) -> Bools:
+        """The pixels (h, w) that cannot be judged: no fault would be found in them."""
+        return (self.blind >= 0) | (self.cause == NOT_DECIDABLE)

@@ -1,8 +1,8 @@
-"""The camera certificate: the tracer and Blender see the same points in the same places.
+"""Certifies that the tracer's camera is Blender's: both see known points in the same places.
 
-In come positions of known points on the film, as the tracer's camera has them and as Blender's own
-matrix has them; out goes the largest distance in pixels, held against what float32 may do. It is
-made before any picture: pictures of different cameras are not compared.
+The points are projected by the tracer's camera and by Blender's own matrix. The largest distance
+between the two, in pixels, is compared with what float32 may move. This is done before any picture
+is drawn: pictures of different cameras are not compared.
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Floats
 from ..scene import Camera, SceneError
 from ..tracer.camera import film_of, pixel_size
 from .bounds import U32
 
 POINTS = 1024  # besides the volume's corners
 SEED = 1
-# Blender's projection, and the axes of its camera without their scale, are float32: each number has
-# been rounded about so many times.
+# How often Blender has rounded, in float32, each number of its projection and of its camera's axes
+# without their scale.
 ROUNDINGS = 16
 
 
@@ -28,7 +28,7 @@ class CameraMismatchError(SceneError):
 
 
 class CameraCertificate(NamedTuple):
-    """How far apart, in pixels, the two cameras see the point on which they agree least."""
+    """How far apart the two cameras see the point on which they agree least, in pixels."""
 
     largest: float
     allowed: float
@@ -36,7 +36,7 @@ class CameraCertificate(NamedTuple):
 
     @property
     def passed(self) -> bool:
-        """Whether the distance is one of rounding."""
+        """Whether rounding accounts for the distance."""
         return self.largest <= self.allowed
 
     def to_dict(self) -> dict[str, Any]:
@@ -62,26 +62,21 @@ class CameraCertificate(NamedTuple):
             )
 
 
-def known_points(camera: Camera) -> NDArray[np.float64]:
-    """Return points all over the view volume, its corners first: (3, n) world space, metres."""
+def known_points(camera: Camera) -> Floats:
+    """Return points all over the view volume, its corners first: (3, n) float64, world space."""
     w, rng = camera.window, np.random.default_rng(SEED)
     ends = np.array((camera.clip_start, camera.clip_end), np.float64)
-    x, y, depth = (
-        v.ravel() for v in np.meshgrid((w.left, w.right), (w.bottom, w.top), ends, indexing="ij")
-    )
+    corners = np.meshgrid((w.left, w.right), (w.bottom, w.top), ends, indexing="ij")
+    x, y, depth = np.reshape(corners, (3, 8))
     x = np.append(x, rng.uniform(w.left, w.right, POINTS))
     y = np.append(y, rng.uniform(w.bottom, w.top, POINTS))
     depth = np.append(depth, camera.projection.depths(rng, ends, POINTS))
     scale = camera.projection.scale(depth)
-    right, up, forward, origin = (
-        v[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
-    )
-    return origin + scale * (x * right + y * up) + depth * forward
+    beside = x * camera.right[:, None] + y * camera.up[:, None]
+    return camera.origin[:, None] + scale * beside + depth * camera.forward[:, None]
 
 
-def certify(
-    camera: Camera, points: NDArray[np.float64], film: NDArray[np.float64]
-) -> CameraCertificate:
+def certify(camera: Camera, points: Floats, film: Floats) -> CameraCertificate:
     """Return the certificate of a camera.
 
     `points` (3, n) are in world space, as :func:`known_points` gives them; `film` (2, n) is where
@@ -95,13 +90,14 @@ def certify(
     return CameraCertificate(min(largest, np.finfo(float).max), float(allowed[worst]), len(depth))
 
 
-def _allowed(camera: Camera, points: NDArray, depth: NDArray) -> NDArray[np.float64]:
-    """Return how far float32 may move each point's place on the film, (n,) pixels.
+def _allowed(camera: Camera, points: Array, depth: Array) -> Floats:
+    """Return how far float32 may move each point on the film, (n,) pixels.
 
-    Turned axes move it by what it is away from the camera, seen from there; a projection's rounding
-    moves it by its share of the picture's size and of the shift.
+    The rounding of the axes moves a point in proportion to its distance from the camera, as seen
+    from there; that of the projection in proportion to the picture's size and its shift.
     """
-    w, (width, height) = camera.window, pixel_size(camera)
+    w = camera.window
+    width, height = pixel_size(camera)
     away = np.abs(points - camera.origin[:, None]).sum(axis=0)
     away = away / camera.projection.scale(depth)
     reach = max(map(abs, (w.left, w.right, w.bottom, w.top)))

@@ -1,4 +1,4 @@
-"""Two pictures of one scene -> `Comparison`: the counts, the causes, the metrics, the verdict."""
+"""Compares a traced scene with a picture: the counts, the causes, the metrics, the verdict."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors
 from ..certainty import Certainty
 from ..certified.rounding import rounding
 from ..manifest import Effect, Manifest
@@ -19,34 +19,36 @@ from ..tracer.hits import NOTHING
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from .case import Case
-from .cause import Cause, Causes
-from .causes import explain
+from .cause import Causes
+from .causes import BY_NUMBER, CAUSES, explain
 from .checks.background import Background
+from .checks.hidden import HIDDEN
+from .checks.unmodelled import NOT_MODELLED
+from .counts import count_pixels
 from .identity import Identity
 from .methods import MethodRow, list_methods
-from .metrics import boundary, count_pixels, image_metrics
-from .picture import SizeError
+from .metrics import boundary, image_metrics
 from .self_check import FaultRow, self_check, table
 
 SCHEMA = "reference_tracer.comparison/1"
 
-# Shares of the work, roughly.
-_TRACING, _METHODS, _COMPARING = 0.4, 0.35, 0.25
-_CHECKING = 0.8  # with a self-check, of the comparing
-_CAUSES = 0.8  # of what is left
+# Shares of the work, roughly. A self-check takes the larger part of it.
+_TRACING, _METHODS = 0.4, 0.35
+_CHECKING = 0.8
+_CAUSES = 0.8  # of comparing: the rest is for metrics and counts
 
-# What a verdict is to a shell, the gravest last: 3 (sizes do not match) and 4 (input error) never
-# get this far.
+# The verdicts, the gravest last, and what each is to a shell. 3 (the sizes do not match) and 4 (the
+# input cannot be read) end a command before there is a verdict.
 EXIT_CODES = {"agree": 0, "warnings": 1, "not comparable": 1, "cancelled": 1, "differences": 2}
 
-COMPARABLE = 0.5  # so much of a picture may be such that no fault would be found in it
+COMPARABLE = 0.5  # the largest share of a picture in which no fault could be found
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class Comparison:
     """What was compared, and what came of it."""
 
-    case: Case
+    case: Case  # with the scene before the picture's own background, if it has one
     frame: Frame
     causes: Causes
     pixels: dict[str, Any]  # see count_pixels
@@ -54,12 +56,12 @@ class Comparison:
     methods: tuple[MethodRow, ...] = ()
     textbook: Frame | None = None  # what the textbook makes of the scene, in float64
     identity: Identity | None = None  # which object each side shows
-    self_check: tuple[FaultRow, ...] = ()  # known faults, and whether they were found
-    background: Background | None = None  # where the picture has one that the scene has not
+    self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
+    background: Background | None = None  # where the picture's is not the scene's
 
     @property
     def scene(self) -> Scene:
-        """The scene, before the picture's background."""
+        """The scene that was traced."""
         return self.case.scene
 
     @property
@@ -68,7 +70,7 @@ class Comparison:
         return self.case.manifest
 
     @property
-    def picture(self) -> NDArray[np.float32]:
+    def picture(self) -> Colors:
         """What the scene is compared with, (h, w, 4) linear RGBA."""
         return self.case.picture.color
 
@@ -77,33 +79,38 @@ class Comparison:
         """One of EXIT_CODES: differences are those that no cause explains."""
         if self.frame.cancelled:
             return "cancelled"
-        pixels, certificate = self.pixels, self.case.certificate
-        if pixels["unexplained"] or (certificate and not certificate.passed):
+        certificate = self.case.certificate
+        if self.pixels["unexplained"] or (certificate and not certificate.passed):
             return "differences"
-        if pixels["not_judged"]["share"] > COMPARABLE:
+        if self.pixels["not_judged"]["share"] > COMPARABLE:
             return "not comparable"
-        doubtful = (
-            *(pixels["by_cause"][c.key] for c in Cause if c.warns),
-            pixels["not_judged"]["pixels"],
-            self.empty,
-            *(u.effect is Effect.UNPLACED for u in self.manifest.unmodelled),
-            *(o.left_out for o in self.manifest.objects),
-            *(row.missed for row in self.self_check),
-            self.background and not self.background.transparent,
-        )
-        return "warnings" if any(doubtful) else "agree"
+        return "warnings" if any(self._doubts()) else "agree"
+
+    def _doubts(self) -> Iterator[object]:
+        """Yield what is true if the verdict cannot be better than a warning."""
+        for cause in CAUSES:
+            yield cause.warns and self.pixels["by_cause"][cause.key]
+        yield self.pixels["not_judged"]["pixels"]
+        yield self.empty
+        yield from (u.effect is Effect.UNPLACED for u in self.manifest.unmodelled)
+        yield from (entry.left_out for entry in self.manifest.objects)
+        yield from (row.missed for row in self.self_check)
+        yield self.background and not self.background.transparent
 
     def told(self, x: int, y: int) -> str:
         """Return why a pixel has its cause, in a sentence with its numbers and names."""
-        causes = self.causes
-        cause, figure = Cause(causes.cause[y, x]), causes.figure[y, x]
-        counted = {Cause.NOT_MODELLED: self.manifest.unmodelled, Cause.HIDDEN: causes.hidden}
-        name = counted[cause][int(figure)] if cause in counted else ""
-        return cause.told(figure, causes.allowed[y, x], name)
+        cause = BY_NUMBER[self.causes.cause[y, x]]
+        figure = self.causes.figure[y, x]
+        name: object = ""
+        if cause == NOT_MODELLED:
+            name = self.manifest.unmodelled[int(figure)]
+        elif cause == HIDDEN:
+            name = self.causes.hidden[int(figure)]
+        return cause.told(figure, self.causes.allowed[y, x], name)
 
     @property
     def empty(self) -> bool:
-        """Whether no ray met anything: then there is nothing that could have been wrong."""
+        """Whether no ray hits anything: then nothing in the picture could have been wrong."""
         return bool((self.frame.instance_index == NOTHING).all())
 
     @property
@@ -113,31 +120,15 @@ class Comparison:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the comparison as JSON can hold it."""
-        s, certificate = self.frame.statistics, self.case.certificate
-        off = rounding(self.scene)._asdict()
+        certificate = self.case.certificate
         return {
             "schema": SCHEMA,
             "scene": self.manifest.to_dict(),
             "blender": self.case.picture.to_dict(),
-            "tracer": {
-                "method": s.method,
-                "precision": self.case.settings.precision.value,
-                "samples": self.case.settings.samples,
-                "seconds": round(s.seconds, 6),
-                "triangles": s.triangles,
-                "refused_triangles": s.refused,
-                "pairs_tested": s.pairs_tested,
-                "pairs_exact": s.pairs_exact,
-                "rounding": {k: v if v < np.inf else None for k, v in off.items()},
-                "exact_reasons": {reason.name.lower(): n for reason, n in s.reasons.items()},
-                "certainty": {
-                    c.name.lower(): int((self.frame.certainty == c).sum()) for c in Certainty
-                },
-                "cancelled": self.frame.cancelled,
-            },
+            "tracer": self._tracer(),
             "methods": [row.to_dict() for row in self.methods],
             "pixels": self.pixels,
-            "causes": {c.key: c.to_dict() for c in Cause},
+            "causes": {c.key: c.to_dict() for c in CAUSES},
             "transform": self.causes.transform,
             "shades": [shade._asdict() for shade in self.causes.shades],
             "background": self.background and self.background.to_dict(),
@@ -149,56 +140,85 @@ class Comparison:
             "verdict": self.verdict,
         }
 
+    def _tracer(self) -> dict[str, Any]:
+        """Return how the scene was traced, as JSON can hold it."""
+        s, settings, certainty = self.frame.statistics, self.case.settings, self.frame.certainty
+        off = rounding(self.scene)._asdict()
+        return {
+            "method": s.method,
+            "precision": str(settings.precision),
+            "samples": settings.samples,
+            "seconds": round(s.seconds, 6),
+            "triangles": s.triangles,
+            "refused_triangles": s.refused,
+            "pairs_tested": s.pairs_tested,
+            "pairs_exact": s.pairs_exact,
+            "rounding": {k: v if v < np.inf else None for k, v in off.items()},
+            "exact_reasons": {reason.name.lower(): n for reason, n in s.reasons.items()},
+            "certainty": {c.name.lower(): int((certainty == c).sum()) for c in Certainty},
+            "cancelled": self.frame.cancelled,
+        }
+
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        p, m, statistics = self.pixels, self.metrics, self.frame.statistics
-        chosen = self.case.settings
-        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
-        x, y = m["largest_difference"]["pixel"]
+        pixels, settings, traced = self.pixels, self.case.settings, self.frame.statistics
         return [
-            f"{p['agree']:,} of {p['total']:,} pixels agree with {self.case.picture.source}, "
-            f"{p['differ']:,} differ",
-            *(
-                f"  {c.label}: {n:,}{_at(p['examples'].get(c.key, ()))}"
-                for c in sorted(Cause)
-                if (n := p["by_cause"].get(c.key))
-            ),
+            f"{pixels['agree']:,} of {pixels['total']:,} pixels agree with "
+            f"{self.case.picture.source}, {pixels['differ']:,} differ",
+            *self._of_causes(),
             *self._evidence(),
-            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
-            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})",
-            f"traced {statistics.triangles:,} triangles in {statistics.seconds:.2f} s "
-            f"({statistics.method}, {chosen.precision.value}, {chosen.samples} x "
-            f"{chosen.samples} rays a pixel)",
+            self._measured(),
+            f"traced {traced.triangles:,} triangles in {traced.seconds:.2f} s "
+            f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
+            "a pixel)",
             *(row.line() for row in self.methods),
             *self.required,
             *table(self.self_check),
             f"verdict: {self.verdict}",
         ]
 
-    def _evidence(self) -> list[str]:
-        """Say what else was found out of the pixels that differ."""
-        p, causes = self.pixels, self.causes
-        inside, rim = p["interior"], p["boundary"]
-        certificate, hidden, told = self.case.certificate, dict.fromkeys(causes.hidden), ""
-        if self.identity and p["unexplained"]:
-            shows = p["unexplained_shows"]
-            told = (
+    def _of_causes(self) -> Iterator[str]:
+        """Say how many pixels have each cause, and where the first of them are."""
+        for cause in sorted(CAUSES):
+            if count := self.pixels["by_cause"].get(cause.key):
+                first = self.pixels["examples"].get(cause.key, ())[:3]
+                at = ", ".join(f"({x}, {y})" for x, y in first)
+                yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+
+    def _measured(self) -> str:
+        m = self.metrics
+        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
+        x, y = m["largest_difference"]["pixel"]
+        return (
+            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
+            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})"
+        )
+
+    def _evidence(self) -> Iterator[str]:
+        """Say what else was found out about the pixels that differ."""
+        causes, certificate = self.causes, self.case.certificate
+        inside, rim = self.pixels["interior"], self.pixels["boundary"]
+        yield (
+            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
+            f"{rim['total']:,} boundary pixels differ"
+        )
+        if self.background:
+            yield self.background.line()
+        if self.empty:
+            yield "the picture is empty: no ray meets anything"
+        yield from self.not_judged()
+        if causes.transform:
+            yield f"colours: {causes.transform}"
+        yield from (shade.line() for shade in causes.shades)
+        yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
+        if self.identity and self.pixels["unexplained"]:
+            shows = self.pixels["unexplained_shows"]
+            yield (
                 f"of the unexplained pixels {shows['same_object']:,} show the same object in "
                 f"another colour, {shows['other_object']:,} another object"
             )
-        facts = (
-            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
-            f"{rim['total']:,} boundary pixels differ",
-            self.background and self.background.line(),
-            self.empty and "the picture is empty: no ray meets anything",
-            *self.not_judged(),
-            causes.transform and f"colours: {causes.transform}",
-            *(shade.line() for shade in causes.shades),
-            *(f"only one side shows {h}" for h in hidden),
-            told,
-            certificate and certificate.line(),
-        )
-        return [fact for fact in facts if fact]
+        if certificate:
+            yield certificate.line()
 
     def not_judged(self) -> Iterator[str]:
         """Say what share of the picture cannot be judged, why, and what would help."""
@@ -207,8 +227,8 @@ class Comparison:
             known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
             yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
         if told["pixels"]:
-            of = ", ".join(told["by_feature"])
-            yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {of}"
+            features = ", ".join(told["by_feature"])
+            yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {features}"
         if undecided := self.pixels["not_decidable"]:
             yield (
                 f"{_share(undecided, total)} of this picture is not decidable: so far from the "
@@ -218,16 +238,11 @@ class Comparison:
 
 
 def _share(pixels: int, total: int) -> str:
-    """Return a share in per cent; what is not all or nothing is said to be neither."""
+    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
     share = 100 * pixels / total
     if 1 <= share <= 99 or pixels == total:
         return f"{share:.0f} %"
     return f"{min(max(share, 0.1), 99.9):.1f} %"
-
-
-def _at(pixels: list[list[int]]) -> str:
-    """Say where the first of some pixels are."""
-    return f", as at {', '.join(f'({x}, {y})' for x, y in pixels[:3])}" if pixels else ""
 
 
 def trace_and_compare(case: Case) -> Work[Comparison]:
@@ -239,19 +254,22 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     ------
     SizeError
         If the picture is not of the frame's size.
+    SceneError
+        If its samples lie too far from the pixels' centres.
     PictureTooLargeError
         If there is not enough memory to compare them.
     """
     region = case.scene.camera.region
     check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # frames ask for theirs again
     frame = Frame.empty(case.scene)
+    case.picture.check(frame.color.shape)
+    rest = 1 - _CHECKING if case.self_check else 1.0
     tracing = steps(case.scene, case.settings, frame, case.tracer)
-    checking = _CHECKING if case.self_check else 0.0
-    first, second = ((1 - checking) * share for share in (_TRACING, _METHODS))
-    yield from scaled(tracing, 0.0, first)
+    yield from scaled(tracing, 0.0, rest * _TRACING)
     listing = list_methods(case.scene, case.settings, frame, case.tracer)
-    rows, textbook = yield from scaled(listing, first, second)
-    found = yield from scaled(compare(case, frame), first + second, 1 - first - second)
+    rows, textbook = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
+    done = rest * (_TRACING + _METHODS)
+    found = yield from scaled(compare(case, frame), done, 1 - done)
     return replace(found, methods=rows, textbook=textbook)
 
 
@@ -262,31 +280,36 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
     ------
     SizeError
         If the picture is not of the frame's size.
+    SceneError
+        If its samples lie too far from the pixels' centres.
     """
-    shown, traced = case.picture.color.shape, frame.color.shape
-    if shown != traced:
-        raise SizeError(
-            f"The picture has {shown[1]} x {shown[0]} pixels, the traced one {traced[1]} x "
-            f"{traced[0]}."
-        )
-    share = (1 - _CHECKING if case.self_check else 1.0) * _CAUSES
-    found = yield from scaled(explain(case, frame), 0.0, share)
-    picture, before = found.case.picture, found.frame  # before the picture's own background
-    measuring = image_metrics(before.color, picture.color)
-    measured = yield from scaled(measuring, share, share * (1 / _CAUSES - 1))
+    case.picture.check(frame.color.shape)
+    rest = 1 - _CHECKING if case.self_check else 1.0
+    found = yield from scaled(explain(case, frame), 0.0, rest * _CAUSES)
+    traced, picture = found.frame, found.case.picture  # both before the picture's own background
+    measuring = image_metrics(traced.color, picture.color)
+    measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
     identity = None
-    if picture.owner is not None:
-        traced = picture.owners[before.instance_index]
-        identity = Identity(picture.names, traced, picture.owner)
-    yield share / _CAUSES
-    at_boundary = boundary(before)
-    yield share / _CAUSES
+    if picture.owner is not None and picture.owners is not None:
+        own = picture.owners[traced.instance_index]
+        identity = Identity(picture.names, own, picture.owner)
+    yield rest
+    at_boundary = boundary(traced)
+    yield rest
     features = [str(u) for u in case.manifest.unmodelled]
-    counted = count_pixels(found.causes, at_boundary, identity, features)
-    yield share / _CAUSES
-    made = Comparison(found.case, before, found.causes, counted, measured, identity=identity)
-    made.background = found.background
+    pixels = count_pixels(found.causes, at_boundary, identity, features)
+    yield rest
+    checked: tuple[FaultRow, ...] = ()
     if case.self_check:
         checking = self_check(case, frame, found.causes)
-        made.self_check = yield from scaled(checking, 1 - _CHECKING, _CHECKING)
-    return made
+        checked = yield from scaled(checking, rest, _CHECKING)
+    return Comparison(
+        found.case,
+        traced,
+        found.causes,
+        pixels,
+        measured,
+        identity=identity,
+        self_check=checked,
+        background=found.background,
+    )

@@ -1,4 +1,4 @@
-"""Several engines against one certified picture: which shows the wrong object, where, and why."""
+"""Compares several engines' pictures with the certified one: where each is wrong, and why."""
 
 from __future__ import annotations
 
@@ -7,26 +7,27 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .cause import Cause
-from .checks.unmodelled import known_beneath
+from .cause import UNEXPLAINED
+from .causes import BY_NUMBER, CAUSES
+from .checks.unmodelled import drawn_over
 from .comparison import EXIT_CODES, Comparison
+from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
-from .metrics import EXAMPLES
 from .self_check import FaultRow
 
 SCHEMA = "reference_tracer.engines/1"
 
 
 class EngineRow(NamedTuple):
-    """One engine's picture against the tracer's; `error` says why there is none."""
+    """What came of one engine's picture."""
 
     engine: str
     verdict: str
     pixels: dict[str, Any] | None = None
     wrong: tuple[dict[str, Any], ...] = ()
     wrong_objects: int | None = None  # pixels that show another object; None: not known
-    error: str = ""
-    not_judged: tuple[str, ...] = ()  # what of its picture cannot be judged, and why
+    error: str = ""  # why there is no picture
+    not_judged: tuple[str, ...] = ()  # lines on what cannot be judged, and why
     self_check: tuple[FaultRow, ...] = ()
 
     @classmethod
@@ -46,31 +47,33 @@ class EngineRow(NamedTuple):
     def to_dict(self) -> dict[str, Any]:
         """Return the row as JSON can hold it."""
         checked = [fault.to_dict() for fault in self.self_check]
-        lists = {"wrong": list(self.wrong), "not_judged": list(self.not_judged)}
-        return self._asdict() | lists | {"self_check": checked}
+        return self._asdict() | {
+            "wrong": list(self.wrong),
+            "not_judged": list(self.not_judged),
+            "self_check": checked,
+        }
 
 
 def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
     causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
-    picture, features = comparison.case.picture, comparison.manifest.unmodelled
-    beneath = None if picture.beneath is None else known_beneath(picture)
-    differ = np.isin(causes.cause, [c for c in Cause if c.differs])
+    drawn = drawn_over(comparison.case.picture)
+    differ = np.isin(causes.cause, [c for c in CAUSES if c.explains or c == UNEXPLAINED])
     places = np.argwhere(differ)
-    order = np.argsort(causes.cause[differ] != Cause.UNEXPLAINED, kind="stable")
+    order = np.argsort(causes.cause[differ] != UNEXPLAINED, kind="stable")
     out = []
     for y, x in places[order][:EXAMPLES]:
         row = {
             "pixel": [int(x), int(y)],
             "traced": _name(comparison.scene.objects, int(frame.object_index[y, x])),
             "triangle": int(frame.triangle_index[y, x]),
-            "cause": Cause(causes.cause[y, x]).label,
+            "cause": BY_NUMBER[causes.cause[y, x]].label,
             "why": comparison.told(x, y),
         }
         if identity is not None:
             row["shown"] = _name(identity.names, int(identity.shown[y, x]))
-        if beneath is not None and beneath[y, x]:
-            row["beneath"] = str(features[picture.drawn[y, x]])
+        if drawn[y, x] != NOTHING:
+            row["beneath"] = str(comparison.manifest.unmodelled[drawn[y, x]])
         out.append(row)
     return out
 

@@ -1,58 +1,100 @@
-"""Faults on purpose, one function each: what a mistaken exporter, camera or reader would have made.
+"""Faults made on purpose: what a mistaken exporter, camera or reader would have made.
 
-In comes a right comparison; out goes the same with one thing wrong, or None where there is nothing
-to get wrong. A mistake in the scene is one in all that is exported: the alternatives have it, too.
+A fault takes a right comparison and returns the same with one thing wrong, or None where there is
+nothing to get wrong. A mistake in the scene is also made in the alternatives, as all are exported
+alike.
 """
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
-from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..scene import Instance, Mesh, Scene, ViewWindow
+from ..arrays import Array, Bools
+from ..scene import Camera, Instance, Mesh, Scene, ViewWindow
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
 from .case import Case
+from .picture import Picture
 
-Change = Callable[[NDArray], NDArray]
-Make = Callable[[Case, Frame], Case | None]  # of a comparison's case, and what was traced of it
+Change = Callable[[Array], Array]
 
 _BGRA = [2, 1, 0, 3]
 
 
-def _camera(case: Case, **changes: object) -> Case:
-    camera = replace(case.scene.camera, **changes)
+@dataclass(frozen=True)
+class Fault:
+    """A fault of the self-check."""
+
+    name: str  # in JSON
+    text: str  # what is wrong, in words
+    make: Callable[[Case, Frame], Case | None]  # takes the case and what was traced of its scene
+
+
+def _with_camera(case: Case, camera: Camera) -> Case:
     return case.with_scenes(lambda scene: replace(scene, camera=camera))
 
 
 def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) -> Case:
-    """Scale the view window, and move it by some pixels."""
-    w, (width, height) = case.scene.camera.window, pixel_size(case.scene.camera)
+    """Scale the view window, and move it by (dx, dy) pixels."""
+    camera = case.scene.camera
+    w = camera.window
+    width, height = pixel_size(camera)
     x, y = dx * width, dy * height
-    left, right, bottom, top = (scale * side for side in (w.left, w.right, w.bottom, w.top))
-    return _camera(case, window=ViewWindow(left + x, right + x, bottom + y, top + y))
+    window = ViewWindow(
+        scale * w.left + x, scale * w.right + x, scale * w.bottom + y, scale * w.top + y
+    )
+    return _with_camera(case, replace(camera, window=window))
+
+
+def _half_pixel(case: Case, _: Frame) -> Case:
+    return _window(case, dx=0.5, dy=0.5)
+
+
+def _one_pixel(case: Case, _: Frame) -> Case:
+    return _window(case, dx=1.0)
+
+
+def _sensor_fit(case: Case, _: Frame) -> Case:
+    w = case.scene.camera.window
+    return _window(case, (w.right - w.left) / (w.top - w.bottom))
 
 
 def _axes(change: Change, case: Case, _: Frame) -> Case:
-    """Change the axes of the camera."""
-    matrix = case.scene.camera.world_from_camera.copy()
+    """Change the axes of the camera, the columns of a (3, 3) matrix."""
+    camera = case.scene.camera
+    matrix = camera.world_from_camera.copy()
     matrix[:3, :3] = change(matrix[:3, :3])
-    return _camera(case, world_from_camera=matrix)
+    return _with_camera(case, replace(camera, world_from_camera=matrix))
 
 
-def _picture(change: Change, case: Case, _: Frame, moves: bool = False) -> Case:
-    """Change the picture, and whose surfaces it shows where its pixels move."""
-    names = ("color", "beneath", "owner", "drawn") if moves else ("color", "beneath")
-    held = {name: getattr(case.picture, name) for name in names}
-    changed = {n: np.ascontiguousarray(change(v.copy())) for n, v in held.items() if v is not None}
-    return replace(case, picture=replace(case.picture, **changed))
+def _clip_start(case: Case, frame: Frame) -> Case | None:
+    """Clip halfway between the nearest and the farthest surface that is seen."""
+    t = frame.t[np.isfinite(frame.t)]
+    if not len(t) or np.ptp(t) == 0:
+        return None
+    start = float(np.min(t) + np.max(t)) / 2
+    return _with_camera(case, replace(case.scene.camera, clip_start=start))
+
+
+def _flipped_winding(case: Case, _: Frame) -> Case:
+    every, backwards = slice(None), slice(None, None, -1)
+
+    def flipped(scene: Scene) -> Scene:
+        meshes = tuple(_with_triangles(m, every, backwards) for m in scene.meshes)
+        return replace(scene, meshes=meshes)
+
+    return case.with_scenes(flipped)
+
+
+def _with_triangles(mesh: Mesh, left: Bools | slice, corners: slice = slice(None)) -> Mesh:
+    """Return the mesh of some of the triangles, with their corners in some order."""
+    colors = None if mesh.corner_colors is None else mesh.corner_colors[left][:, corners]
+    triangles = mesh.triangles[left][:, corners]
+    return replace(mesh, triangles=triangles, slots=mesh.slots[left], corner_colors=colors)
 
 
 def _seen(case: Case, frame: Frame) -> list[int]:
@@ -64,7 +106,7 @@ def _seen(case: Case, frame: Frame) -> list[int]:
 
 
 def _in(other: Scene, scene: Scene, number: int) -> int | None:
-    """Return which instance of another export is a scene's: the same one of its object's."""
+    """Return which instance of another export is the scene's: its object's first, second, ..."""
     *before, name = (scene.objects[i.object] for i in scene.instances[: number + 1])
     there = [n for n, i in enumerate(other.instances) if other.objects[i.object] == name]
     rank = before.count(name)
@@ -72,79 +114,59 @@ def _in(other: Scene, scene: Scene, number: int) -> int | None:
 
 
 def _instance(case: Case, number: int, change: Callable[[Instance], Instance | None]) -> Case:
-    """Change an instance, or drop it, wherever it is exported."""
+    """Change an instance, or drop it, in every scene that has it."""
 
     def changed(scene: Scene) -> Scene:
-        own, instances = _in(scene, case.scene, number), list(scene.instances)
-        if own is not None:
-            instances[own : own + 1] = [i for i in [change(instances[own])] if i is not None]
+        own = _in(scene, case.scene, number)
+        if own is None:
+            return scene
+        instances = list(scene.instances)
+        made = change(instances[own])
+        instances[own : own + 1] = [] if made is None else [made]
         return replace(scene, instances=tuple(instances))
 
     return case.with_scenes(changed)
 
 
-def sensor_fit(case: Case, _: Frame) -> Case:
-    """Fit the lens to the picture's other side."""
-    w = case.scene.camera.window
-    return _window(case, (w.right - w.left) / (w.top - w.bottom))
-
-
-def clip_start(case: Case, frame: Frame) -> Case | None:
-    """Clip halfway between the nearest and the farthest that is seen."""
-    t = frame.t[np.isfinite(frame.t)]
-    if not len(t) or t.min() == t.max():
+def _dropped_instance(case: Case, frame: Frame) -> Case | None:
+    seen = _seen(case, frame)
+    if not seen:
         return None
-    return _camera(case, clip_start=float(t.min() + t.max()) / 2)
-
-
-def flipped_winding(case: Case, _: Frame) -> Case:
-    """Turn the normals of all triangles over."""
-    every = slice(None), slice(None, None, -1)
-    return case.with_scenes(lambda s: replace(s, meshes=tuple(_of(m, *every) for m in s.meshes)))
-
-
-def _of(mesh: Mesh, kept: NDArray[np.bool_] | slice, corners: slice = slice(None)) -> Mesh:
-    """Return a mesh of some of the triangles, their corners in some order."""
-    colors = None if mesh.corner_colors is None else mesh.corner_colors[kept][:, corners]
-    triangles, slots = mesh.triangles[kept][:, corners], mesh.slots[kept]
-    return replace(mesh, triangles=triangles, slots=slots, corner_colors=colors)
-
-
-def dropped_instance(case: Case, frame: Frame) -> Case | None:
-    """Leave out the instance that is seen in the most pixels."""
-    if not (seen := _seen(case, frame)):
-        return None
-    owners = case.picture.owners
-    owners = None if owners is None else np.delete(owners, seen[0])
     wrong = _instance(case, seen[0], lambda _: None)
-    return replace(wrong, picture=replace(case.picture, owners=owners))
+    owners = case.picture.owners
+    if owners is None:
+        return wrong
+    return replace(wrong, picture=replace(case.picture, owners=np.delete(owners, seen[0])))
 
 
-def dropped_triangle(case: Case, frame: Frame) -> Case | None:
-    """Leave out the triangle that is seen in the most pixels."""
+def _dropped_triangle(case: Case, frame: Frame) -> Case | None:
     if not _seen(case, frame):
         return None
     names = np.stack((frame.instance_index, frame.triangle_index), axis=-1)
     found, count = np.unique(names[frame.triangle_index >= 0], axis=0, return_counts=True)
-    instance, triangle = (int(n) for n in found[count.argmax()])
+    instance, triangle = (int(n) for n in found[np.argmax(count)])
 
     def less(scene: Scene) -> Scene:
-        own, meshes = _in(scene, case.scene, instance), list(scene.meshes)
-        if own is not None:
-            number = scene.instances[own].mesh
-            kept = np.arange(len(meshes[number].triangles)) != triangle
-            meshes[number] = _of(meshes[number], kept)
+        own = _in(scene, case.scene, instance)
+        if own is None:
+            return scene
+        meshes = list(scene.meshes)
+        number = scene.instances[own].mesh
+        left = np.arange(len(meshes[number].triangles)) != triangle
+        meshes[number] = _with_triangles(meshes[number], left)
         return replace(scene, meshes=tuple(meshes))
 
     return case.with_scenes(less)
 
 
-def moved_object(case: Case, frame: Frame) -> Case | None:
-    """Move the instance that is seen in the most pixels by one of them, to the right."""
-    if not (seen := _seen(case, frame)):
+def _moved_object(case: Case, frame: Frame) -> Case | None:
+    """Move the instance that is seen in the most pixels by a pixel of them, to the right."""
+    seen = _seen(case, frame)
+    if not seen:
         return None
-    camera, t = case.scene.camera, frame.t[frame.instance_index == seen[0]]
-    length = pixel_size(camera)[0] * camera.projection.scale(float(np.median(t)))
+    camera = case.scene.camera
+    depth = float(np.median(frame.t[frame.instance_index == seen[0]]))
+    length = pixel_size(camera)[0] * camera.projection.scale(depth)
 
     def moved(instance: Instance) -> Instance:
         matrix = instance.world_from_object.copy()
@@ -154,72 +176,120 @@ def moved_object(case: Case, frame: Frame) -> Case | None:
     return _instance(case, seen[0], moved)
 
 
-def swapped_colors(case: Case, frame: Frame) -> Case | None:
-    """Give two objects that are seen one another's colours."""
+def _of_one_color(case: Case, frame: Frame) -> list[int]:
+    """Return the instances that are seen without colours of their corners."""
     scene = case.scene
-    colors = {n: scene.instances[n].colors for n in _seen(case, frame)}
-    plain = [n for n in colors if scene.meshes[scene.instances[n].mesh].corner_colors is None]
-    for second in plain[1:]:
-        first = plain[0]
-        if not np.array_equal(colors[first], colors[second]):
-            wrong = _instance(case, first, lambda i, c=colors[second]: replace(i, colors=c))
-            return _instance(wrong, second, lambda i, c=colors[first]: replace(i, colors=c))
+    meshes = {n: scene.meshes[scene.instances[n].mesh] for n in _seen(case, frame)}
+    return [n for n, mesh in meshes.items() if mesh.corner_colors is None]
+
+
+def _in_colors(case: Case, number: int, colors: Array) -> Case:
+    return _instance(case, number, lambda instance: replace(instance, colors=colors))
+
+
+def _swapped_colors(case: Case, frame: Frame) -> Case | None:
+    """Give the largest object and another one each other's colours."""
+    instances = case.scene.instances
+    first, *others = _of_one_color(case, frame) or [0]
+    for second in others:
+        own, other = instances[first].colors, instances[second].colors
+        if not np.array_equal(own, other):
+            return _in_colors(_in_colors(case, first, other), second, own)
     return None
 
 
 def _recolored(change: Change, case: Case, frame: Frame) -> Case | None:
-    """Change the colours of the largest object that they change."""
-    for number in _seen(case, frame):
-        of = case.scene.instances[number]
-        plain = case.scene.meshes[of.mesh].corner_colors is None
-        if plain and not np.allclose(colors := change(of.colors), of.colors):
-            return _instance(case, number, lambda i, c=colors: replace(i, colors=c))
+    """Change the colours of the largest object whose colours that changes."""
+    for number in _of_one_color(case, frame):
+        colors = case.scene.instances[number].colors
+        if not np.allclose(change(colors), colors):
+            return _in_colors(case, number, change(colors))
     return None
 
 
-def wrong_frame(case: Case, _: Frame) -> Case | None:
-    """Trace the scene a frame later."""
+def _wrong_frame(case: Case, _: Frame) -> Case | None:
     if case.next_frame is None:
         return None
     wrong = replace(case, scene=case.next_frame)
     if len(wrong.scene.instances) == len(case.scene.instances):
         return wrong
-    return replace(wrong, picture=replace(case.picture, owner=None, owners=None))  # not known
+    # Which of the objects is which instance is not known.
+    return replace(wrong, picture=replace(case.picture, owner=None, owners=None))
 
 
-def _gamma(color: NDArray) -> NDArray:
+def _moved_picture(change: Change, case: Case, _: Frame) -> Case:
+    """Move the picture's pixels, with the objects that they show."""
+
+    def changed(values: Array | None) -> Array | None:
+        return None if values is None else np.ascontiguousarray(change(values))
+
+    own = _with_colors(change, case.picture)
+    moved = replace(own, owner=changed(own.owner), drawn=changed(own.drawn))
+    return replace(case, picture=moved)
+
+
+def _recolored_picture(change: Change, case: Case, _: Frame) -> Case:
+    return replace(case, picture=_with_colors(change, case.picture))
+
+
+def _with_colors(change: Change, picture: Picture) -> Picture:
+    """Change the picture's colours, and those beneath what draws itself."""
+    color = np.ascontiguousarray(change(picture.color))
+    if picture.beneath is None:
+        return replace(picture, color=color)
+    beneath = np.ascontiguousarray(change(picture.beneath))
+    return replace(picture, color=color, beneath=beneath)
+
+
+def _gamma(color: Array) -> Array:
+    color = color.copy()
     color[..., :3] = np.sign(color[..., :3]) * np.abs(color[..., :3]) ** np.float32(1 / 2.2)
     return color
 
 
-class Fault(NamedTuple):
-    """A fault's name, what it stands for, and what makes it."""
-
-    name: str
-    text: str
-    make: Make
-
-
-_MAKES: dict[str, Make] = {
-    "half_pixel": lambda c, _: _window(c, 1, 0.5, 0.5),
-    "one_pixel": lambda c, _: _window(c, 1, 1),
-    "mirrored_x": partial(_axes, lambda m: m * (-1, 1, 1)),
-    "mirrored_y": partial(_axes, lambda m: m * (1, -1, 1)),
-    "sensor_fit": sensor_fit,
-    "camera_transposed": partial(_axes, np.transpose),
-    "clip_start": clip_start,
-    "flipped_winding": flipped_winding,
-    "dropped_instance": dropped_instance,
-    "dropped_triangle": dropped_triangle,
-    "moved_object": moved_object,
-    "swapped_colors": swapped_colors,
-    "one_shade": partial(_recolored, lambda c: c * (0.5, 0.5, 0.5, 1)),
-    "one_channels": partial(_recolored, lambda c: c[:, _BGRA]),
-    "wrong_frame": wrong_frame,
-    "border": partial(_picture, lambda v: np.roll(v, 1, axis=0), moves=True),
-    "rows": partial(_picture, np.flipud, moves=True),
-    "channels": partial(_picture, lambda v: v[..., _BGRA]),
-    "gamma": partial(_picture, _gamma),
-}
-_TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-FAULTS = tuple(Fault(name, text, _MAKES[name]) for name, text in _TEXTS.items())
+# In the order in which a self-check makes them.
+FAULTS = (
+    Fault("half_pixel", "rays through the pixels' corners", _half_pixel),
+    Fault("one_pixel", "the camera off by a pixel to the right", _one_pixel),
+    Fault(
+        "mirrored_x",
+        "the camera mirrored left to right",
+        partial(_axes, lambda axes: axes * (-1, 1, 1)),
+    ),
+    Fault(
+        "mirrored_y",
+        "the camera mirrored upside down",
+        partial(_axes, lambda axes: axes * (1, -1, 1)),
+    ),
+    Fault("sensor_fit", "the lens fitted to the picture's other side", _sensor_fit),
+    Fault("camera_transposed", "the camera's rotation inverted", partial(_axes, np.transpose)),
+    Fault("clip_start", "the clip start halfway into the scene", _clip_start),
+    Fault("flipped_winding", "all normals turned over", _flipped_winding),
+    Fault("dropped_instance", "the largest object left out", _dropped_instance),
+    Fault("dropped_triangle", "the largest triangle left out", _dropped_triangle),
+    Fault("moved_object", "the largest object moved by a pixel", _moved_object),
+    Fault("swapped_colors", "two objects with one another's colours", _swapped_colors),
+    Fault(
+        "one_shade",
+        "one object half as bright",
+        partial(_recolored, lambda colors: colors * (0.5, 0.5, 0.5, 1)),
+    ),
+    Fault(
+        "one_channels",
+        "one object's red and blue swapped",
+        partial(_recolored, lambda colors: colors[:, _BGRA]),
+    ),
+    Fault("wrong_frame", "the scene a frame later", _wrong_frame),
+    Fault(
+        "border",
+        "the border off by one row",
+        partial(_moved_picture, lambda values: np.roll(values, 1, axis=0)),
+    ),
+    Fault("rows", "the picture's rows from top to bottom", partial(_moved_picture, np.flipud)),
+    Fault(
+        "channels",
+        "red and blue swapped",
+        partial(_recolored_picture, lambda color: color[..., _BGRA]),
+    ),
+    Fault("gamma", "a gamma of 2.2 applied to the picture", partial(_recolored_picture, _gamma)),
+)

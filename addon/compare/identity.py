@@ -1,9 +1,9 @@
-"""Whose surface each pixel shows, on both sides, and numbers as colours that survive a renderer.
+"""Tells which object each pixel shows on both sides, by colours that stand for numbers.
 
 A picture in which every object has a colour of its own says which object Blender shows. A number
-becomes three digits of LEVELS, one a channel, whose sum is even: half floats and steps of 1/255 are
-far smaller than a digit's step, and a mix of two colours, or a colour that is nobody's, mostly
-falls between digits or has an odd sum. Then nothing is said.
+becomes three digits of LEVELS, one a channel, with an even sum. Half floats and steps of 1/255 are
+far smaller than a digit's step, so a renderer does not change a digit. A mix of two colours mostly
+falls between digits, or has an odd sum: then the object is not known.
 """
 
 from __future__ import annotations
@@ -11,29 +11,26 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Colors, Floats, Integers
 from ..runs import by_runs
 
 NOTHING, UNKNOWN = -1, -2
 
 LEVELS = 32  # of a channel: a step is 8 of 255
-MOST_OBJECTS = LEVELS**3 // 2  # objects that are told apart
-_OFF = 0.1  # of a step: so far a channel may lie from its digit (1/255 is 0.12 of one, halved)
+MOST_OBJECTS = LEVELS**3 // 2  # that can be told apart
+_OFF = 0.1  # how far a channel may lie from its digit, in steps (half of 1/255 is 0.06)
 
 
 class Identity(NamedTuple):
-    """Which object each side shows.
-
-    `traced` and `shown` are (h, w) int32: indices into `names`, NOTHING or UNKNOWN.
-    """
+    """Which object each side shows."""
 
     names: tuple[str, ...]
-    traced: NDArray[np.int32]
-    shown: NDArray[np.int32]
+    traced: Integers  # (h, w) indices into `names`, or NOTHING
+    shown: Integers  # (h, w) indices into `names`, NOTHING or UNKNOWN
 
-    def counts(self, where: NDArray[np.bool_] | bool = True) -> dict[str, int]:
-        """Count the pixels (of some) that show the same object, another, or what is not known."""
+    def counts(self, where: Bools | bool = True) -> dict[str, int]:
+        """Count the pixels, or some, that show the same object, another, or one not known."""
         unknown = self.shown == UNKNOWN
         same = self.shown == self.traced
         return {
@@ -47,7 +44,7 @@ class Identity(NamedTuple):
         return {"names": list(self.names), "pixels": self.counts()}
 
 
-def colors_of(count: int) -> NDArray[np.float32]:
+def colors_of(count: int) -> Colors:
     """Return the colours that stand for the numbers 0 to count - 1, (count, 3) linear RGB.
 
     Raises
@@ -65,17 +62,17 @@ def colors_of(count: int) -> NDArray[np.float32]:
     return (np.stack((red, green, blue), axis=-1) / (LEVELS - 1)).astype(np.float32)
 
 
-def decode(picture: NDArray[np.floating], count: int) -> NDArray[np.int32]:
-    """Return the numbers (h, w) that a picture's colours (h, w, 4) stand for.
+def decode(picture: Floats, count: int) -> Integers:
+    """Return the numbers (h, w) that a picture's colours stand for.
 
-    Linear RGBA, premultiplied: NOTHING where it is transparent, UNKNOWN where it is none of the
-    first `count` colours.
+    The picture is (h, w, 4), linear RGBA, premultiplied. A pixel is NOTHING where it is
+    transparent, and UNKNOWN where it has none of the first `count` colours.
     """
     flat = picture.reshape(-1, picture.shape[-1])
     return by_runs(lambda some: _decode(some, count), flat).reshape(picture.shape[:-1])
 
 
-def _decode(colors: NDArray[np.floating], count: int) -> NDArray[np.int32]:
+def _decode(colors: Floats, count: int) -> Integers:
     with np.errstate(invalid="ignore"):
         scaled = np.nan_to_num(colors[..., :3].astype(np.float64), nan=0.5) * (LEVELS - 1)
         digits = np.rint(np.clip(scaled, 0, LEVELS - 1)).astype(np.int32)

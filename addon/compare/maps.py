@@ -1,26 +1,28 @@
-"""Maps over a traced picture: it is dimmed and grey there, so that single pixels stand out.
+"""Draws maps over a traced picture, which is dimmed and grey so that single pixels stand out.
 
-All are of pictures (h, w, 4), or of some rows of them: linear RGBA, opaque.
+All take and return linear RGBA (h, w, 4), opaque, or some rows of it.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Bytes, Colors
 from ..certainty import Certainty
 from ..images import curve_undone
 from ..runs import by_runs
-from .cause import Cause, Color
+from .cause import Color
+from .causes import CAUSES
 
 WRONG: Color = (1.0, 0.0, 0.0)
-DIM = 0.25  # of what lies below
-RING, MOST_RINGS = 6, 500  # pixels from the one that is marked; rings, so that these are found
+DIM = 0.25  # the share of its light that the picture keeps
+RING = 6  # pixels from the one that is marked to its ring
+MOST_RINGS = 500  # of more pixels none is marked: they are found without
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear Rec. 709
 
 
-def dimmed(color: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return a picture's light, dimmed."""
+def dimmed(color: Colors) -> Colors:
+    """Return a picture in dimmed greys."""
     flat = color.reshape(-1, 4)
     light = by_runs(lambda c: DIM * (np.nan_to_num(c[:, :3]) @ np.array(_LUMINANCE)), flat)
     out = np.ones(color.shape, np.float32)
@@ -28,17 +30,17 @@ def dimmed(color: NDArray[np.float32]) -> NDArray[np.float32]:
     return out
 
 
-def wrong_map(color: NDArray[np.float32], wrong: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Return a picture with the pixels that are wrong (h, w)."""
+def wrong_map(color: Colors, wrong: Bools) -> Colors:
+    """Return a map of the pixels (h, w) that are wrong."""
     out = dimmed(color)
     out[wrong, :3] = WRONG
     return out
 
 
-def cause_map(color: NDArray[np.float32], cause: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Return a picture with the pixels that have a `Cause` other than to agree (h, w)."""
+def cause_map(color: Colors, cause: Bytes) -> Colors:
+    """Return a map of the causes (h, w) of pixels that do not agree."""
     out = dimmed(color)
-    for c in Cause:
+    for c in CAUSES:
         if c.color is not None:
             where = cause == c
             share = 0.5 if c.see_through else 1.0
@@ -46,10 +48,10 @@ def cause_map(color: NDArray[np.float32], cause: NDArray[np.uint8]) -> NDArray[n
     return out
 
 
-def certainty_map(color: NDArray[np.float32], certainty: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """Return a picture with the `Certainty` of each pixel (h, w).
+def certainty_map(color: Colors, certainty: Bytes) -> Colors:
+    """Return a map of the `Certainty` of each pixel (h, w).
 
-    What whole surfaces have leaves these visible.
+    Where whole surfaces are of one certainty, the picture stays visible.
     """
     table = np.array([bytearray.fromhex(c.color[1:]) for c in Certainty])
     share = np.array([0.5 if c < Certainty.EXACT else 1.0 for c in Certainty])[certainty][..., None]
@@ -58,15 +60,16 @@ def certainty_map(color: NDArray[np.float32], certainty: NDArray[np.uint8]) -> N
     return out
 
 
-def ringed(color: NDArray[np.float32], where: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """Return a picture with a ring of its own colour around each of few pixels (h, w)."""
+def ringed(color: Colors, where: Bools) -> Colors:
+    """Return a picture with a ring around each of a few pixels (h, w), in the pixel's colour."""
     y, x = np.nonzero(where)
     if not 0 < len(y) <= MOST_RINGS:
         return color
-    out, (height, width) = color.copy(), where.shape
+    out = color.copy()
     dy, dx = np.mgrid[-RING : RING + 1, -RING : RING + 1]
-    on = np.maximum(abs(dy), abs(dx)) >= RING - 1
-    at = np.clip(y[:, None] + dy[on], 0, height - 1), np.clip(x[:, None] + dx[on], 0, width - 1)
-    out[at] = color[y, x][:, None]
+    ring = np.maximum(abs(dy), abs(dx)) >= RING - 1
+    rows = np.clip(y[:, None] + dy[ring], 0, where.shape[0] - 1)
+    columns = np.clip(x[:, None] + dx[ring], 0, where.shape[1] - 1)
+    out[rows, columns] = color[y, x][:, None]
     out[y, x] = color[y, x]
     return out

@@ -1,4 +1,4 @@
-"""What the textbook and the certified tracer make of the same picture: wrong pixels, seconds."""
+"""Traces the same scene by the textbook and certified: which pixels are wrong, and the seconds."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from ..tracer.settings import Precision, Settings
 
 
 class MethodRow(NamedTuple):
-    """One way to trace a picture."""
+    """One way to trace a picture, and what came of it."""
 
     method: str
     precision: str
     samples: int
     seconds: float
-    wrong_pixels: int | None  # whose surface is not the certified one; None: nothing is certified
-    ambiguous: int  # pixels that have no unique answer, which the certified tracer's rule decided
+    wrong_pixels: int | None  # that see another surface than certified; None: nothing is certified
+    ambiguous: int  # pixels without a unique answer, which the certified tracer's rule decided
     required: tuple[str, ...] = ()  # what the scene required, in words
 
     def to_dict(self) -> dict[str, Any]:
@@ -40,32 +40,38 @@ class MethodRow(NamedTuple):
 def list_methods(
     scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
 ) -> Work[tuple[tuple[MethodRow, ...], Frame]]:
-    """Trace a scene by the textbook and certified, too; yields the share of the work done.
+    """Trace a scene with the textbook and certified, too; yields the share of the work done.
 
-    Returns a row of the certified tracer where that is possible, of the textbook in float64, and of
-    `frame`, which was traced with `settings`, if it is neither; and the textbook's frame.
+    Returns a row for the certified tracer (where numpy keeps what the proof assumes), one for the
+    textbook in float64, and one for `frame`, which was traced with `settings`, if it is neither;
+    and the textbook's frame.
     """
-    own = Method(frame.statistics.method), settings.precision
-    possible = [Method.TEXTBOOK] if broken_assumptions() else [Method.CERTIFIED, Method.TEXTBOOK]
-    wanted = [(method, Precision.FLOAT64) for method in possible]
-    frames = dict.fromkeys(wanted) | {own: frame}
-    missing = [w for w in wanted if w != own]
-    for number, key in enumerate(missing):
-        frames[key] = Frame.empty(scene)
-        tracing = steps(scene, Settings(*key), frames[key], tracer)
+    own = Method(frame.statistics.method), Precision(settings.precision)
+    textbook = Method.TEXTBOOK, Precision.FLOAT64
+    certified = Method.CERTIFIED, Precision.FLOAT64
+    wanted = [textbook] if broken_assumptions() else [certified, textbook]
+    missing = [way for way in wanted if way != own]
+    frames = {own: frame}
+    for number, way in enumerate(missing):
+        frames[way] = Frame.empty(scene)
+        tracing = steps(scene, Settings(*way), frames[way], tracer)
         yield from scaled(tracing, number / len(missing), 1 / len(missing))
-    truth = frames[wanted[0]] if Method.CERTIFIED in possible else None
-    rows = tuple(
-        _row(*key, settings.samples if key == own else 1, traced, truth)
-        for key, traced in frames.items()
-    )
-    return rows, frames[wanted[-1]]
+    truth = frames.get(certified)
+    rows = []
+    for way in dict.fromkeys([*wanted, own]):
+        samples = settings.samples if way == own else 1
+        rows.append(_row(way, samples, frames[way], truth))
+    return tuple(rows), frames[textbook]
 
 
 def _row(
-    method: Method, precision: Precision, samples: int, frame: Frame, truth: Frame | None
+    way: tuple[Method, Precision], samples: int, frame: Frame, truth: Frame | None
 ) -> MethodRow:
-    wrong = None if truth is None else int(frame.wrong_against(truth).sum())
-    ambiguous = 0 if truth is None else int((truth.certainty == Certainty.AMBIGUOUS).sum())
-    names, took = (method.value, precision.value), frame.statistics
-    return MethodRow(*names, samples, took.seconds, wrong, ambiguous, tuple(took.required()))
+    wrong, ambiguous = None, 0
+    if truth is not None:
+        wrong = int(frame.wrong_against(truth).sum())
+        ambiguous = int((truth.certainty == Certainty.AMBIGUOUS).sum())
+    took = frame.statistics
+    return MethodRow(
+        way[0].value, way[1].value, samples, took.seconds, wrong, ambiguous, tuple(took.required())
+    )

@@ -1,29 +1,24 @@
-"""How far two pictures differ, and in how many pixels: RMSE, PSNR, SSIM, and counts by cause.
+"""Measures how far two pictures differ: RMSE, PSNR, SSIM, the largest difference.
 
 Pictures are (h, w, c) of any real type; the data range is given, not guessed.
 """
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Bools, Colors, Floats
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .bounds import largest_within
-from .cause import Cause, Causes
-from .identity import Identity
 
 _ROWS, _COLUMNS = 32, 64  # looked at together, so that a step is short
-EXAMPLES = 10  # pixels named of each cause
 
 
-def rmse(first: NDArray, second: NDArray) -> float:
-    """Return the root of the mean squared difference over all pixels and channels.
+def rmse(first: Array, second: Array) -> float:
+    """Return the root of the mean squared difference over all pixels and channels of (h, w, c).
 
     Raises
     ------
@@ -39,13 +34,17 @@ def psnr(error: float, data_range: float = 1.0) -> float:
     return float("inf") if error == 0 else float(20 * np.log10(data_range / error))
 
 
-def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7) -> Work[float]:
-    """Return the mean structural similarity of two pictures, 1 for equal ones.
+def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) -> Work[float]:
+    """Return the mean structural similarity of two pictures (h, w, c), 1 for equal ones.
 
+    The window is uniform, `size` x `size` pixels, or in smaller pictures the largest odd one that
+    fits. Covariances are of samples, K1 = 0.01 and K2 = 0.03. The mean is over the windows that lie
+    inside the picture, and over the channels.
+
+    References
+    ----------
     Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to
-    structural similarity", 2004; with a uniform window of `size` x `size` pixels, sample
-    covariances, K1 = 0.01 and K2 = 0.03, averaged over the windows that lie inside the picture and
-    over the channels. Smaller pictures take the largest odd window that fits.
+    structural similarity", 2004.
     """
     _same_shape(first, second)
     shortest = min(first.shape[:2])
@@ -55,19 +54,21 @@ def ssim(first: NDArray, second: NDArray, data_range: float = 1.0, size: int = 7
         for x in range(0, width, _COLUMNS):
             rows, columns = min(_ROWS, height - y), min(_COLUMNS, width - x)
             part = np.s_[y : y + rows + size - 1, x : x + columns + size - 1]
-            sides = first[part], second[part]
-            if all((side == side[0, 0]).all() for side in sides):  # each window is as the others
-                sides = tuple(side[:size, :size] for side in sides)
-            total += rows * columns * _similarity(*sides, data_range, size).mean(axis=(0, 1)).sum()
+            one, other = first[part], second[part]
+            if (one == one[0, 0]).all() and (other == other[0, 0]).all():
+                # All windows are alike: one is enough.
+                one, other = one[:size, :size], other[:size, :size]
+            similarity = _similarity(one, other, data_range, size)
+            total += rows * columns * similarity.mean(axis=(0, 1)).sum()
         yield y / height
     return float(total / (height * width * first.shape[2]))
 
 
-def _similarity(first: NDArray, second: NDArray, data_range: float, size: int) -> NDArray:
+def _similarity(first: Array, second: Array, data_range: float, size: int) -> Floats:
     """Return the similarity of every window and channel."""
     x, y = first.astype(np.float64), second.astype(np.float64)
     samples = size * size
-    unbiased = samples / (samples - 1) if samples > 1 else 1.0
+    unbiased = samples / (samples - 1) if samples > 1 else 1.0  # of covariances
     ux, uy = _window_mean(x, size), _window_mean(y, size)
     vx = unbiased * (_window_mean(x * x, size) - ux * ux)
     vy = unbiased * (_window_mean(y * y, size) - uy * uy)
@@ -76,24 +77,23 @@ def _similarity(first: NDArray, second: NDArray, data_range: float, size: int) -
     return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
 
 
-def largest_difference(first: NDArray, second: NDArray) -> dict[str, Any]:
+def largest_difference(first: Array, second: Array) -> dict[str, Any]:
     """Return the largest absolute difference, with the pixel (x, y; row 0 first) and channel."""
     _same_shape(first, second)
     difference = np.abs(first.astype(np.float64) - second)
-    y, x, channel = np.unravel_index(int(difference.argmax()), difference.shape)
+    y, x, channel = np.unravel_index(int(np.argmax(difference)), difference.shape)
     value = float(difference[y, x, channel])
     return {"value": value, "pixel": [int(x), int(y)], "channel": int(channel)}
 
 
-def image_metrics(
-    traced: NDArray[np.float32], picture: NDArray[np.float32]
-) -> Work[dict[str, Any]]:
-    """Measure how far two pictures of linear RGBA differ; what is not a number counts as 0.
+def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
+    """Measure how far two pictures (h, w, 4) of linear RGBA differ; NaN counts as 0.
 
-    RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
+    Returns RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
     """
     a, b = np.empty_like(traced), np.empty_like(picture)
-    height, squares, largest = len(a), 0.0, {"value": -1.0}
+    height, squares = len(a), 0.0
+    largest: dict[str, Any] = {"value": -1.0}
     for start in range(0, height, _ROWS):
         rows = slice(start, min(start + _ROWS, height))
         for made, of in ((a, traced), (b, picture)):
@@ -101,98 +101,42 @@ def image_metrics(
         squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
         found = largest_difference(a[rows], b[rows])
         if found["value"] > largest["value"]:
-            largest = found | {"pixel": [found["pixel"][0], found["pixel"][1] + start]}
+            x, y = found["pixel"]
+            largest = found | {"pixel": [x, y + start]}
         yield 0.2 * start / height
     error = float(np.sqrt(squares / height))
     similarity = yield from scaled(ssim(a, b), 0.2, 0.8)
-    told = {"rmse": error, "psnr": psnr(error) if error else None, "ssim": similarity}
-    return told | {"largest_difference": largest}
+    return {
+        "rmse": error,
+        "psnr": psnr(error) if error else None,
+        "ssim": similarity,
+        "largest_difference": largest,
+    }
 
 
-def _window_mean(picture: NDArray[np.float64], size: int) -> NDArray[np.float64]:
-    """Return the mean over every size x size window; sums of 1, 2, 4... make up those of `size`."""
+def _window_mean(picture: Floats, size: int) -> Floats:
+    """Return the mean over every window of size x size pixels."""
     for axis in (0, 1):
-        picture = picture.swapaxes(axis, 0)
-        count, sums, done, total = len(picture) - size + 1, picture, 0, 0.0
-        for bit in range(size.bit_length()):
-            step = 1 << bit
-            if size & step:
-                total = total + sums[done : done + count]
-                done += step
-            sums = sums[:-step] + sums[step:]
+        lines = picture.swapaxes(axis, 0)
+        count = len(lines) - size + 1
+        total = np.zeros_like(lines[:count])
+        for first in range(size):
+            total += lines[first : first + count]
         picture = (total / size).swapaxes(axis, 0)
     return picture
 
 
-def _same_shape(first: NDArray, second: NDArray) -> None:
+def _same_shape(first: Array, second: Array) -> None:
     if first.shape != second.shape or first.ndim != 3:
         raise ValueError(
             f"Pictures must be (h, w, c) of one size, not {first.shape} and {second.shape}."
         )
 
 
-def boundary(frame: Frame) -> NDArray[np.bool_]:
-    """Return which pixels see, with the eight around them, more than one appearance of an object.
+def boundary(frame: Frame) -> Bools:
+    """Return which pixels (h, w) see another instance than one of the eight pixels around them.
 
-    The background is one, too. Beyond the picture's rim is what its outermost pixels see.
+    The background counts as an instance.
     """
     seen = frame.instance_index
     return (largest_within(seen, 1) != seen) | (largest_within(-seen, 1) != -seen)
-
-
-def count_pixels(
-    causes: Causes,
-    at_boundary: NDArray[np.bool_],
-    identity: Identity | None = None,
-    features: Sequence[str] = (),
-) -> dict[str, Any]:
-    """Count pixels by what is said of them, and those at boundaries and inside apart.
-
-    total = agree + differ + not_decidable + not_traced, and differ = explained + unexplained. The
-    `examples` are some pixels of each cause, spread over them, [x, y] of the region from its
-    lower left. Where it is known whose surfaces are shown, `unexplained_shows` says whether what is
-    unexplained is a wrong colour (the same object) or a wrong object. `not_judged` counts pixels
-    in which a fault would be excused, and by which of the unmodelled features excuses it.
-    """
-    cause = causes.cause
-    out = _counts(cause)
-    out["interior"] = _counts(cause[~at_boundary])
-    out["boundary"] = _counts(cause[at_boundary])
-    out["examples"] = {
-        c.key: _positions(cause == c) for c in sorted(Cause) if out["by_cause"].get(c.key)
-    }
-    blind = causes.blind[causes.blind >= 0]
-    found, count = np.unique(blind, return_counts=True)
-    by_feature: Counter[str] = Counter()
-    for n, many in zip(found, count, strict=True):
-        by_feature[features[n]] += int(many)
-    out["not_judged"] = {
-        "pixels": len(blind),
-        "share": len(blind) / max(cause.size, 1),
-        "by_feature": dict(by_feature.most_common()),
-    }
-    if identity is not None:
-        out["unexplained_shows"] = identity.counts(cause == Cause.UNEXPLAINED)
-    return out
-
-
-def _counts(cause: NDArray[np.uint8]) -> dict[str, Any]:
-    count = {c: int((cause == c).sum()) for c in sorted(Cause)}
-    explained = sum(n for c, n in count.items() if c.explains)
-    return {
-        "total": cause.size,
-        "agree": count[Cause.AGREE],
-        "differ": explained + count[Cause.UNEXPLAINED],
-        "explained": explained,
-        "unexplained": count[Cause.UNEXPLAINED],
-        "not_decidable": count[Cause.NOT_DECIDABLE],
-        "not_traced": count[Cause.NOT_TRACED],
-        "by_cause": {c.key: n for c, n in count.items() if c.differs or c is Cause.NOT_DECIDABLE},
-    }
-
-
-def _positions(where: NDArray[np.bool_]) -> list[list[int]]:
-    """Return some pixels, spread evenly over all, as [x, y] from the lower left."""
-    found = np.flatnonzero(where)
-    chosen = np.linspace(0, len(found) - 1, min(len(found), EXAMPLES)).astype(int)
-    return [[int(i % where.shape[1]), int(i // where.shape[1])] for i in found[chosen]]

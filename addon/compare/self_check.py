@@ -1,11 +1,10 @@
-"""The threshold self-check: whether this comparison would have found a fault in this very scene.
+"""The self-check: whether this comparison would have found a fault in this very scene.
 
 Known faults are made, one at a time, and explained as the comparison itself was: by the same
-function, method, alternatives and curves. A fault is caught where it leaves pixels unexplained, or
-where the comparison names a transform of the colours that it did not name before. One that changes
-no pixel here, as a mirrored camera before a symmetric scene, cannot be seen: that is said, with the
-number of pixels that it changed, and not counted as caught. Nor is one counted that changes but
-pixels that cannot be judged: it is said to be one.
+function, method, alternatives and curves. A fault is caught if it leaves pixels unexplained, or if
+the comparison then names a transform of the colours that it did not name before. Two kinds of
+faults are reported, but not counted: those that change no pixel here, as a mirrored camera before
+a symmetric scene, and those that change only pixels that cannot be judged.
 """
 
 from __future__ import annotations
@@ -14,41 +13,34 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools
 from ..rendering import steps
 from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .bounds import differing
 from .case import Case
-from .cause import Cause, Causes
-from .causes import explain
+from .cause import AGREE, UNEXPLAINED, Causes
+from .causes import CAUSES, explain
 from .faults import FAULTS, Fault
 
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
 
 class FaultRow(NamedTuple):
-    """A fault, and what the comparison made of it.
-
-    `changed` pixels of the traced picture (or of Blender's) are others than without the fault;
-    `differ` then differ, `looked_at` of these were asked for their cause, and `unexplained` had
-    none. All are `within_rounding` where what Blender's own float32 may do accounts for each. A
-    transform of the colours that only the faulty comparison names is in `named`. It is `blind`
-    where it changes but pixels that cannot be judged.
-    """
+    """A fault, and what the comparison made of it."""
 
     name: str
     text: str
-    changed: int = 0
-    differ: int = 0
-    looked_at: int = 0
-    unexplained: int = 0
-    within_rounding: bool = False
+    changed: int = 0  # pixels that the fault changes, in the traced picture or in Blender's
+    differ: int = 0  # of those, pixels that differ then
+    looked_at: int = 0  # of those, pixels whose cause was looked for
+    unexplained: int = 0  # of those, pixels that have none
+    within_rounding: bool = False  # Blender's own float32 accounts for every changed pixel
     note: str = ""
-    named: bool = False
-    blind: bool = False
+    named: bool = False  # only the faulty comparison names a transform of the colours
+    blind: bool = False  # no changed pixel can be judged
 
     @property
     def result(self) -> str:
@@ -79,10 +71,12 @@ def self_check(
 
     `case` is the right one, as it was given; `frame` was traced, and `causes` were found of it.
     """
-    rows, part = [], 1 / len(faults)
+    rows: list[FaultRow] = []
+    part = 1 / len(faults)
     for fault in faults:
         checking = _checked(case, frame, causes, fault)
-        rows.append((yield from scaled(checking, len(rows) * part, part)))
+        row = yield from scaled(checking, len(rows) * part, part)
+        rows.append(row)
     return tuple(rows)
 
 
@@ -90,7 +84,7 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     row = FaultRow(fault.name, fault.text)
     try:
         wrong = fault.make(case, frame)
-    except SceneError as error:  # nothing can be traced with it: nobody would miss that
+    except SceneError as error:  # the scene cannot be traced then, which nobody would overlook
         return row._replace(note=f"refused: {error}")
     if wrong is None:
         return row._replace(note="there is nothing to get wrong")
@@ -101,16 +95,17 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     changed = _changed(case, frame, wrong, traced)
     if not changed.any():
         return row
-    found = (yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)).causes
+    explained = yield from scaled(explain(wrong, traced, SAMPLE), 0.3, 0.7)
+    found = explained.causes
     of_fault = found.cause[changed]
-    looked_at = int((of_fault != Cause.AGREE).sum())
+    looked_at = int((of_fault != AGREE).sum())
     named = bool(found.transform) and found.transform != causes.transform
-    rounding = [c for c in Cause if c.rounding or c is Cause.AGREE]
+    rounding = [c for c in CAUSES if c.rounding or c == AGREE]
     return row._replace(
         changed=int(changed.sum()),
         differ=looked_at + len(found.passed_over),
         looked_at=looked_at,
-        unexplained=int((of_fault == Cause.UNEXPLAINED).sum()),
+        unexplained=int((of_fault == UNEXPLAINED).sum()),
         within_rounding=bool(np.isin(of_fault, rounding).all()),
         note=f"named: {found.transform}" if named else "",
         named=named,
@@ -118,8 +113,8 @@ def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[Fau
     )
 
 
-def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> NDArray[np.bool_]:
-    """Return which pixels (h, w) the fault changes: their colour, or whose surface they show."""
+def _changed(case: Case, frame: Frame, wrong: Case, traced: Frame) -> Bools:
+    """Return which pixels (h, w) the fault changes: their colour, or the object that they show."""
     right, picture = case.picture, wrong.picture
     if wrong.scene is case.scene:
         changed = differing(right.color, picture.color)
@@ -138,10 +133,10 @@ def table(rows: Sequence[FaultRow]) -> list[str]:
     seen = caught + sum(r.missed for r in rows)
     out = [f"self-check: {caught} of {seen} faults that can be seen here are caught"]
     if blind := sum(r.blind and r.result != "caught" for r in rows):
-        out[0] += f"; {blind} more change nothing but what cannot be judged"
+        out[0] += f"; {blind} more change only what cannot be judged"
     for r in rows:
         pixels = f"{r.unexplained:,} of {r.looked_at:,} px unexplained" if r.changed else ""
-        said = ", ".join(filter(None, (pixels, r.note)))
-        told = f" ({said})" if said else ""
+        notes = ", ".join(filter(None, (pixels, r.note)))
+        told = f" ({notes})" if notes else ""
         out.append(f"  {r.name.replace('_', ' '):18} {r.result}{told}: {r.text}")
     return out

@@ -17,7 +17,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .projection import Edges, Floats, Formulas, Projection, Vectors
+from ..arrays import Floats
+from .projection import Edges, Formulas, Projection, Vectors
 from .sine import sine
 
 # Radians: far above the rounding of an angle that is found here, where it is not near pi / 2.

@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .projection import Edges, Floats, Formulas, Projection, shifts
+from ..arrays import Floats
+from .projection import Edges, Formulas, Projection, shifts
 
 
 @dataclass(frozen=True)

@@ -136,14 +136,14 @@ def _wrong_pixels(trade: Trade, box: tuple[float, ...]) -> str:
     out += axes.drawn(title, x_label, "wrong pixels")
     for r, y in points:
         bar = axes.at(r.fastest, y), axes.at(r.slowest, y)
-        out += plots.line(bar, Method(r.method).color, 4, opacity=0.4)
+        out += plots.line(bar, Method(r.method).record.color, 4, opacity=0.4)
     names = {_name(r): axes.at(r.slowest, y) for r, y in named}
     return out + _points(axes, points, "best_pixels", names)
 
 
 def _name(r: TradeRow) -> str:
     count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
-    return f"{Method(r.method).words}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
+    return f"{Method(r.method).record.words}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
 
 
 def _coverage(trade: Trade, box: tuple[float, ...]) -> str:
@@ -179,9 +179,9 @@ def _points(
     out = plots.line(front, plots.INK, 4)
     for is_best, at, r in sorted(places, key=lambda p: p[0]):
         wrong = f"{r.wrong_pixels:,} wrong pixels, coverage error {r.coverage_error:.4g}"
-        title = f"{Method(r.method).words}, {r.precision}, {_size(r)}: {r.seconds:.4g} s, {wrong}"
+        title = f"{Method(r.method).record.words}, {r.precision}, {_size(r)}: {r.seconds:.4g} s, {wrong}"
         size, alpha = (14, 1.0) if is_best else (9, 0.7)
-        color, hollow = Method(r.method).color, r.precision == "float32"
+        color, hollow = Method(r.method).record.color, r.precision == "float32"
         out += plots.mark(at, size, color, hollow, title, opacity=alpha)
     on_line = np.linspace(front[:-1], front[1:], 9).reshape(-1, 2).tolist()
     return out + _named(axes, names, [*(at for _, at, _ in places), *on_line])

@@ -167,7 +167,7 @@ def _costs(one: TradeRow, other: TradeRow) -> str:
 def _takes(share: float, rival: TradeRow) -> str:
     count = f"{rival.wrong_pixels:,}" if rival.wrong_pixels else "no"
     wrong = f"{count} wrong pixel{'s' * (rival.wrong_pixels != 1)}"
-    name = f"{Method(rival.method).words} in {rival.precision} ({wrong})"
+    name = f"{Method(rival.method).record.words} in {rival.precision} ({wrong})"
     if share < 0:
         return f"is faster than {name}, the next that loses no hits on purpose"
     first = "the fastest that loses no hits on purpose"  # without the literal textbook

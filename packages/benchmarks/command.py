@@ -2,42 +2,53 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from pathlib import Path
 
-from reference_tracer.cli.commands.parts import command
 from reference_tracer.cli.parser import Parser
 from reference_tracer.cli.running import progress_bar
 from reference_tracer.report import folders
 
+from .options import BenchOptions
+
 
 def add(parser: Parser) -> None:
     """Add the command's options."""
-    command(
-        parser,
-        run,
-        "reftrace bench --quick --out out/bench",
-    )
-    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="by default all")
+
+    def run(given: Namespace) -> int:
+        scenes = tuple(given.scenes)
+        return bench(BenchOptions(given.out, scenes, given.quick, given.baseline, given.repeats))
+
+    parser.runs(run, "reftrace bench --quick --out out/bench")
+    parser.add_argument("scenes", nargs="*", metavar="SCENE", help="default: all of them")
     parser.add_argument("--quick", action="store_true", help="fewer and smaller: under 2 minutes")
     parser.add_argument(
-        "--out", default="out/bench", metavar="DIR", help="folder for what is found (%(default)s)"
+        "--out",
+        type=parser.path,
+        default=Path("out/bench"),
+        metavar="DIR",
+        help="folder for what is found (default %(default)s)",
     )
     parser.add_argument(
-        "--baseline", metavar="FILE", help="bench.json of an earlier run: say what has changed"
+        "--baseline",
+        type=parser.path,
+        metavar="FILE",
+        help="bench.json of an earlier run: say what has changed since",
     )
-    parser.add_argument("--repeats", type=int, metavar="N", help="rounds (default 5; quick 3)")
+    parser.add_argument(
+        "--repeats", type=int, metavar="N", help="rounds (default 5, or 3 with --quick)"
+    )
 
 
-def run(options: argparse.Namespace) -> int:
+def bench(options: BenchOptions) -> int:
     """Measure, and print the table."""
     from . import report
-    from .run import run as measured
+    from .run import run
 
-    with folders.made(Path(options.out)):
+    with folders.made(options.out):
         with progress_bar() as progress:
-            bench, baseline = measured(options, progress)
-        print(report.table(bench, baseline))
-        report.write(options.out, bench, baseline)
+            measured, baseline = run(options, progress)
+        print(report.table(measured, baseline))
+        report.write(options.out, measured, baseline)
         print(f"written to {options.out}")
-    return bench.interrupted
+    return measured.interrupted

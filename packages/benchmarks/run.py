@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Callable
@@ -14,6 +13,7 @@ from reference_tracer.tracer.progress import Work, result_of, scaled
 
 from .commands import measure_commands
 from .measure import METHODS, measure
+from .options import BenchOptions
 from .plan import Plan, plan
 from .report import load, write_json
 from .rows import Bench, machine
@@ -22,9 +22,7 @@ from .spread import measure_spread
 SCENES = 0.8  # their share of the time, about
 
 
-def run(
-    options: argparse.Namespace, progress: Callable[[float], None]
-) -> tuple[Bench, Bench | None]:
+def run(options: BenchOptions, progress: Callable[[float], None]) -> tuple[Bench, Bench | None]:
     """Measure; Ctrl-C ends it, and what was measured until then is what there is.
 
     Returns
@@ -40,9 +38,8 @@ def run(
     OSError
         If a file cannot be read, or the folder not written.
     """
-    wanted = plan(options.scenes, options.quick, options.repeats)
+    wanted = plan(list(options.scenes), options.quick, options.repeats)
     baseline = load(options.baseline) if options.baseline else None
-    directory = Path(options.out)
     bench = Bench(machine(hasattr(os, "sched_setaffinity")), wanted.quick)
     written = -1
 
@@ -50,11 +47,11 @@ def run(
         nonlocal written
         progress(share)
         if len(bench.rows) > written:  # so that even a crash leaves what was measured
-            write_json(directory, bench)
+            write_json(options.out, bench)
             written = len(bench.rows)
 
     try:
-        with closing(_all(wanted, bench, directory)) as work:
+        with closing(_all(wanted, bench, options.out)) as work:
             result_of(work, show)
     except KeyboardInterrupt:
         bench.interrupted, word = running.ended()

@@ -18,7 +18,7 @@ from typing import Any
 from distributed import Client, Future
 from distributed.client import FutureCancelledError
 from distributed.utils_comm import gather_from_workers
-from reference_tracer.cli.arguments import words
+from reference_tracer.errors import words
 from reference_tracer.tracer.progress import Work
 
 from . import tasks

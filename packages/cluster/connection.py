@@ -13,7 +13,7 @@ from contextlib import contextmanager, nullcontext, suppress
 from multiprocessing import resource_tracker
 from urllib.parse import urlsplit
 
-from reference_tracer.cli.arguments import words
+from reference_tracer.errors import words
 from reference_tracer.images import MissingLibraryError
 from reference_tracer.scene import SceneError
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
+from argparse import Namespace
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any
 
+from reference_tracer.cli.arguments import Place
 from reference_tracer.cli.parser import Parser
 from reference_tracer.scene import SceneError
 
@@ -14,48 +15,56 @@ _COMMANDS = "trace", "compare", "trade", "extremes"
 
 
 def add(parser: Parser, name: str) -> None:
-    """Add the options to a command's, and what they mean: its `place`."""
+    """Add the options to a command's parser, and what they mean: its `place`."""
     if name not in _COMMANDS:
         return
     group = parser.add_argument_group("more cores, more machines (docs/cluster.md)")
-    where = (
-        "have the work done by the workers of a Dask scheduler, tcp://HOST:PORT on this machine or "
-        "tls://HOST:PORT; or of local:N, N processes that are started for it"
+    group.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="have the workers of a Dask scheduler do the work: tcp://HOST:PORT on this machine, "
+        "tls://HOST:PORT on any, or local:N, which starts N processes for it",
     )
-    again = "have this share of it (above 0, to 1) done a second time by another worker, and all "
-    again += "that can be checked here checked exactly"
-    group.add_argument("--scheduler", metavar="ADDRESS", help=where)
-    group.add_argument("--verify", type=float, metavar="SHARE", help=again)
-    parser.set_defaults(place=lambda options: place(options, name))
+    group.add_argument(
+        "--verify",
+        type=float,
+        metavar="SHARE",
+        help="have this share of the work (above 0, to 1) done again by another worker, and check "
+        "exactly all that can be checked here",
+    )
+    parser.set_defaults(place=lambda given: place(given, name))
 
 
-@contextmanager
-def place(options: argparse.Namespace, name: str) -> Iterator[dict[str, Any]]:
-    """Give the parameters that have a command's work done where the options say.
+def place(given: Namespace, name: str) -> Place:
+    """Return the parameters that have a command's work done where the options say.
 
     Raises
     ------
     SceneError
         If an option is wrong.
     ClusterError, MissingLibraryError
-        If there are no such workers, or no Dask.
+        If there are no such workers, or no Dask; once it is entered.
     """
-    share = options.verify
-    if options.scheduler is None:
+    share = given.verify
+    if given.scheduler is None:
         if share is not None:
             raise SceneError("--verify is about the workers of --scheduler: name one")
-        yield {}
-        return
+        return nullcontext({})
     if share is not None and not 0 < share <= 1:
         raise SceneError(f"--verify is {share:g}; it must be above 0 and at most 1")
+    return _of_workers(given.scheduler, share, name)
+
+
+@contextmanager
+def _of_workers(address: str, share: float | None, name: str) -> Iterator[dict[str, Any]]:
     from .connection import connected
 
-    with connected(options.scheduler) as cluster:
+    with connected(address) as cluster:
         from . import pictures, studies
 
-        yield {
-            "trace": lambda: {"tracer": pictures.tracer(cluster, share)},
-            "compare": lambda: {"tracer": pictures.tracer(cluster, share)},
-            "trade": lambda: {"every": studies.trade(cluster, share)},
-            "extremes": lambda: {"every": studies.extremes_of(cluster, share)},
-        }[name]()
+        if name == "trade":
+            yield {"every": studies.trade(cluster, share)}
+        elif name == "extremes":
+            yield {"every": studies.extremes_of(cluster, share)}
+        else:
+            yield {"tracer": pictures.tracer(cluster, share)}

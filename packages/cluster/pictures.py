@@ -17,7 +17,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 from reference_tracer.certified.measures import Known, Measured
-from reference_tracer.cli.arguments import words
+from reference_tracer.errors import words
 from reference_tracer.rendering import TRACERS
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import save_scene

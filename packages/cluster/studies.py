@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.cli.arguments import words
+from reference_tracer.errors import words
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
 from reference_tracer.study.trade import TradeRow

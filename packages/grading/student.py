@@ -22,7 +22,7 @@ from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
-from reference_tracer.cli.arguments import printable
+from reference_tracer.cli.running import printable
 
 from .student_error import StudentError, parsed
 

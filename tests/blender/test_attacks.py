@@ -13,8 +13,15 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.compare import gather_case
-from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import explain
+from reference_tracer.compare.causes import (
+    AGREE,
+    ANTI_ALIASING,
+    CAUSES,
+    EDGE,
+    NOT_DECIDABLE,
+    UNEXPLAINED,
+    explain,
+)
 from reference_tracer.compare.comparison import compare as compare_traced
 from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
@@ -74,8 +81,8 @@ def subjects(gathered, opened):
                 case = gather_case(bpy.context, identity=True, self_check=True)
                 frame = render(case.scene, case.settings)
                 causes = result_of(explain(case, frame)).causes
-                assert not (causes.cause == Cause.UNEXPLAINED).any()
-                gathered[name] = Subject(case, frame, causes.cause != Cause.NOT_DECIDABLE)
+                assert not (causes.cause == UNEXPLAINED).any()
+                gathered[name] = Subject(case, frame, causes.cause != NOT_DECIDABLE)
             right = gathered[name]
             if known(name):
                 yield name, right
@@ -96,18 +103,18 @@ def excused(made, found):
     cause, changed = found.causes.cause, made.changed
     if found.background:  # the whole of what sees nothing: said of the comparison, which warns
         changed = changed & (made.frame.instance_index != NOTHING)
-    count = {c: int((cause[changed] == c).sum()) for c in Cause}
+    count = {c: int((cause[changed] == c).sum()) for c in CAUSES}
     # Those that were passed over agree, as far as one knows.
-    agree = max(0, count.pop(Cause.AGREE) - len(found.causes.passed_over))
+    agree = max(0, count.pop(AGREE) - len(found.causes.passed_over))
     looked_at = agree + sum(count.values())
-    del count[Cause.UNEXPLAINED]
-    return {c.key: n for c, n in (count | {Cause.AGREE: agree}).items() if n}, looked_at
+    del count[UNEXPLAINED]
+    return {c.key: n for c, n in (count | {AGREE: agree}).items() if n}, looked_at
 
 
 def out_of_bounds(causes, made):
     """Return how many excuses of changed pixels are not rounding's, or beyond their own bound."""
-    differ = made.changed & ~np.isin(causes.cause, (Cause.AGREE, Cause.UNEXPLAINED))
-    of_rounding = np.isin(causes.cause, [c for c in Cause if c.rounding])
+    differ = made.changed & ~np.isin(causes.cause, (AGREE, UNEXPLAINED))
+    of_rounding = np.isin(causes.cause, [c for c in CAUSES if c.rounding])
     return int((differ & ~(of_rounding & (causes.figure <= causes.allowed))).sum())
 
 
@@ -116,7 +123,7 @@ def of_identity(attack, name, turn):
 
     Two scenes are so and two otherwise, in the next turn the others; whose a mix is, is not known.
     """
-    if attack.imitates is Cause.ANTI_ALIASING and attack.name != "half_pixel":
+    if attack.imitates is ANTI_ALIASING and attack.name != "half_pixel":
         return False
     return (ATTACKS.index(attack) + SCENES.index(name) + 2 * turn) % 4 < 2
 
@@ -156,7 +163,7 @@ def test_what_is_damaged_is_found_but_for_rounding(attack, turn, subjects, edges
         attacked += 1
         found = explained(made)
         why, looked_at = excused(made, found)
-        at_edges = edges_of(made) & made.changed & (found.causes.cause == Cause.EDGE)
+        at_edges = edges_of(made) & made.changed & (found.causes.cause == EDGE)
         few = sum(why.values()) - at_edges.sum() <= FEW + SHARE * looked_at
         if not few or out_of_bounds(found.causes, made) or found.causes.transform:
             fooled[name] = (why, f"of {looked_at}", found.causes.transform)
@@ -170,7 +177,7 @@ def test_no_damage_makes_a_pixel_undecidable(turn, subjects):
     mirrored = next(a for a in ATTACKS if a.name == "mirrored_x")
     for name, subject in subjects(lambda name: (SCENES.index(name) + turn) % 2):
         cause = explained(mirrored.make(subject)).causes.cause
-        assert ((cause == Cause.NOT_DECIDABLE) == ~subject.decidable).all(), name
+        assert ((cause == NOT_DECIDABLE) == ~subject.decidable).all(), name
 
 
 @EVERY
@@ -214,8 +221,8 @@ def test_a_transform_of_the_whole_picture_is_still_named(shade, subjects):
             continue
         attacked += 1
         causes = explained(made).causes
-        if not causes.transform or (causes.cause[inside] == Cause.UNEXPLAINED).any():
-            lost[name] = (causes.transform, int((causes.cause[inside] == Cause.UNEXPLAINED).sum()))
+        if not causes.transform or (causes.cause[inside] == UNEXPLAINED).any():
+            lost[name] = (causes.transform, int((causes.cause[inside] == UNEXPLAINED).sum()))
     assert lost == {}
     assert attacked >= len(SCENES) // 2
 
@@ -223,6 +230,6 @@ def test_a_transform_of_the_whole_picture_is_still_named(shade, subjects):
 def test_every_cause_that_excuses_withstands_an_attack():
     """A new cause needs one."""
     table = withstood()
-    assert set(table) == {c for c in Cause if c.explains} | {Cause.NOT_DECIDABLE}
+    assert set(table) == {c for c in CAUSES if c.explains} | {NOT_DECIDABLE}
     assert [cause.key for cause, attacks in table.items() if not attacks] == []
     assert len({a.name for a in ATTACKS}) == len(ATTACKS)

@@ -196,7 +196,7 @@ def test_interrupted_while_blender_is_imported(command, tmp_path):
         "import signal, sys, threading, time\n"
         "from reference_tracer.cli import main as cli, running\n"
         "def later():\n"
-        "    while not running._holding:\n"
+        "    while not running._signals.are_held:\n"
         "        time.sleep(0.001)\n"
         "    time.sleep(0.05)\n"
         "    signal.raise_signal(signal.SIGINT)\n"

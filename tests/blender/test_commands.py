@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender import commands
 from reference_tracer.blender import compare as compare_module
+from reference_tracer.cli.main import main
 
 
 @pytest.fixture
@@ -253,6 +254,18 @@ def test_explain_prints_or_writes(saved, tmp_path, capsys):
 def test_explain_says_what_is_wrong(saved, capsys, options, says):
     assert commands.run(["explain", *options]) == 4
     assert says in capsys.readouterr().err
+
+
+def test_trace_and_export_are_of_the_open_file(saved, tmp_path, capsys):
+    """What is exported gives the same picture."""
+    bpy.ops.wm.save_mainfile()
+    assert commands.run(["trace", "--out", "//traced.png"]) == 0
+    assert commands.run(["export", "--out", "//scene.npz"]) == 0
+    assert "64 x 36 pixels" in capsys.readouterr().out
+    argv = ["trace", str(tmp_path / "scene.npz"), "--out", str(tmp_path / "again.png")]
+    assert main(argv) == 0
+    first, again = (tmp_path / name for name in ("traced.png", "again.png"))
+    assert first.read_bytes() == again.read_bytes()
 
 
 def test_explain_needs_a_file(capsys):

@@ -19,7 +19,7 @@ from reference_tracer.blender.drawing.judges import judge_named
 from reference_tracer.blender.drawing.viewport import picture, prepare_scene
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.stepping import bake_bodies
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import NOT_MODELLED, UNEXPLAINED
 from reference_tracer.compare.comparison import trace_and_compare
 from reference_tracer.tracer.progress import result_of
 
@@ -124,7 +124,7 @@ def test_no_false_alarm(make, judge, build, compare):
     otherwise = shown_otherwise(found)
     if judge == "WORKBENCH" and make in DRAWN_OTHERWISE:
         assert otherwise.sum() > SEEN
-        assert (found.causes.cause[otherwise] == Cause.NOT_MODELLED).mean() > 0.9
+        assert (found.causes.cause[otherwise] == NOT_MODELLED).mean() > 0.9
     if judge == "WORKBENCH" and make in TOO_MUCH:
         assert otherwise.mean() > 0.5
     if judge == "CYCLES" and make in OF_CYCLES_ALONE:
@@ -329,7 +329,7 @@ def test_no_false_excuse(make, damage, build, sound_cases):
     if damage is mirrored:  # what is hard was mirrored, too
         plain &= ~around(shown_otherwise(sound)[:, ::-1])
     assert plain.sum() > SEEN
-    assert (found.causes.cause[plain] == Cause.UNEXPLAINED).mean() > 0.9
+    assert (found.causes.cause[plain] == UNEXPLAINED).mean() > 0.9
 
 
 @pytest.mark.parametrize(

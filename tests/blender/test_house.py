@@ -11,7 +11,8 @@ import pytest
 from reference_tracer.blender import registration
 from reference_tracer.blender.ui import long_work, menus, preferences
 from reference_tracer.blender.ui.properties import POINTERS, SAID
-from reference_tracer.cli.commands import files
+from reference_tracer.cli.commands import export
+from reference_tracer.cli.parser import Parser
 
 PRESETS = Path(menus.__file__).parent / "presets" / "reference_tracer"
 GROUPS = [group for *_, group in POINTERS]
@@ -170,13 +171,12 @@ def test_export_writes_what_reftrace_does(solids, tmp_path, capsys):
     file, ours, theirs = (tmp_path / name for name in ("a.blend", "ours.npz", "theirs.npz"))
     bpy.ops.wm.save_as_mainfile(filepath=str(file))
     assert bpy.ops.reference_tracer.export(filepath=str(ours)) == {"FINISHED"}
-    parser = files.Parser("reftrace export")
-    parser.opened = None
-    files.add_export(parser)
-    options = parser.parse_args([str(file), "--out", str(theirs)])
+    parser = Parser("reftrace export")
+    export.add(parser)
+    given = parser.parse_args([str(file), "--out", str(theirs)])
     registration.unregister()  # as there, it is registered anew
     try:
-        assert options.run(options) == 0
+        assert given.run(given) == 0
     finally:
         registration.register()
     assert ours.read_bytes() == theirs.read_bytes()

@@ -14,6 +14,7 @@ from reference_tracer.blender import commands
 from reference_tracer.blender.ui import results
 from reference_tracer.blender.ui.results import Kind
 from reference_tracer.study import extremes
+from reference_tracer.tracer.settings import PLAIN_SETTINGS
 
 from .test_unchanged import differences, state
 
@@ -48,7 +49,7 @@ def test_trade_shows_its_table_and_plot_and_changes_nothing(solids, tmp_path):
     out = tmp_path / "out"
     assert bpy.ops.reference_tracer.trade(directory=str(out), **SMALL) == {"FINISHED"}
     found = results.latest(Kind.TRADE, solids)
-    assert len(found.content.whole) == 9
+    assert len(found.content.whole) == len(PLAIN_SETTINGS) + 1  # and certified
     assert found.content.whole[0].width == 16
     assert found.lines == (found.content.advice,)
     assert differences(before, state()) == []
@@ -119,7 +120,7 @@ def test_the_commands(solids, tmp_path, capsys):
     assert commands.run([*trade[:-1], "65"]) == 4
     assert "samples is 65" in capsys.readouterr().err
     assert commands.run(["extremes", "--out", str(out), "--rays", "0"]) == 4
-    assert "--rays is 0" in capsys.readouterr().err
+    assert "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
     solids.camera = None
     assert commands.run(trade) == 4
     assert "has no camera" in capsys.readouterr().err

@@ -29,6 +29,9 @@ def test_extremes(tmp_path, capsys):
     assert {r["method"] for r in held["rows"]} >= {"certified", "watertight", "textbook"}
 
 
-def test_extremes_needs_rays(tmp_path, capsys):
-    assert main(["extremes", "--out", str(tmp_path / "out"), "--rays", "0"]) == INPUT_ERROR
-    assert "--rays is 0" in capsys.readouterr().err and not (tmp_path / "out").exists()
+def test_extremes_needs_rays(tmp_path, capsys, exit_code):
+    assert exit_code(["extremes", "--out", str(tmp_path / "out"), "--rays", "0"]) == INPUT_ERROR
+    assert (
+        "--rays: 0 is not an integer of at least 1" in capsys.readouterr().err
+        and not (tmp_path / "out").exists()
+    )

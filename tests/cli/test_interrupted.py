@@ -9,7 +9,7 @@ from contextlib import suppress
 import pytest
 from reference_tracer import images
 from reference_tracer.cli import running
-from reference_tracer.cli.commands import files
+from reference_tracer.cli.commands import trace as trace_command
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 from reference_tracer.study import extremes, tradeoff
@@ -23,7 +23,7 @@ def refuse_memory(*args, **options):
 
 
 def test_too_little_memory_is_one_line(ball, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(files, "render", refuse_memory)
+    monkeypatch.setattr(trace_command, "render", refuse_memory)
     assert trace(ball, tmp_path / "new" / "b.png") == INPUT_ERROR
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and "choose a smaller size" in said and "1 TiB" in said
@@ -47,7 +47,7 @@ def interrupted_work(monkeypatch, number):
 
     monkeypatch.setattr(extremes, "measure", swallow)
     monkeypatch.setattr(tradeoff, "measure", swallow)
-    monkeypatch.setattr(files, "render", lambda *given: result_of(swallow(), given[-1]))
+    monkeypatch.setattr(trace_command, "render", lambda *given: result_of(swallow(), given[-1]))
 
 
 @pytest.mark.usefixtures("interrupted_work")

@@ -27,14 +27,6 @@ def test_a_sentence_says_how_to_get_it(name, options, alone, capsys):
     assert "pip install --editable ." in printed.err
 
 
-def test_the_help_names_it_all_the_same(alone, capsys):
-    with pytest.raises(SystemExit) as end:
-        main(["--help"])
-    assert end.value.code == 0
-    text = capsys.readouterr().out
-    assert text.count("(not installed here)") == 2 and "judge" in text and "bench" in text
-
-
 @pytest.mark.parametrize("name", ["judge", "bench"])
 def test_installed_it_has_its_own_help(name, capsys):
     with pytest.raises(SystemExit) as end:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import subprocess
 import sys
 
 import pytest
 from reference_tracer import __version__
-from reference_tracer.cli.arguments import settings_from
+from reference_tracer.cli.arguments import GivenSettings
 from reference_tracer.cli.main import main
 from reference_tracer.cli.parser import INPUT_ERROR
 from reference_tracer.scene import SceneError
@@ -29,34 +28,52 @@ BAD = {
     "no eye": (["ball.ply", "--eye", "nan", "0", "5"], "--eye"),
     "angle of an orthographic camera": (
         ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "2", "--angle", "40"],
-        "--angle is not for",
+        "--angle: not allowed with argument --ortho-scale",
     ),
-    "two places": (["none.blend", "--frame-all", "--eye", "0", "0", "5"], "--eye is not for"),
-    "two cameras": (["none.blend", "--camera", "A", "--frame-all"], "--frame-all is for a camera"),
-    "scale of all": (["none.blend", "--frame-all", "--ortho-scale", "2"], "--ortho-scale is not"),
+    "two places": (
+        ["none.blend", "--frame-all", "--eye", "0", "0", "5"],
+        "--eye: not allowed with argument --frame-all",
+    ),
+    "two cameras": (
+        ["none.blend", "--camera", "A", "--frame-all"],
+        "--frame-all: not allowed with argument --camera",
+    ),
+    "scale of all": (
+        ["none.blend", "--frame-all", "--ortho-scale", "2"],
+        "--ortho-scale is for a camera that --eye",
+    ),
     "target alone": (["none.blend", "--target", "0", "0", "5"], "--target is for a camera that"),
     "angle alone": (["none.blend", "--angle", "30"], "--angle is for a camera that --eye or --fr"),
     "axis up of a .blend": (["none.blend", "--up", "y"], "--up is for meshes"),
     "frame of a mesh": (["ball.ply", "--frame", "0"], "--frame is for a .blend: 'ball.ply'"),
     "scene of a mesh": (["ball.ply", "--scene", "A"], "--scene is for a .blend: 'ball.ply'"),
     "camera of a scene": (["empty.npz", "--camera", "A"], "'empty.npz' has its own camera"),
-    "frame too far": (["none.blend", "--frame", "9999999"], "--frame is 9999999; it must be from"),
+    "frame too far": (
+        ["none.blend", "--frame", "9999999"],
+        "--frame: 9999999 is not from -1048574",
+    ),
     "ortho scale 0": (["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "0"], "--ortho-scale"),
     "ortho scale below 0": (
         ["ball.ply", "--eye", "0", "0", "5", "--ortho-scale", "-1"],
-        "orthographic scale",
+        "--ortho-scale: -1 is not a finite number above 0",
     ),
-    "width 0": (["ball.ply", "--width", "0"], "--width is 0; it must be at least 1"),
-    "height below 0": (["ball.ply", "--height", "-5"], "--height is -5; it must be at least 1"),
+    "width 0": (["ball.ply", "--width", "0"], "--width: 0 is not an integer of at least 1"),
+    "height below 0": (
+        ["ball.ply", "--height", "-5"],
+        "--height: -5 is not an integer of at least 1",
+    ),
     "samples": (["ball.ply", "--samples", "0"], "--samples is 0; it must be between 1 and 64"),
     "options before the scene": (["none.ply", "--samples", "65"], "--samples is 65"),
-    "float32 of auto": (["none.ply", "--precision", "float32"], "reftrace: name a --method with"),
+    "float32 of auto": (
+        ["none.ply", "--precision", "float32"],
+        "--precision is float32; auto is proven for float64",
+    ),
     "float32 of certified, whatever is stored": (
         ["none.blend", "--precision", "float32", "--method", "certified"],
-        "reftrace: leave out --precision float32, or name another --method",
+        "--precision is float32; certified is proven for float64 only",
     ),
     "unknown method": (["ball.ply", "--method", "magic"], "--method"),
-    "not a number": (["ball.ply", "--width", "many"], "--width"),
+    "not a number": (["ball.ply", "--width", "many"], "--width: many is not an integer"),
     "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
     "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
     "out is a folder, EXR": (["ball.ply", "--out", "folder.exr"], "folder.exr"),
@@ -65,7 +82,9 @@ BAD = {
 
 
 @pytest.mark.parametrize("case", BAD)
-def test_bad_input_is_named_and_nothing_is_written(case, ball, tmp_path, capsys, monkeypatch):
+def test_bad_input_is_named_and_nothing_is_written(
+    case, ball, tmp_path, capsys, monkeypatch, exit_code
+):
     monkeypatch.chdir(tmp_path)
     for name in ("empty.obj", "empty.npz", "words.txt"):
         (tmp_path / name).touch()
@@ -73,11 +92,7 @@ def test_bad_input_is_named_and_nothing_is_written(case, ball, tmp_path, capsys,
         (tmp_path / name).mkdir()
     before = sorted(tmp_path.rglob("*"))
     options, words = BAD[case]
-    try:
-        code = main(["trace", "--out", "x.png", *SMALL, *options])
-    except SystemExit as stop:
-        code = stop.code
-    assert code == INPUT_ERROR
+    assert exit_code(["trace", "--out", "x.png", *SMALL, *options]) == INPUT_ERROR
     assert words in capsys.readouterr().err
     assert sorted(tmp_path.rglob("*")) == before
 
@@ -139,10 +154,10 @@ def test_version_and_no_command(capsys):
 def test_a_proven_method_takes_float64_whatever_is_stored():
     stored = Settings("textbook", "float32")
     for method in ("certified", "auto"):
-        found = settings_from(argparse.Namespace(method=method), stored)
+        found = GivenSettings(method).over(stored)
         assert (found.method, found.precision) == (method, "float64")
         with pytest.raises(SceneError, match="float32"):
-            settings_from(argparse.Namespace(method=method, precision="float32"), Settings())
+            GivenSettings(method, "float32").over(Settings())
 
 
 @pytest.mark.parametrize("option", ["--help", "--version"])

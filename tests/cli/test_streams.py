@@ -56,14 +56,14 @@ def verdict(out: Path) -> str:
 
 
 @posix
-def test_wrong_options_change_nothing(compared, tmp_path):
+def test_wrong_options_change_nothing(compared, tmp_path, exit_code):
     """Results of an earlier run stay, and what is compared is not replaced by its result."""
     out = tmp_path / "out"
     assert main([*map(str, compared), "--out", str(out)]) == AGREE
     before = {p.name: p.read_bytes() for p in out.iterdir()}
     shown, scene = out / "traced.png", str(compared[1])
     for options in (["--judge", "cycles"], ["--frame-all", "--eye", "1", "2", "3"]):
-        assert main([*map(str, compared), *options, "--out", str(out)]) == INPUT_ERROR
+        assert exit_code([*map(str, compared), *options, "--out", str(out)]) == INPUT_ERROR
     own = ["compare", scene, "--against", str(shown), "--out", str(out)]
     assert main(own) == INPUT_ERROR
     assert {p.name: p.read_bytes() for p in out.iterdir()} == before

@@ -40,14 +40,14 @@ def test_trade_without_out_only_prints(small_ball, tmp_path, capsys, monkeypatch
     [
         (["--samples", "0"], "samples is 0"),
         (["--samples", "65"], "samples is 65"),
-        (["--width", "0"], "--width is 0; it must be at least 1"),
+        (["--width", "0"], "--width: 0 is not an integer of at least 1"),
         (["--out", "small.ply"], "cannot write to the folder 'small.ply': it is a file"),
     ],
 )
-def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch):
+def test_trade_of_bad_input(options, word, small_ball, tmp_path, capsys, monkeypatch, exit_code):
     monkeypatch.chdir(tmp_path)
     argv = ["trade", small_ball, *TRADE, *options]
-    assert main(argv) == INPUT_ERROR
+    assert exit_code(argv) == INPUT_ERROR
     said = capsys.readouterr().err
     assert word in said and "Traceback" not in said
 
@@ -61,7 +61,7 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     assert "20 x 12 pixels, one ray each" in capsys.readouterr().out
     assert main(["trade", str(tmp_path / "s.npz"), "--height", "9"]) == INPUT_ERROR
     said = capsys.readouterr().err
-    assert "--height is for meshes" in said and "--width sets the size of its picture" in said
+    assert "--height is for meshes" in said and "--width sets the size of a scene's picture" in said
 
 
 def test_trade_help_says_whose_the_width_is(capsys):

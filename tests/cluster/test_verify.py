@@ -24,6 +24,7 @@ pytestmark = pytest.mark.slow
 # A worker that lies: about which of its regions, and how, is told by a file.
 FORGER = """
 import os
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from reference_tracer_cluster import claims, tasks

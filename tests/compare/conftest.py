@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.compare.bounds import differing
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import AGREE, DEPTH_TIE, EDGE, NOT_DECIDABLE, UNEXPLAINED
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, ViewWindow
 from reference_tracer.tracer.camera import pixel_size
@@ -24,11 +24,11 @@ def _explained(scene, picture, unmodelled=(), settings=None, sample_radius=0.0):
     frame = render(scene, settings)
     found = result_of(find_causes(scene, frame, picture, unmodelled, sample_radius))
     differs = differing(frame.color, picture)
-    assert ((found.cause == Cause.AGREE) <= ~differs).all()
-    assert ((found.cause == Cause.AGREE) | differs | (found.cause == Cause.NOT_DECIDABLE)).all()
-    measured = np.isin(found.cause, (Cause.EDGE, Cause.DEPTH_TIE))
+    assert ((found.cause == AGREE) <= ~differs).all()
+    assert ((found.cause == AGREE) | differs | (found.cause == NOT_DECIDABLE)).all()
+    measured = np.isin(found.cause, (EDGE, DEPTH_TIE))
     assert (found.figure <= found.allowed)[measured].all()
-    assert np.isnan(found.figure[np.isin(found.cause, (Cause.AGREE, Cause.UNEXPLAINED))]).all()
+    assert np.isnan(found.figure[np.isin(found.cause, (AGREE, UNEXPLAINED))]).all()
     return found
 
 

@@ -17,7 +17,7 @@ from reference_tracer.compare.bounds import (
     pixel_error,
     view_error,
 )
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import AGREE
 from reference_tracer.images import decoded, encoded
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
@@ -169,7 +169,7 @@ def test_half_float_colours_agree(room, explained):
     for units, agree in ((3, True), (6, False)):
         worn = (cut - units * np.spacing(cut) * (cut > 0)).astype(np.float32)
         cause = explained(room, worn).cause
-        assert ((cause == Cause.AGREE) == (agree | ~traced.any(axis=-1))).all()
+        assert ((cause == AGREE) == (agree | ~traced.any(axis=-1))).all()
 
 
 def test_dark_colours_are_told_apart():

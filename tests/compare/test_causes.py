@@ -11,7 +11,13 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.compare.bounds import differing, sample_band
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import (
+    AGREE,
+    NOT_DECIDABLE,
+    NOT_MODELLED,
+    NOT_TRACED,
+    UNEXPLAINED,
+)
 from reference_tracer.compare.checks.unmodelled import covered
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.rendering import render
@@ -27,7 +33,7 @@ WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def test_the_same_picture_agrees(room, explained):
-    assert (explained(room, render(room).color).cause == Cause.AGREE).all()
+    assert (explained(room, render(room).color).cause == AGREE).all()
 
 
 def faults():
@@ -96,7 +102,7 @@ def test_a_fault_is_unexplained(room, fault, explained, count):
     picture = np.ascontiguousarray(fault(room))
     found = explained(room, picture)
     differ = differing(render(room).color, picture).sum()
-    assert count(found, Cause.UNEXPLAINED) > max(10, 0.8 * differ)
+    assert count(found, UNEXPLAINED) > max(10, 0.8 * differ)
 
 
 def test_what_is_not_modelled_explains_only_its_own_place(room, explained):
@@ -109,10 +115,10 @@ def test_what_is_not_modelled_explains_only_its_own_place(room, explained):
     found = explained(room, picture, features)
     rows = np.zeros_like(inside)
     rows[::3] = True
-    assert (found.cause[inside & rows] == Cause.NOT_MODELLED).all()
+    assert (found.cause[inside & rows] == NOT_MODELLED).all()
     assert (found.figure[inside & rows] == 1).all()  # its number in the manifest
-    assert (found.cause[~inside & rows] == Cause.UNEXPLAINED).all()
-    assert (found.cause[~rows] == Cause.AGREE).all()
+    assert (found.cause[~inside & rows] == UNEXPLAINED).all()
+    assert (found.cause[~rows] == AGREE).all()
 
 
 def test_a_box_covers_its_projection(room, rng):
@@ -152,7 +158,7 @@ def test_far_from_the_origin_nothing_is_decided(room, make, explained):
     picture = render(scene).color
     for shown in (picture, picture[::-1].copy()):
         found = explained(scene, shown)
-        assert (found.cause == Cause.NOT_DECIDABLE).all()
+        assert (found.cause == NOT_DECIDABLE).all()
         assert (found.figure > found.allowed).all()
 
 
@@ -161,8 +167,8 @@ def test_what_is_not_finite_differs(room, value, explained, count):
     picture = render(room).color.copy()
     picture[20, 30, 1] = picture[2, 3, 3] = value
     found = explained(room, picture)
-    assert found.cause[20, 30] == found.cause[2, 3] == Cause.UNEXPLAINED
-    assert count(found, Cause.AGREE) == found.cause.size - 2
+    assert found.cause[20, 30] == found.cause[2, 3] == UNEXPLAINED
+    assert count(found, AGREE) == found.cause.size - 2
 
 
 def test_rows_that_were_not_traced(room, monkeypatch):
@@ -173,14 +179,14 @@ def test_rows_that_were_not_traced(room, monkeypatch):
     frame = render(room, progress=steps.append, cancelled=lambda: steps[-1] > 0.5)
     assert frame.cancelled and frame.rows_done.any()
     found = result_of(find_causes(room, frame, whole.color))
-    assert (found.cause[~frame.rows_done] == Cause.NOT_TRACED).all()
-    assert (found.cause[frame.rows_done] == Cause.AGREE).all()
+    assert (found.cause[~frame.rows_done] == NOT_TRACED).all()
+    assert (found.cause[frame.rows_done] == AGREE).all()
 
 
 def test_an_empty_scene_agrees_with_its_background(make, explained):
     scene = make.scene(make.camera(8, 6), background=(0.2, 0.3, 0.4, 1))
-    assert (explained(scene, render(scene).color).cause == Cause.AGREE).all()
-    assert (explained(scene, render(scene).color * 0).cause == Cause.UNEXPLAINED).all()
+    assert (explained(scene, render(scene).color).cause == AGREE).all()
+    assert (explained(scene, render(scene).color * 0).cause == UNEXPLAINED).all()
 
 
 def test_progress_rises(room):
@@ -194,7 +200,7 @@ def test_bounds_that_are_not_finite_explain_nothing(room, bounds, explained, cou
     """An object with a matrix that is not finite has no place in the picture."""
     hair = Unmodelled("Hair", "hair", bounds=np.full((2, 3), bounds) * [[-1], [1]])
     found = explained(room, 0 * render(room).color, [hair])
-    assert count(found, Cause.UNEXPLAINED) > 100 and count(found, Cause.NOT_MODELLED) == 0
+    assert count(found, UNEXPLAINED) > 100 and count(found, NOT_MODELLED) == 0
 
 
 def test_a_border_has_the_causes_of_the_whole(room, explained):
@@ -221,6 +227,6 @@ def test_a_near_surface_does_not_excuse_the_background(make):
     scene, without = make.scene(camera, near, far), make.scene(camera, near)
     found = result_of(find_causes(without, render(without), render(scene).color))
     band = result_of(sample_band(without, render(without), [slice(None)]))
-    assert band.max() > 2 and (found.cause == Cause.NOT_DECIDABLE).any()
+    assert band.max() > 2 and (found.cause == NOT_DECIDABLE).any()
     seen = render(scene).object_index == 1
-    assert seen.sum() > 100 and (found.cause[seen] == Cause.UNEXPLAINED).all()
+    assert seen.sum() > 100 and (found.cause[seen] == UNEXPLAINED).all()

@@ -7,17 +7,27 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause, Causes
+from reference_tracer.compare.cause import Causes
+from reference_tracer.compare.causes import (
+    AGREE,
+    CAUSES,
+    EDGE,
+    NOT_DECIDABLE,
+    NOT_TRACED,
+    UNEXPLAINED,
+)
 from reference_tracer.compare.comparison import (
     EXIT_CODES,
     SCHEMA,
-    SizeError,
     compare,
     trace_and_compare,
 )
-from reference_tracer.compare.metrics import boundary, count_pixels
+from reference_tracer.compare.counts import count_pixels
+from reference_tracer.compare.metrics import boundary
+from reference_tracer.compare.picture import Picture, SizeError, Source
 from reference_tracer.manifest import ObjectEntry, Unmodelled
 from reference_tracer.rendering import render
+from reference_tracer.scene import SceneError
 from reference_tracer.tracer.coloring import Color
 from reference_tracer.tracer.frame import Frame
 from reference_tracer.tracer.progress import result_of
@@ -33,6 +43,7 @@ BLENDER = {
     "filter_radius": 0.0,
     "settings": {},
 }
+BY_KEY = {cause.key: cause for cause in CAUSES}
 BOX = np.array([[-2.0, -2, -2.1], [0.1, 0.1, -2]])
 
 
@@ -66,14 +77,12 @@ def test_counts_add_up(scene):
     assert p["differ"] == p["explained"] + p["unexplained"]
     assert p["differ"] + p["not_decidable"] == sum(p["by_cause"].values())
     assert p["by_cause"]["not_modelled"] > 10 and p["unexplained"] > 10
-    assert set(p["by_cause"]) == {
-        c.name.lower() for c in Cause if c not in (Cause.AGREE, Cause.NOT_TRACED)
-    }
+    assert set(p["by_cause"]) == {c.key for c in CAUSES if c not in (AGREE, NOT_TRACED)}
     for key in ("total", "agree", "differ", "explained", "unexplained", "not_decidable"):
         assert p[key] == p["interior"][key] + p["boundary"][key]
     assert p["boundary"]["total"] == boundary(found.frame).sum() > 0 < p["interior"]["total"]
     for name, n in p["by_cause"].items():
-        assert n == (found.causes.cause == Cause[name.upper()]).sum()
+        assert n == (found.causes.cause == BY_KEY[name]).sum()
 
 
 def test_examples_are_spread(scene):
@@ -81,14 +90,14 @@ def test_examples_are_spread(scene):
     picture[2:14, 3:19] = (1, 0, 1, 1)
     found = compared(scene, picture)
     examples = found.pixels["examples"]["unexplained"]
-    rows, columns = np.nonzero(found.causes.cause == Cause.UNEXPLAINED)
+    rows, columns = np.nonzero(found.causes.cause == UNEXPLAINED)
     assert len(examples) == 10 and len({y for _, y in examples}) > 8
     assert examples[0] == [columns[0], rows[0]] and examples[-1] == [columns[-1], rows[-1]]
 
 
 def test_undecidable_pixels_have_examples_too():
     causes = Causes.none((3, 4))
-    causes.cause[1, 2] = Cause.NOT_DECIDABLE
+    causes.cause[1, 2] = NOT_DECIDABLE
     counted = count_pixels(causes, np.zeros((3, 4), bool))
     assert counted["examples"] == {"not_decidable": [[2, 1]]}
 
@@ -180,11 +189,11 @@ def test_json_has_what_is_promised(scene):
     }
     assert held["causes"]["edge"] == {
         "number": 1,
-        "label": Cause.EDGE.label,
-        "sentence": Cause.EDGE.sentence,
+        "label": EDGE.label,
+        "sentence": EDGE.sentence,
         "unit": "px",
     }
-    assert set(held["causes"]) == {c.name.lower() for c in Cause}
+    assert set(held["causes"]) == {c.key for c in CAUSES}
     assert held["identity"] is held["certificate"] is None and held["self_check"] == []
     assert held["blender"] == BLENDER and held["pixels"] == found.pixels
     assert held["scene"]["unmodelled"][0]["object"] == "Hair"
@@ -209,6 +218,24 @@ def test_lines_say_the_verdict_and_every_cause(scene):
 def test_sizes_must_match(scene, shape):
     with pytest.raises(SizeError, match=f"{shape[1]} x {shape[0]}.*20 x 16"):
         compared(scene, np.zeros(shape, np.float32))
+
+
+@pytest.mark.parametrize(
+    ("sampling", "told"),
+    [
+        ({"sample_radius": 0.6}, "up to 0.6 px"),
+        ({"sample_radius": 0.4965}, "up to 0.4.* px"),  # with the rounding of corners it is too far
+        ({"snapping": 0.5}, "rounded to 0.5 px"),
+        ({"sample_radius": 0.3, "snapping": 0.25}, "up to 0.3 px.*rounded to 0.25 px"),
+    ],
+)
+def test_samples_far_from_the_centres_are_refused(scene, sampling, told):
+    """No pixel could be decided: the fault is the judge's, not the scene's."""
+    picture = Picture(render(scene).color, Source("draft", "5.2.3"), **sampling)
+    with pytest.raises(SceneError, match=f"Blender's draft picture cannot be compared.*{told}"):
+        result_of(trace_and_compare(case_of(scene, picture)))
+    with pytest.raises(SceneError, match=told):
+        compared(scene, picture)
 
 
 def test_tracing_and_comparing_in_one(scene):

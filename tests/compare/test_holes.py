@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.case import Alternative
-from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import explain
+from reference_tracer.compare.causes import UNEXPLAINED, explain
 from reference_tracer.compare.checks.hidden import without
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture, numbered
@@ -36,7 +35,7 @@ def known(scene, frame, color=None, **options):
 
 def unexplained(scene, frame, picture, **options):
     found = result_of(explain(case_of(scene, picture, **options), frame))
-    return found.causes.cause == Cause.UNEXPLAINED
+    return found.causes.cause == UNEXPLAINED
 
 
 def inside(frame, number):
@@ -163,4 +162,4 @@ def test_two_objects_with_one_anothers_colours_are_no_swapped_channels(make):
     case = case_of(scene, Picture(color), curves=())
     causes = result_of(explain(case, frame)).causes
     assert causes.transform == ""
-    assert (causes.cause == Cause.UNEXPLAINED)[wrong].all()
+    assert (causes.cause == UNEXPLAINED)[wrong].all()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from reference_tracer.certainty import Certainty
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import AGREE, EDGE
 from reference_tracer.compare.maps import (
     DIM,
     MOST_RINGS,
@@ -37,9 +37,9 @@ def test_marks_are_where_they_should_be_and_nowhere_else(rng):
     wrong = rng.random((6, 7)) < 0.3
     found = wrong_map(color, wrong)
     assert wrong.any() and np.array_equal((found == RED).all(axis=-1), wrong)
-    cause = np.where(wrong, Cause.EDGE, Cause.AGREE).astype(np.uint8)
+    cause = np.where(wrong, EDGE, AGREE).astype(np.uint8)
     found = cause_map(color, cause)
-    assert np.array_equal((found == np.float32((*Cause.EDGE.color, 1))).all(axis=-1), wrong)
+    assert np.array_equal((found == np.float32((*EDGE.color, 1))).all(axis=-1), wrong)
 
 
 def test_what_few_pixels_have_is_shown_in_the_colour_of_the_record():

@@ -6,8 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause
-from reference_tracer.compare.causes import explain
+from reference_tracer.compare.causes import (
+    AGREE,
+    COLOR,
+    EDGE,
+    NOT_DECIDABLE,
+    NOT_MODELLED,
+    UNEXPLAINED,
+    explain,
+)
 from reference_tracer.compare.identity import NOTHING, UNKNOWN
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.images import decoded, to_display
@@ -44,7 +51,7 @@ def test_numbers_of_owners():
 
 def test_the_same_picture_agrees(room, seen):
     frame, shown = seen
-    assert (causes(room, frame, shown).cause == Cause.AGREE).all()
+    assert (causes(room, frame, shown).cause == AGREE).all()
 
 
 def test_a_wrong_object_of_the_right_colour_is_found(room, seen):
@@ -53,9 +60,9 @@ def test_a_wrong_object_of_the_right_colour_is_found(room, seen):
     where = owner == 1
     owner[where] = 2
     found = causes(room, frame, replace(shown, owner=owner))
-    differ = found.cause != Cause.AGREE
+    differ = found.cause != AGREE
     assert (differ == where).all() and where.sum() > 50
-    assert (found.cause[where] == Cause.UNEXPLAINED).mean() > 0.8
+    assert (found.cause[where] == UNEXPLAINED).mean() > 0.8
 
 
 def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
@@ -72,13 +79,13 @@ def test_colour_and_owner_may_fall_to_different_sides_of_an_edge(make):
     assert rim.sum() == 16
     band = 0.6  # pixels: the neighbour is within reach
     without = causes(scene, frame, Picture(color), (), band)
-    assert (without.cause[:, :-1][rim] == Cause.NOT_DECIDABLE).all()  # beyond half a pixel
+    assert (without.cause[:, :-1][rim] == NOT_DECIDABLE).all()  # beyond half a pixel
     known = Picture(color, owner=owner, owners=owners)
     for shown in (Picture(color), known):
         beyond, within = (
             causes(scene, frame, shown, (), near).cause[:, :-1][rim] for near in (0.01, 0.45)
         )
-        assert (beyond == Cause.UNEXPLAINED).all() and (within == Cause.EDGE).all()
+        assert (beyond == UNEXPLAINED).all() and (within == EDGE).all()
 
 
 @pytest.mark.parametrize("ramp", [False, True])
@@ -97,14 +104,14 @@ def test_an_owner_that_cannot_have_the_colour_is_forgotten(ramp, make):
     found = result_of(explain(case_of(scene, shown), frame))
     assert wrong.sum() > 20
     assert (found.case.picture.owner[wrong] == (1 if ramp else UNKNOWN)).all()
-    unexplained = found.causes.cause == Cause.UNEXPLAINED
+    unexplained = found.causes.cause == UNEXPLAINED
     assert (unexplained[wrong]).mean() > 0.8 if ramp else not unexplained.any()
 
 
 def test_what_is_not_known_proves_nothing(room, seen):
     frame, shown = seen
     unknown = replace(shown, owner=np.full_like(shown.owner, UNKNOWN))
-    assert (causes(room, frame, unknown).cause == Cause.AGREE).all()
+    assert (causes(room, frame, unknown).cause == AGREE).all()
 
 
 def test_light_excuses_shades_but_no_object(room, seen):
@@ -115,25 +122,25 @@ def test_light_excuses_shades_but_no_object(room, seen):
     owner[box] = 0
     found = causes(room, frame, replace(shown, color=lit), [LIGHT])
     surface = frame.instance_index >= 0
-    assert (found.cause[surface] == Cause.COLOR).all()
-    assert (found.cause[~surface] == Cause.AGREE).all()
+    assert (found.cause[surface] == COLOR).all()
+    assert (found.cause[~surface] == AGREE).all()
     assert found.transform
     found = causes(room, frame, replace(shown, color=lit, owner=owner), [LIGHT])
-    assert (found.cause[box] == Cause.UNEXPLAINED).mean() > 0.8
-    assert (found.cause[surface & ~box] == Cause.COLOR).all()
+    assert (found.cause[box] == UNEXPLAINED).mean() > 0.8
+    assert (found.cause[surface & ~box] == COLOR).all()
 
 
 def test_light_without_identity_is_not_modelled(room):
     frame = render(room)
     lit = frame.color * np.float32((0.4, 0.5, 0.6, 1))
     found = causes(room, frame, lit, [LIGHT])
-    assert (found.cause[frame.instance_index >= 0] == Cause.NOT_MODELLED).all()
+    assert (found.cause[frame.instance_index >= 0] == NOT_MODELLED).all()
 
 
 def test_bytes_may_be_half_a_level_off(room, seen):
     frame, _ = seen
     stored = to_display(frame.color).astype(float)
-    for off, cause in ((0.0, Cause.AGREE), (1.0, Cause.UNEXPLAINED)):
+    for off, cause in ((0.0, AGREE), (1.0, UNEXPLAINED)):
         moved = stored.copy()
         moved[..., :3] += off * (stored[..., 3:] > 0) * (1 - 2 * (stored[..., :3] > 200))
         shown = Picture(decoded(moved / 255).astype(np.float32), levels=255)
@@ -145,5 +152,5 @@ def test_an_opaque_picture_has_no_alpha_to_compare(room, seen):
     frame, _ = seen
     color = frame.color.copy()
     color[..., 3] = 1
-    assert (causes(room, frame, Picture(color, opaque=True)).cause == Cause.AGREE).all()
-    assert (causes(room, frame, Picture(color)).cause == Cause.UNEXPLAINED).any()
+    assert (causes(room, frame, Picture(color, opaque=True)).cause == AGREE).all()
+    assert (causes(room, frame, Picture(color)).cause == UNEXPLAINED).any()

@@ -116,14 +116,14 @@ def test_a_terminal_without_the_letters(ball):
         ([], "--pixel X Y says which pixel"),
         (["--pixel", "24", "0"], "x must be between 0 and 23"),
         (["--pixel", "0", "-1"], "y must be between 0 and 15"),
-        (["--pixel", "0", "0", "--limit", "0"], "--limit is 0"),
+        (["--pixel", "0", "0", "--limit", "0"], "--limit: 0 is not an integer"),
         (["--pixel", "0", "0", "--out", "pixel.pdf"], "must end in .md or .html or .json"),
         (["--pixel", "0", "0", "--reproducer", "pixel.npz"], "must end in .json"),
         (["--pixel", "0", "0", "--reproducer", "p.json", "--out", "./p.json"], "the same file"),
     ],
 )
-def test_what_is_wrong_is_said(ball, capsys, options, says):
-    assert explain(ball, *SMALL, *options) == INPUT_ERROR
+def test_what_is_wrong_is_said(ball, capsys, exit_code, options, says):
+    assert exit_code(["explain", ball, *SMALL, *options]) == INPUT_ERROR
     assert says in capsys.readouterr().err
 
 

@@ -151,20 +151,21 @@ def test_extremes(solution, capsys, monkeypatch):
         (["not_there.py"], "no file 'not_there.py'"),
         (["FILE", "not_there.npz"], "no file 'not_there.npz'"),
         (["FILE", "FILE.txt"], "none of .blend"),
-        (["FILE", "--time-limit", "0"], "--time-limit is 0"),
-        (["FILE", "--pixels", "-3"], "--pixels is -3"),
-        (["FILE", "--memory-limit", "nan"], "--memory-limit is nan"),
-        (["FILE", "--memory-limit", "inf"], "--memory-limit is inf"),
-        (["FILE", "--memory-limit", "1e-6"], "--memory-limit is 1e-06"),
-        (["FILE", "--time-limit", "inf"], "--time-limit is inf"),
+        (["FILE", "--eye", "0", "0", "5"], "--eye is for scenes of your own"),
+        (["FILE", "--time-limit", "0"], "--time-limit: 0 is not"),
+        (["FILE", "--pixels", "-3"], "--pixels: -3 is not"),
+        (["FILE", "--memory-limit", "nan"], "--memory-limit: nan is not"),
+        (["FILE", "--memory-limit", "inf"], "--memory-limit: inf is not"),
+        (["FILE", "--memory-limit", "1e-6"], "--memory-limit: 1e-6 is not"),
+        (["FILE", "--time-limit", "inf"], "--time-limit: inf is not"),
     ],
 )
-def test_wrong_input(options, words, template, tmp_path, capsys, monkeypatch):
+def test_wrong_input(options, words, template, tmp_path, capsys, monkeypatch, exit_code):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "FILE.txt").write_text("x")
     (tmp_path / "scene.npz").write_text("x")
     options = [str(template) if o == "FILE" else o for o in options]
-    assert main(["judge", *options]) == INPUT_ERROR
+    assert exit_code(["judge", *options]) == INPUT_ERROR
     assert words in capsys.readouterr().err
 
 

@@ -28,7 +28,6 @@ TUNING = {
         **dict.fromkeys(("_FIRST", "BINS", "BINS - 1", "_GROWTH", "_GROWTH - 1"), _BINS),
         **dict.fromkeys(("2", "3"), _BINS + "; and the bytes of a kind of integer"),
     },
-    "sweep.chunks": {"_CHUNK": _STEP},
     "sweep.depth_buffer": dict.fromkeys(
         ("FINE", "COARSE", "COARSE // FINE", "2 * FINE"),
         "the size of a cell of pixels: integers; a cell has the least nearness of its pixels",
@@ -36,11 +35,7 @@ TUNING = {
     "sweep.rasterise": dict.fromkeys(
         ("FINE", "COARSE"), "the size of a cell of pixels: what no edge rules out is kept"
     ),
-    "sweep.small_boxes": {
-        "SIDE + 1": "a key for sorting boxes by their size, in integers",
-        "1 << 13": _STEP,
-        "1 << 15": _STEP,
-    },
+    "sweep.small_boxes": {"SIDE + 1": "a key for sorting boxes by their size, in integers"},
     "sweep.sweep": {
         "_PAIRS": _STEP,
         "_FRAGMENTS": _ROOM,
@@ -48,7 +43,7 @@ TUNING = {
         "2": _SHARE,
         "0.6": _SHARE,
     },
-    "sweep.verdict": {"_FRAGMENTS": _STEP, "1 << 14": _STEP, "1 << 15": _STEP},
+    "sweep.resolve": {"_FRAGMENTS": _STEP},
 }
 # What reaches an expression only as a part of another number: these.
 FOLDED = {
@@ -71,7 +66,9 @@ HAND = {
 ELSEWHERE = {
     "arithmetic": "bits that this process's arithmetic is asked for: the proofs take IEEE 754 so",
     "reasons": "words for the user, of what integers have decided",
-    "exact": "integers; frexp's mantissa has 53 digits, so that 2^53 of it are one",
+    "integers": "frexp's mantissa has 53 digits, so that 2^53 of it are an integer",
+    "rounding": "the roundings before the proof, which is about stored rays and corners: "
+    "test_rounding.py holds their bounds against fractions",
     "sweep.small_triangles": "float32 and a matrix product, which Trees.v has no word for; what "
     "is left out is held to be what the boxes leave out by test_small_triangles.py",
     "measures": "of barycentrics, which have no bound of their own: below it, integers divide",

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.compare.case import Case
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import AGREE, CAUSES
 from reference_tracer.compare.comparison import SCHEMA, compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
@@ -165,8 +165,8 @@ def test_a_folder_that_cannot_be_written(comparison, tmp_path):
 
 
 def test_every_cause_has_a_colour_of_its_own(comparison):
-    colored = {cause for cause in Cause if cause.color is not None}
-    assert colored == set(Cause) - {Cause.AGREE}
+    colored = {cause for cause in CAUSES if cause.color is not None}
+    assert colored == set(CAUSES) - {AGREE}
     shown = set()
     for cause in colored:
         comparison.causes.cause[...] = cause

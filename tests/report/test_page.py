@@ -330,11 +330,11 @@ def test_causes_are_told_apart_whatever_colours_one_sees(kind):
     """By CIE 1976's distance in L*a*b*; 10 is what one sees at a glance."""
     from itertools import combinations
 
-    from reference_tracer.compare.cause import Cause
+    from reference_tracer.compare.causes import CAUSES
     from skimage.color import rgb2lab
 
     linear = np.clip(
-        np.array([c.color for c in Cause if c.color]) @ np.array(DEFICIENT[kind]).T, 0, 1
+        np.array([c.color for c in CAUSES if c.color]) @ np.array(DEFICIENT[kind]).T, 0, 1
     )
     srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
     for first, second in combinations(rgb2lab(srgb), 2):

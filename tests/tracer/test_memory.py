@@ -65,7 +65,7 @@ from pathlib import Path
 from reference_tracer.cli import main as cli
 
 kind, room, *argv = sys.argv[1:]
-main([a.replace("large", "small") for a in argv])  # imports what the command needs
+cli.main([a.replace("large", "small") for a in argv])  # imports what the command needs
 page, field = resource.getpagesize(), {"AS": 0, "DATA": 5}[kind]
 used = int(Path("/proc/self/statm").read_text().split()[field]) * page
 kind = getattr(resource, "RLIMIT_" + kind)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.certified.sweep import boxes, chunks, rasterise, sweep, verdict
+from reference_tracer.certified.sweep import boxes, chunks, rasterise, resolve, sweep
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene, ViewWindow
@@ -129,7 +129,7 @@ def test_the_division_of_the_work_does_not_matter(mess, settings, division, monk
         monkeypatch.setattr(loop, "BYTES_PER_PIXEL", max(1, settings.memory // (rows * 26)))
         monkeypatch.setattr(sweep, "_BYTES_PER_TRIANGLE", max(1, settings.memory // 2 // triangles))
         monkeypatch.setattr(chunks, "_CHUNK", triangles)
-        for module, name in ((verdict, "_PAIRS"), (rasterise, "_BOXES"), (rasterise, "_CELLS")):
+        for module, name in ((resolve, "_PAIRS"), (rasterise, "_BOXES"), (rasterise, "_CELLS")):
             monkeypatch.setattr(module, name, pairs)
         monkeypatch.setattr(sweep, "_TRIANGLES", triangles)
         monkeypatch.setattr(boxes, "BINS", 2 + triangles % 255)

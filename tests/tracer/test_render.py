@@ -12,7 +12,7 @@ import trimesh
 from reference_tracer.methods import Method
 from reference_tracer.rendering import render, steps
 from reference_tracer.scene import Region
-from reference_tracer.tracer import candidates, triangle
+from reference_tracer.tracer import candidates
 from reference_tracer.tracer import render as rendering
 from reference_tracer.tracer.camera import camera_rays
 from reference_tracer.tracer.coloring import Color
@@ -21,7 +21,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.nearest import film_positions
 from reference_tracer.tracer.render import sample_offsets, tiles
 from reference_tracer.tracer.settings import Precision, Settings
-from reference_tracer.tracer.triangle import textbook
+from reference_tracer.tracer.triangle import TESTS, textbook
 from trimesh.ray.ray_triangle import RayMeshIntersector
 
 TURN = trimesh.transformations.rotation_matrix(0.7, (0.3, -0.5, 0.8), (0.1, 0, 0.2))
@@ -147,7 +147,7 @@ def test_float32_and_methods_reach_the_picture(make, monkeypatch):
     pictures = {m: render(scene, Settings(m)).t.tobytes() for m in plain}
     for method in plain:
         with monkeypatch.context() as patched:
-            patched.setattr(triangle, method, _never)
+            patched.setitem(TESTS, method, _never)
             changed = {m for m in plain if render(scene, Settings(m)).t.tobytes() != pictures[m]}
         assert changed == {method}
 

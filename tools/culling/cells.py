@@ -95,8 +95,8 @@ def _pixels(left: float) -> str:
     for (x0, y0), (x1, y1) in zip(low.T, high.T, strict=True):
         colors[y0 : y1 + 1, x0 : x1 + 1] = rgb(MISSED)
     colors[swept.seen] = rgb(SURE)
-    for rivals in (k for tested in swept.tested for k in tested.rivals):
-        colors.reshape(-1, 4)[swept.numbers(rivals)] = rgb(DOUBT)
+    for fragments in (k for tested in swept.tested for k in tested.fragments):
+        colors.reshape(-1, 4)[swept.numbers(fragments)] = rgb(DOUBT)
     axes, grid = pixel_axes(left, "3  Pixels of two triangles", width, height, 1)
     out = shown(axes, colors) + grid
     out += outline(axes, film[np.array([(0, 1, 2), (0, 2, 3)])], plots.INK, 3.5)

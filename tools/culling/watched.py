@@ -1,6 +1,6 @@
-"""The sweep, watched: the tracer's own, which also writes down what it looked at, and what it left.
+"""The tracer's own sweep, which also notes what it looks at and what it leaves out.
 
-In comes a scene; out go, as each class here says, what `draw_culling.py` draws and counts.
+`draw_culling.py` draws and counts that.
 """
 
 from __future__ import annotations
@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from copy import deepcopy
 from dataclasses import dataclass, field
+from unittest import mock
 
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.certainty import Certainty
 from reference_tracer.certified.sweep import sweep
+from reference_tracer.certified.sweep.boxes import boxes_of
 from reference_tracer.certified.sweep.chunks import Expanded
 from reference_tracer.certified.sweep.depth_buffer import DepthBuffer, Fragments
 from reference_tracer.certified.sweep.edge_functions import EdgeFunctions
@@ -40,12 +42,12 @@ class Look:
 
 @dataclass(frozen=True, eq=False)
 class Tested:
-    """EdgeFunctions that were evaluated together, what hid them, and the rivals that were kept."""
+    """EdgeFunctions that were evaluated together, what hid them, and their fragments."""
 
     found: EdgeFunctions
     boxes: Boxes
     depths: DepthBuffer
-    rivals: list[Fragments] = field(default_factory=list)
+    fragments: list[Fragments] = field(default_factory=list)
 
 
 class Watched(sweep.Sweep):
@@ -74,18 +76,9 @@ class Watched(sweep.Sweep):
         grid = self._depths.nearness.reshape(-1, self._depths.stride)
         return grid[: region.height, : region.width] > -np.inf
 
-    def numbers(self, rivals: Fragments) -> NDArray[np.integer]:
-        """Which pixels pairs are of, row by row from the lowest."""
-        return self._depths.pixels(rivals.pixel)
-
-    def boxes_of(
-        self, scene: Scene, film: Film, expanded: Expanded
-    ) -> tuple[NDArray, NDArray, NDArray]:
-        low, high, nearest = super().boxes_of(scene, film, expanded)
-        if self._closely:
-            self.expanded.append(expanded)
-            self.found_boxes.append((low, high))
-        return low, high, nearest
+    def numbers(self, fragments: Fragments) -> NDArray[np.integer]:
+        """Return the pixels of fragments, numbered row by row from the lowest."""
+        return self._depths.pixels(fragments.pixel)
 
     def not_hidden(self, low: NDArray, high: NDArray, nearest: NDArray) -> NDArray[np.integer]:
         found = super().not_hidden(low, high, nearest)
@@ -93,12 +86,6 @@ class Watched(sweep.Sweep):
             boxes = Boxes(np.arange(len(nearest)), low, high)
             self.looks.append(Look(boxes, nearest, found, self.seen))
         return found
-
-    def are_small(
-        self, film: Film, expanded: Expanded, low: NDArray, high: NDArray, some: NDArray
-    ) -> NDArray[np.bool_]:
-        """All triangles go the way that can be drawn, which finds the same."""
-        return np.zeros(len(some), bool)
 
     def pairs(self, found: EdgeFunctions, boxes: Boxes) -> Iterator[Covered]:
         _, of_y, of_x = found.coefficients[:, :3]
@@ -108,18 +95,31 @@ class Watched(sweep.Sweep):
         return super().pairs(found, boxes)
 
     def of_pairs(self, pairs: Covered, surface: NDArray) -> Fragments:
-        rivals = super().of_pairs(pairs, surface)
+        fragments = super().of_pairs(pairs, surface)
         if self._closely:
-            self.tested[-1].rivals.append(rivals)
-        return rivals
+            self.tested[-1].fragments.append(fragments)
+        return fragments
+
+
+def _none_small() -> mock._patch:
+    """Let all triangles go the way that can be drawn, which finds the same."""
+    return mock.patch.object(sweep, "are_small", lambda *given: np.zeros(len(given[-1]), bool))
 
 
 def watch(scene: Scene) -> Watched:
     """Sweep a small scene, which is one chunk, closely."""
     region = scene.camera.region
     swept = Watched(scene, Film(scene.camera), region, Statistics(), closely=True)
-    for _ in quiet(swept.steps(Settings().memory)):
-        pass
+
+    def found(scene: Scene, film: Film, expanded: Expanded) -> tuple[NDArray, NDArray, NDArray]:
+        low, high, nearest = boxes_of(scene, film, expanded)
+        swept.expanded.append(expanded)
+        swept.found_boxes.append((low, high))
+        return low, high, nearest
+
+    with _none_small(), mock.patch.object(sweep, "boxes_of", found):
+        for _ in quiet(swept.steps(Settings().memory)):
+            pass
     return swept
 
 
@@ -129,7 +129,8 @@ def count(scene: Scene) -> tuple[Statistics, NDArray[np.float64]]:
     statistics.triangles = scene.triangle_count
     for band in render.bands(scene.camera, settings):
         swept = Watched(scene, Film(scene.camera), band, statistics)
-        hits = result_of(quiet(swept.steps(settings.memory // 2)))
+        with _none_small():
+            hits = result_of(quiet(swept.steps(settings.memory // 2)))
         statistics.culling["by_integers"] += int((hits.certainty != Certainty.BOUND).sum())
         bounds += swept.bounds
     return statistics, np.concatenate(bounds)

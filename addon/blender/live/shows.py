@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...certainty import Certainty
-from ...compare.cause import Cause
-from ...compare.causes import explain
+from ...compare.cause import AGREE, UNEXPLAINED
+from ...compare.causes import CAUSES, explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
 from ...rendering import steps
 from ...scene import Camera, Scene
@@ -125,11 +125,11 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
         yield 0.9
     passed = len(causes.passed_over)
     color.reshape(-1, 4)[causes.passed_over] = 1
-    shown.color = ringed(color, causes.cause != Cause.AGREE)
-    counts = {c: int((causes.cause == c).sum()) for c in Cause}
-    found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c is not Cause.AGREE]
+    shown.color = ringed(color, causes.cause != AGREE)
+    counts = {c: int((causes.cause == c).sum()) for c in CAUSES}
+    found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c != AGREE]
     found += [f"{passed:,} not looked at (white)"] if passed else []
-    differ = sum(n for c, n in counts.items() if c.differs) + passed
+    differ = sum(n for c, n in counts.items() if c.explains or c == UNEXPLAINED) + passed
     of = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
     shown.line = f"{of}: {', '.join(found)}" if found else of
 

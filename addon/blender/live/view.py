@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
-from ...cli.arguments import failure
+from ...errors import failure
 from ...scene import Camera
 from ...tracer.settings import Settings
 from . import shows

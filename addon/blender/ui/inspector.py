@@ -50,7 +50,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             return {"FINISHED"}
         if event.type != "LEFTMOUSE" or event.value != "PRESS":
             return {"PASS_THROUGH"}
-        from ...cli.arguments import words
+        from ...errors import words
         from ...scene import SceneError
         from .picking import pick
 

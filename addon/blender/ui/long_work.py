@@ -162,7 +162,7 @@ class LongWork:
 
 def failed(operator: Any, error: Exception) -> set[str]:
     """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
-    from ...cli.arguments import EXPECTED, words
+    from ...errors import EXPECTED, words
 
     if not isinstance(error, EXPECTED):
         traceback.print_exception(error)

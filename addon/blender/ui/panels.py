@@ -128,15 +128,15 @@ class _Result:
 
     def draw(self, context: Any) -> None:
         from ...compare import self_check
-        from ...compare.cause import Cause
+        from ...compare.causes import CAUSES
 
         comparison = results.latest(Kind.COMPARISON, context.scene).content
         pixels, measured = comparison.pixels, comparison.metrics
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         self.layout.label(text=comparison.verdict.capitalize(), icon=icon)
         rows = [("Agree", pixels["agree"]), ("Differ", pixels["differ"])]
-        causes = {Cause[name.upper()]: n for name, n in pixels["by_cause"].items() if n}
-        rows += [(f"  {cause.label.capitalize()}", n) for cause, n in causes.items()]
+        counts = ((cause, pixels["by_cause"].get(cause.key)) for cause in sorted(CAUSES))
+        rows += [(f"  {cause.label.capitalize()}", n) for cause, n in counts if n]
         rows += [(f"Differ, {part.capitalize()}", pixels[part]["differ"]) for part in _PARTS]
         rows = [(label, f"{n:,} px") for label, n in rows]
         psnr = measured["psnr"]

@@ -1,9 +1,8 @@
-"""Where instances and triangles are on the film: the boxes of pixels that they may cover.
+"""Finds the boxes of pixels that instances and triangles may cover, and sorts into depth bins.
 
-In comes a scene. Its instances' bounding boxes say, before any of them is expanded, whether they
-may be in view, how near they come, and which pixels they may cover. Of expanded triangles the boxes
-come from those of their vertices; by them the triangles are sorted from the front to the back, into
-depth bins: how many is the scene's own number.
+An instance's bounding box says, before the instance is expanded, whether it may be in view, how
+near it comes, and which pixels it may cover. The boxes of expanded triangles come from those of
+their vertices. Triangles are sorted into depth bins, from the front to the back.
 """
 
 from __future__ import annotations
@@ -16,34 +15,44 @@ from numpy.typing import NDArray
 
 from ...scene import Region, Scene
 from ...tracer.candidates import pixel_bounds
-from ...tracer.vector import Index, Vectors, gather, grouped, largest, parts, transform_points
+from ...tracer.vector import (
+    Bools,
+    Floats,
+    Index,
+    Vectors,
+    gather,
+    grouped,
+    largest,
+    parts,
+    transform_points,
+)
 from ...tracer.world import world_corners
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
 from .film import Film, Vertices
 
-BINS = 256  # of nearness, into which triangles are sorted
-_GROWTH = 1.2  # of depth bins
-_FIRST = 0.5  # of the first bin, of the surface that is in front: a box is more than its triangle
-_SAMPLE = 1 << 14  # triangles, about, that are asked how deep the scene is
-_MARGIN = 1.0  # pixels around the region that count as in view, and around a box as its own
+BINS = 256  # intervals of nearness that the depth bins are made of
+_GROWTH = 1.2  # by how much each depth bin is larger than the one before
+_FIRST = 0.5  # the area of the first depth bin: a box is larger than its triangle
+_SAMPLE = 1 << 14  # triangles, about, from which depth bins are estimated
+_MARGIN = 1.0  # pixels by which the region, and an instance's box, are widened
 _TOGETHER = 1 << 15  # triangles at a time
 
 
 @dataclass(frozen=True, eq=False)
 class InstanceBoxes:
-    """The boxes of n instances.
+    """The boxes of n instances on the film.
 
-    `in_view` (n,) is False for what no ray of the region meets. `depth` (n,) is the least of its
-    corners, in metres. Pixels outside `low` to `high`, (2, n) x and y, both included, are not
-    covered, and nothing is nearer than `nearest` (n,), a nearness (`edge_functions.py`).
+    `in_view` (n,) is False for an instance that no ray of the region hits. `depth` (n,) is the
+    least of its bounding box, in metres. It covers only pixels from `low` to `high`, (2, n) x and
+    y, both included. `nearest` (n,) bounds its nearness (`edge_functions.py`) from above.
     """
 
-    in_view: NDArray[np.bool_]
-    depth: NDArray[np.float64]
+    in_view: Bools
+    depth: Floats
     low: NDArray[np.int32]
     high: NDArray[np.int32]
-    nearest: NDArray[np.float64]
+    nearest: Floats
 
     @classmethod
     @np.errstate(all="ignore")
@@ -51,16 +60,20 @@ class InstanceBoxes:
         """Project the bounding boxes of all instances."""
         corners, size = _corners(scene)
         count = corners.shape[2]
-        camera, region = film.camera, film.camera.region
-        # What lies between the corners was rounded like them, from numbers of at most this size.
+        camera = film.camera
+        region = camera.region
+        # What lies between the corners is rounded like them, from numbers of at most this size.
         size = 4 * (size + np.abs(camera.origin).max())
         vertices = Vertices.empty(8 * count, np.int32)
         film.enter(vertices, 0, corners.reshape(3, 8 * count))
-        p, q, w, depth, ahead = (
-            getattr(vertices, name).reshape(8, count) for name in ("p", "q", "w", "depth", "ahead")
-        )
+        p = vertices.p.reshape(8, count)
+        q = vertices.q.reshape(8, count)
+        w = vertices.w.reshape(8, count)
+        depth = vertices.depth.reshape(8, count)
+        ahead = vertices.ahead.reshape(8, count)
         constant, slope = film.place
-        place, weight = constant + slope * size, film.weight * size
+        place = constant + slope * size
+        weight = film.weight * size
         own = film.depth_error[0] + film.depth_error[1] * size
         outside = (depth + own < camera.clip_start).all(axis=0)
         outside |= (depth - own > camera.clip_end).all(axis=0)
@@ -68,8 +81,8 @@ class InstanceBoxes:
             for sign, end in ((1, first - _MARGIN), (-1, last + _MARGIN)):
                 error = place + abs(end) * weight
                 outside |= (sign * (value - end * w) < -error).all(axis=0)
-        # In a box that is wholly before the eye nothing appears beside its corners, by more than
-        # the margin where that is wide enough for all rounding.
+        # If a box is wholly in front of the eye, all of it appears between its corners, up to a
+        # margin that is wide enough for all rounding.
         far = max(camera.width, camera.height)
         clear = ahead & (place + far * weight < 0.25 * _MARGIN * w)
         clear = clear.all(axis=0) & film.is_sound
@@ -84,30 +97,34 @@ class InstanceBoxes:
         )
 
     @property
-    def area(self) -> NDArray[np.float64]:
-        """How many pixels the boxes have, (n,)."""
+    def area(self) -> Floats:
+        """The number of pixels of each box, (n,)."""
         width, height = self.high - self.low.astype(np.float64) + 1
         return width * height
 
-    def in_region(self, region: Region) -> NDArray[np.bool_]:
-        """Return which instances may be in view in a region, (n,)."""
+    def in_region(self, region: Region) -> Bools:
+        """Return which instances may cover pixels of a region, (n,)."""
         out = self.in_view.copy()
         for axis, (first, last) in enumerate(((region.x0, region.x1), (region.y0, region.y1))):
             out &= (self.low[axis] < last) & (self.high[axis] >= first)
         return out
 
-    def hidden(self, instances: NDArray[np.integer], depths: DepthBuffer) -> NDArray[np.bool_]:
-        """Return which of these instances lie wholly behind what a depth buffer holds."""
+    def hidden(self, instances: Index, depths: DepthBuffer) -> Bools:
+        """Return which of these instances a depth buffer hides wholly, (k,)."""
         region = depths.region
-        ends = np.array([[region.x0], [region.y0]]), np.array([[region.x1 - 1], [region.y1 - 1]])
-        low = np.clip(self.low[:, instances], *ends) - ends[0]
-        high = np.clip(self.high[:, instances], *ends) - ends[0]
+        first = np.array([[region.x0], [region.y0]])
+        last = np.array([[region.x1 - 1], [region.y1 - 1]])
+        low = np.clip(self.low[:, instances], first, last) - first
+        high = np.clip(self.high[:, instances], first, last) - first
         farthest = [depths.farthest_around(*box) for box in np.concatenate((low, high)).T.tolist()]
         return self.nearest[instances] < np.array(farthest)
 
 
-def _corners(scene: Scene) -> tuple[Vectors, NDArray[np.float64]]:
-    """Return the corners of all boxes in world space, (3, 8, n), and their numbers' size, (n,)."""
+def _corners(scene: Scene) -> tuple[Vectors, Floats]:
+    """Return the corners of bounding boxes in world space, (3, 8, n).
+
+    And a bound on the numbers that they are computed from, (n,).
+    """
     low, high = np.array([m.bounds for m in scene.meshes])[scene.instance_meshes].transpose(1, 2, 0)
     matrices = scene.instance_matrices
     ends = [
@@ -121,18 +138,19 @@ def _corners(scene: Scene) -> tuple[Vectors, NDArray[np.float64]]:
     return corners, size.max(axis=0)
 
 
-def boxes_of(
-    scene: Scene, film: Film, expanded: Expanded
-) -> tuple[Index, Index, NDArray[np.float64]]:
-    """Return lowest and highest x and y of triangles, (2, m) each, within the whole picture.
+def boxes_of(scene: Scene, film: Film, expanded: Expanded) -> tuple[Index, Index, Floats]:
+    """Return the boxes of m triangles: lowest and highest pixels, (2, m) x and y each.
 
-    And the most that the nearness of each can be, (m,).
+    They are clipped to the whole picture. And bounds on the nearness of each from above, (m,).
     """
-    vertices, corners = expanded.vertices, expanded.corners
+    vertices = expanded.vertices
+    corners = expanded.corners
     kind = vertices.box.dtype
     packed = vertices.box.view(np.int64 if kind.itemsize == 2 else np.complex128).ravel()
     count = corners.shape[1]
-    low, high, nearest = np.empty((2, count), kind), np.empty((2, count), kind), np.empty(count)
+    low = np.empty((2, count), kind)
+    high = np.empty((2, count), kind)
+    nearest = np.empty(count)
     ends = np.array([[film.camera.width - 1], [film.camera.height - 1]], kind)
     for part in parts(count, _TOGETHER):
         some = corners[:, part].astype(np.intp)
@@ -146,8 +164,9 @@ def boxes_of(
 
 
 def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index) -> None:
-    """Mend the boxes of triangles with a corner that is not before the eye, or not finite."""
-    vertices, corners = expanded.vertices, expanded.corners
+    """Correct the boxes of triangles with a corner that is not finite, or maybe behind the eye."""
+    vertices = expanded.vertices
+    corners = expanded.corners
     whole = replace(film.camera, region=Region(0, 0, film.camera.width, film.camera.height))
     finite = vertices.finite.take(corners).all(axis=0)
     high[:, ~finite] = -1
@@ -155,30 +174,78 @@ def _mend(scene: Scene, film: Film, expanded: Expanded, low: Index, high: Index)
     for part in np.split(some, range(_TOGETHER, len(some), _TOGETHER)):
         world = world_corners(scene, *expanded.names.of(part))
         x0, x1, y0, y1 = pixel_bounds(whole, world, reach=1.0)
-        low[:, part], high[:, part] = (x0, y0), (x1 - 1, y1 - 1)
+        low[:, part] = x0, y0
+        high[:, part] = x1 - 1, y1 - 1
 
 
-def by_depth(seen: Index, nearest: NDArray[np.float64], low: Index, high: Index) -> list[Index]:
-    """Split the triangles that are seen into depth bins, from the front to the back.
+@dataclass(frozen=True, eq=False)
+class Boxed:
+    """A chunk on the film, with the boxes of its m triangles.
 
-    The first holds somewhat fewer pixels of boxes than the union of all boxes has: about what one
-    surface would have that covers it all. Every other is larger than the one before, as the more
-    there is in front, the less is left to be hidden. So there are as many bins as the logarithm of
-    the surfaces behind one another, and what a refreshed depth buffer may save is worth its price.
-    All that is estimated, from some thousand triangles.
+    `first` is the number of its first surface. Boxes are (2, m) x and y, both ends included: `low`
+    to `high` in the whole picture, `region_low` to `region_high` in the region. `nearest` (m,)
+    bounds the nearness of each triangle from above.
+    """
+
+    expanded: Expanded
+    first: int
+    low: Index
+    high: Index
+    nearest: Floats
+    region_low: Index
+    region_high: Index
+
+    @classmethod
+    def of(
+        cls,
+        expanded: Expanded,
+        first: int,
+        region: Region,
+        low: Index,
+        high: Index,
+        nearest: Floats,
+    ) -> Boxed:
+        """Clip the boxes to a region."""
+        corner = np.array([[region.x0], [region.y0]], low.dtype)
+        extent = np.array([[region.width - 1], [region.height - 1]], low.dtype)
+        region_low = np.maximum(low - corner, 0)
+        region_high = np.minimum(high - corner, extent)
+        return cls(expanded, first, low, high, nearest, region_low, region_high)
+
+    @property
+    def seen(self) -> Index:
+        """The triangles with a pixel of the region in their box."""
+        fits = self.region_low <= self.region_high
+        return np.flatnonzero(fits[0] & fits[1])
+
+    def in_region(self, triangle: Index) -> tuple[Index, Index]:
+        """Return the ends of triangles' boxes in the region."""
+        return gather(self.region_low, triangle), gather(self.region_high, triangle)
+
+
+def by_depth(seen: Index, nearest: Floats, low: Index, high: Index) -> list[Index]:
+    """Split the triangles `seen` into depth bins, from the front to the back.
+
+    The boxes of the first bin have somewhat fewer pixels than the union of all boxes: about as many
+    as a surface that covers it all. Every other bin is larger than the one before: the more lies in
+    front, the less is left to be hidden. So the number of bins is about the logarithm of the number
+    of surfaces behind one another, and refreshing the depth buffer is worth its price. All this is
+    estimated from some thousand triangles.
     """
     step = 1 + len(seen) // _SAMPLE
     some = seen[::step]
-    (x0, y0), (x1, y1) = low.take(some, axis=1), high.take(some, axis=1)
+    x0, y0 = low.take(some, axis=1)
+    x1, y1 = high.take(some, axis=1)
     area = np.multiply(x1 - x0 + 1, y1 - y0 + 1, dtype=np.float32)
     union = _FIRST * (int(x1.max()) + 1 - int(x0.min())) * (int(y1.max()) + 1 - int(y0.min()))
     if step * area.sum(dtype=np.float64) < 2 * union or BINS < 3:
         return [seen]
     near = nearest.take(some)
-    first, last = near.min(), near.max()
+    first = np.min(near)
+    last = np.max(near)
     scale = (BINS - 1) / (last - first) if last > first else 0.0
 
-    def depth(nearness: NDArray[np.float64]) -> NDArray[np.uint8]:
+    def depth(nearness: Floats) -> NDArray[np.uint8]:
         return np.clip((last - nearness) * scale, 0, BINS - 1).astype(np.uint8)
 
     before = np.cumsum(np.bincount(depth(near), area, BINS)) * (step / union)

@@ -1,8 +1,7 @@
-"""The scene in chunks that are worked on together, from the front to the back.
+"""Splits a scene into chunks that fit into memory, and expands one of them at a time.
 
-In comes a scene; out go chunks: whole instances whose triangles fit into the memory that there is,
-or a part of one that does not. What lies wholly outside the view is left out by its bounding box,
-so that an instance costs no more than that; no more than one chunk is expanded at a time.
+A chunk is several whole instances, or a part of a large one. Instances out of view have no chunk:
+their bounding boxes are all that they cost.
 """
 
 from __future__ import annotations
@@ -15,8 +14,18 @@ from numpy.typing import NDArray
 
 from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
-from ...tracer.vector import Index, Vectors, gather, grouped, groups, occurring, transform_points
-from ...tracer.vector import parts as slices
+from ...tracer.vector import (
+    Bools,
+    Floats,
+    Index,
+    Vectors,
+    gather,
+    grouped,
+    groups,
+    occurring,
+    parts,
+    transform_points,
+)
 from .film import Film, Vertices
 from .small_triangles import SmallTriangles
 
@@ -25,9 +34,9 @@ _CHUNK = 1 << 13  # vertices transformed together: their temporaries stay in a c
 
 @dataclass(frozen=True, eq=False)
 class Chunk:
-    """Triangles first <= k < last of one instance, or all of several (`last` is None).
+    """The triangles first <= k < last of one instance, or all of several (`last` is None).
 
-    Where these are `dense`, only the triangles that may cover a pixel (`small_triangles.py`).
+    Of `dense` instances only those that may cover a pixel (`small_triangles.py`).
     """
 
     instances: NDArray[np.int32]
@@ -38,10 +47,10 @@ class Chunk:
 
 @dataclass(frozen=True, eq=False)
 class Names:
-    """How the scene calls a chunk's triangles.
+    """The names, instance and triangle, of a chunk's triangles.
 
-    Those `starts[i]` <= k < `starts[i + 1]` are `instances[i]`'s, from its triangle `first` on;
-    or its triangles `own[k]`, where that is given.
+    The triangles `starts[i]` <= k < `starts[i + 1]` are those of `instances[i]`, from its triangle
+    `first` on. If `own` is given, k is the instance's triangle `own[k]`.
     """
 
     instances: NDArray[np.int32]
@@ -50,7 +59,7 @@ class Names:
     own: NDArray[np.int32] | None = None
 
     def of(self, triangle: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle, as the scene counts them, of triangles of the chunk."""
+        """Return instance and triangle of some of the chunk's triangles, (n,) each."""
         which = np.zeros(len(triangle), np.intp)
         if len(self.instances) > 1:
             which = np.searchsorted(self.starts, triangle, side="right") - 1
@@ -61,27 +70,27 @@ class Names:
 
 
 class Numbering:
-    """One number for each surface of all chunks, in the order in which the chunks come."""
+    """Numbers the surfaces of all chunks, one chunk after the other."""
 
     def __init__(self) -> None:
         self._names: list[Names] = []
         self._starts = np.zeros(1, np.int64)  # the number of the first surface of each
 
     def enter(self, names: Names) -> int:
-        """Give numbers to a chunk's surfaces; returns the first."""
+        """Give numbers to a chunk's surfaces, and return the first."""
         start = int(self._starts[-1])
         self._names.append(names)
         self._starts = np.append(self._starts, start + names.starts[-1])
         return start
 
     def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-        """Return instance and triangle of surfaces."""
+        """Return instance and triangle of surfaces, (n,) each."""
         if len(self._names) == 1:
             return self._names[0].of(surface)
         out = np.empty((2, len(surface)), np.int32)
         chunk = np.searchsorted(self._starts, surface, side="right") - 1
-        chunk = grouped(chunk.astype(np.uint16), len(self._names))
-        for names, own, start in zip(self._names, chunk, self._starts.tolist(), strict=False):
+        in_chunk = grouped(chunk.astype(np.uint16), len(self._names))
+        for names, own, start in zip(self._names, in_chunk, self._starts.tolist(), strict=False):
             if len(own):
                 out[:, own] = names.of(surface[own] - start)
         return out[0], out[1]
@@ -89,30 +98,34 @@ class Numbering:
 
 @dataclass(frozen=True, eq=False)
 class Expanded:
-    """A chunk with its vertices on the film; `corners` (3, m) are those of its triangles."""
+    """A chunk on the film: its vertices, and the vertices `corners` (3, m) of its triangles."""
 
     vertices: Vertices
     corners: NDArray[np.int32]
     names: Names
 
 
-def chunks(
-    scene: Scene,
-    in_view: NDArray[np.bool_],
-    depth: NDArray[np.float64],
-    limit: int,
-    dense: NDArray[np.bool_],
-) -> list[Chunk]:
-    """Return the chunks of the instances in view, of at most `limit` triangles each.
+def chunks(scene: Scene, in_view: Bools, depth: Floats, limit: int, dense: Bools) -> list[Chunk]:
+    """Return the chunks of the instances in view, from the front to the back.
 
-    `in_view`, `depth`, the least of each instance, and whether it is `dense`, are (n,).
+    Parameters
+    ----------
+    scene : Scene
+        It has n instances.
+    in_view : (n,) bool
+    depth : (n,) float64
+        The least depth of each instance, in metres.
+    limit : int
+        The most triangles of a chunk.
+    dense : (n,) bool
+        Whether each instance is dense (`small_triangles.py`).
     """
     sizes = np.array([(len(m.triangles), len(m.vertices)) for m in scene.meshes], np.intp)
     counts, vertices = sizes.reshape(-1, 2)[scene.instance_meshes].T
     order = np.flatnonzero(in_view & (counts > 0))
     order = order[np.argsort(depth[order], kind="stable")].astype(np.int32)
     out = []
-    size = np.maximum(counts, vertices // 3)  # there may be many that no triangle uses
+    size = np.maximum(counts, vertices // 3)  # there may be vertices that no triangle uses
     large = size[order] > limit
     for instance in order[large].tolist():
         count = int(counts[instance])
@@ -124,29 +137,30 @@ def chunks(
             group = rest[start:end]
             group = group[np.argsort(scene.instance_meshes[group], kind="stable")]
             out.append(Chunk(group, dense=is_dense))
-    nearest = [depth[chunk.instances].min() for chunk in out]
+    nearest = [np.min(depth[chunk.instances]) for chunk in out]
     return [out[k] for k in np.argsort(nearest, kind="stable")]
 
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """Triangles of k instances of a mesh: `counts` (k,) of each.
+    """Triangles of k instances of a mesh, `counts` (k,) of each.
 
-    `corners` (3, m) count the vertices that are `used`, (v,): their numbers in the mesh, and that
-    of its vertices more for each instance before. `own` (m,): see `Names`.
+    `corners` (3, m) index `used` (v,). A vertex there is its number in the mesh, plus the mesh's
+    number of vertices for each instance before. `own` (m,) is as in `Names`.
     """
 
     mesh: Mesh
     instances: NDArray[np.int32]
     counts: Index
-    corners: Index
+    corners: NDArray[np.int32]
     used: Index
-    own: Index | None = None
+    own: NDArray[np.int32] | None = None
 
     def world(self, scene: Scene) -> Iterator[tuple[int, Vectors]]:
-        """Yield the vertices' world positions, some thousand at a time, and the first's number."""
-        matrices, count = scene.instance_matrices[:3, :, self.instances], len(self.mesh.vertices)
-        for part in slices(len(self.used), _CHUNK):
+        """Yield some thousand vertices in world space at a time, after the first one's number."""
+        matrices = scene.instance_matrices[:3, :, self.instances]
+        count = len(self.mesh.vertices)
+        for part in parts(len(self.used), _CHUNK):
             copy = self.used[part] // count
             vertex = self.used[part] - copy * count
             own = matrices[..., copy[:1]] if copy[0] == copy[-1] else gather(matrices, copy)
@@ -154,43 +168,45 @@ class _Part:
 
 
 def expand(scene: Scene, film: Film, chunk: Chunk, small: SmallTriangles) -> Steps[Expanded]:
-    """Return a chunk's triangles, with their vertices on the film, in small steps.
+    """Project a chunk's vertices to the film, in small steps.
 
-    What is not finite there is dropped, or decided elsewhere.
+    Vertices that are not finite there make triangles that are dropped, or decided elsewhere.
     """
-    parts = []
+    found: list[_Part] = []
     for part in _parts(scene, chunk, small):
-        parts += [part] if part else []
+        if part:
+            found.append(part)
         yield "project"
     size = max(film.camera.width, film.camera.height)
-    vertices = Vertices.empty(
-        sum(len(part.used) for part in parts), np.int16 if size < 1 << 14 else np.int32
-    )
+    count = sum(len(part.used) for part in found)
+    vertices = Vertices.empty(count, np.int16 if size < 1 << 14 else np.int32)
     at = 0
-    for part in parts:
+    for part in found:
         for first, world in part.world(scene):
             film.enter(vertices, at + first, world)
             yield "project"
         part.corners[:] += at
         at += len(part.used)
-    starts = np.concatenate(([0], np.cumsum(np.concatenate([part.counts for part in parts]))))
-    own = np.concatenate([part.own for part in parts]) if chunk.dense else None
-    # Row by row in memory: of columns that lie together, `take` would copy all for each few.
-    corners = np.ascontiguousarray(np.hstack([part.corners for part in parts]))
-    names = Names(np.concatenate([part.instances for part in parts]), starts, chunk.first, own)
+    starts = np.concatenate(([0], np.cumsum(np.concatenate([part.counts for part in found]))))
+    own = [part.own for part in found if part.own is not None]
+    # Contiguous rows: `take` of rows that are not would copy all of them each time.
+    corners = np.ascontiguousarray(np.hstack([part.corners for part in found]))
+    instances = np.concatenate([part.instances for part in found])
+    names = Names(instances, starts, chunk.first, np.concatenate(own) if chunk.dense else None)
     return Expanded(vertices, corners, names)
 
 
 def _parts(scene: Scene, chunk: Chunk, small: SmallTriangles) -> Iterator[_Part | None]:
-    """Yield a chunk's triangles, mesh by mesh; and None after each short step between."""
+    """Yield a chunk's triangles, mesh by mesh, and None after each step in between."""
     of = scene.instance_meshes[chunk.instances]
     for members in np.split(chunk.instances, np.flatnonzero(np.diff(of)) + 1):
         mesh = scene.meshes[scene.instances[members[0]].mesh]
         if chunk.dense:
             for found in small.within(mesh, members):
-                yield found and _Part(mesh, *found)
+                yield _Part(mesh, *found) if found else None
             continue
-        corners, count = mesh.triangles[chunk.first : chunk.last].T, len(mesh.vertices)
+        corners = mesh.triangles[chunk.first : chunk.last].T
+        count = len(mesh.vertices)
         used = np.arange(len(members) * count)
         if chunk.last is not None:
             used, corners = occurring(corners, count)

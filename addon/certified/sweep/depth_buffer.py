@@ -1,9 +1,11 @@
-"""The nearest sure hit of every pixel, and how near it is: what lies behind need not be tested.
+"""Keeps the nearest sure hit of every pixel, so that what lies behind it need not be tested.
 
-In come pixels with a surface that they surely hit, and the least and the most that its nearness
-(`edge_functions.py`) can be there; out goes what a surface must reach to be seen: at a pixel, or
-anywhere in a cell of pixels. Whose least is the greatest of a pixel is its winner. Every other that
-may reach that is a rival, and kept: so a winner without rivals at the end is what the pixel sees.
+The nearness (`edge_functions.py`) of a hit is known to be between a least and a most. The winner of
+a pixel is the surface with the greatest least nearness. A surface with a smaller most nearness is
+hidden. All others may be nearer than the winner: they are returned as fragments. A winner without
+fragments at the end is what the pixel sees. Theorem: `Sweep.sweep_sees_what_plain_does`.
+
+The least nearness in a cell of pixels says what is hidden in all of the cell.
 """
 
 from __future__ import annotations
@@ -15,120 +17,132 @@ from numpy.typing import NDArray
 
 from ...scene import Camera, Region
 from ...tracer.hits import NOTHING
-from ...tracer.vector import Arrays, Index, gather
+from ...tracer.vector import Arrays, Bools, Floats, Index, gather
 from ..bounds import U
 
-ROUNDING = 4 * U  # relative, of a nearness that was computed from t
-FINE, COARSE = 8, 64  # pixels along the side of a cell: the sizes of `farthest`
+ROUNDING = 4 * U  # the relative error of a nearness that is computed from t
+FINE = 8  # pixels along the side of a small cell
+COARSE = 64  # and of a large cell
 
 
 @dataclass(frozen=True, eq=False)
 class Fragments(Arrays):
-    """c pairs of a pixel and a surface that may be nearer than its winner, (c,) each.
+    """c pairs of a pixel and a surface that may be nearer than the pixel's winner, (c,) each.
 
-    `surface` counts the triangles of all chunks; `nearest` is the most that its nearness can be.
+    `surface` is its number among those of all chunks; `nearest` bounds its nearness from above.
     """
 
     pixel: Index
     surface: Index
-    nearest: NDArray[np.float64]
+    nearest: Floats
 
 
 class ClipRange:
-    """The camera's clip range as nearness, with room for its own rounding."""
+    """The camera's clip range as nearness, with a margin for its rounding."""
 
     def __init__(self, camera: Camera) -> None:
-        start, end, nearness = camera.clip_start, camera.clip_end, camera.projection.nearness
+        start = camera.clip_start
+        end = camera.clip_end
+        nearness = camera.projection.nearness
         self._outer, self._inner = (
             (nearness(end, end, room)[0], nearness(start, start, room)[1])
             for room in (ROUNDING, -ROUNDING)
         )
 
-    def inside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
-        """Return which surely are in the range, of nearnesses between these."""
+    def inside(self, least: Floats, most: Floats) -> Bools:
+        """Return which hits surely are in the range, given the ends of their nearness."""
         return (least > self._inner[0]) & (most < self._inner[1])
 
-    def outside(self, least: NDArray, most: NDArray) -> NDArray[np.bool_]:
-        """Return which surely are not."""
+    def outside(self, least: Floats, most: Floats) -> Bools:
+        """Return which hits surely are not in the range."""
         return (most < self._outer[0]) | (least > self._outer[1])
 
 
 class DepthBuffer:
-    """The depth buffer of a region, in cells of FINE and of COARSE pixels.
+    """The depth buffer of a region, with cells of FINE and of COARSE pixels a side.
 
-    Pixels are numbered row by row from the lowest, in rows of `stride`, which is the region's width
-    rounded up to whole cells.
+    Pixels are numbered row by row from the lowest, in rows of `stride`: the region's width, rounded
+    up to whole cells.
     """
 
     def __init__(self, region: Region) -> None:
-        self.region, self.corner = region, np.array([[region.x0], [region.y0]])
-        columns, rows = -(-region.width // COARSE), -(-region.height // COARSE)
+        self.region = region
+        self.corner = np.array([[region.x0], [region.y0]])
+        columns = -(-region.width // COARSE)
+        rows = -(-region.height // COARSE)
         self.stride = columns * COARSE
-        self.nearness = np.full(rows * COARSE * self.stride, -np.inf)  # the least of the winner
-        self._most = self.nearness.copy()
+        self.nearness = np.full(rows * COARSE * self.stride, -np.inf)  # the winners' least
+        self._most = self.nearness.copy()  # the winners' most
         self._surface = np.full(len(self.nearness), NOTHING, np.int64)
         grid = self.nearness.reshape(rows * COARSE, self.stride)
-        grid[region.height :] = grid[:, region.width :] = np.inf  # no pixels, so never in the way
+        grid[region.height :] = np.inf  # beyond the region, where nothing is to be seen
+        grid[:, region.width :] = np.inf
         self._fine = np.full((rows * COARSE // FINE, self.stride // FINE), -np.inf)
         self._coarse = np.full((rows, columns), -np.inf)
-        self._around = self._fine.copy()  # of each cell with those to its right and above it
-        self._stale = np.ones((rows * COARSE, columns), bool)  # which of each row are newer
+        self._around = self._fine.copy()  # the least of a cell, and those right of and above it
+        self._stale = np.ones((rows * COARSE, columns), bool)  # pixels newer than their cell
 
     @property
     def winners(self) -> NDArray[np.int64]:
-        """The surface that wins each of the region's pixels, (n,); NOTHING where none is sure."""
+        """The winner of each of the region's n pixels; NOTHING where no hit is sure."""
         r = self.region
         return self._surface.reshape(-1, self.stride)[: r.height, : r.width].reshape(-1)
 
     def pixels(self, numbers: Index) -> Index:
-        """Return the region's own numbers, in rows of its width, of pixels (n,)."""
+        """Return the numbers of pixels (n,) in rows of the region's width."""
         if self.stride == self.region.width:
             return numbers
         y, x = np.divmod(numbers, self.stride)
         return y * self.region.width + x
 
     def places(self, pixels: Index) -> Index:
-        """Return the numbers here of pixels (n,) that have the region's own numbers."""
+        """Return the numbers here of pixels (n,) as :meth:`pixels` numbers them."""
         if self.stride == self.region.width:
             return pixels
         y, x = np.divmod(pixels, self.region.width)
         return y * self.stride + x
 
-    def enter(
-        self, pixel: Index, surface: Index, least: NDArray[np.float64], most: NDArray[np.float64]
-    ) -> list[Fragments]:
-        """Enter surfaces that pixels, which may occur more than once, surely hit; returns rivals.
+    def enter(self, pixel: Index, surface: Index, least: Floats, most: Floats) -> list[Fragments]:
+        """Enter sure hits of pixels, which may occur more than once; returns the fragments.
 
-        Of several writes to one place the last one stays: so those that find another there come
-        again, the other way round, as many may be sorted.
+        numpy keeps the last of several writes to one index. So surfaces that are overwritten are
+        entered again; in reverse order, as many come sorted.
         """
-        rivals = []
-        while len(pixel) or not rivals:
+        fragments: list[Fragments] = []
+        while len(pixel) or not fragments:
             before = gather(self.nearness, pixel)
             nearer = least > before
             if not nearer.all():
                 near = np.flatnonzero(~(nearer | (most < before)))
-                rivals.append(Fragments(*(gather(v, near) for v in (pixel, surface, most))))
-                nearer = np.flatnonzero(nearer)
-                pixel, surface, least, most = (
-                    gather(v, nearer) for v in (pixel, surface, least, most)
+                fragments.append(
+                    Fragments(gather(pixel, near), gather(surface, near), gather(most, near))
                 )
+                wins = np.flatnonzero(nearer)
+                pixel = gather(pixel, wins)
+                surface = gather(surface, wins)
+                least = gather(least, wins)
+                most = gather(most, wins)
             beaten = gather(self._most, pixel)
             near = np.flatnonzero(~(beaten < least))
             at = gather(pixel, near)
-            rivals.append(Fragments(at, gather(self._surface, at), gather(beaten, near)))
-            self.nearness[pixel], self._most[pixel], self._surface[pixel] = least, most, surface
+            fragments.append(Fragments(at, gather(self._surface, at), gather(beaten, near)))
+            self.nearness[pixel] = least
+            self._most[pixel] = most
+            self._surface[pixel] = surface
             self._stale.ravel()[pixel // COARSE] = True
             again = np.flatnonzero(gather(self._surface, pixel) != surface)[::-1]
-            pixel, surface, least, most = (gather(v, again) for v in (pixel, surface, least, most))
-        return rivals
+            pixel = gather(pixel, again)
+            surface = gather(surface, again)
+            least = gather(least, again)
+            most = gather(most, again)
+        return fragments
 
     def not_hidden(self, some: Fragments) -> Index:
-        """Return which fragments are not surely behind something."""
+        """Return which fragments are not surely hidden."""
         return np.flatnonzero(~(some.nearest < gather(self.nearness, some.pixel)))
 
     def refresh(self) -> None:
-        """Bring the cells up to date."""
+        """Compute the cells anew where pixels have changed."""
         per = COARSE // FINE
         rows, columns = self._coarse.shape
         stale = self._stale.reshape(rows, COARSE, columns).any(axis=1)
@@ -145,31 +159,38 @@ class DepthBuffer:
         np.minimum(self._around[:-1], self._fine[1:], out=self._around[:-1])
         np.minimum(self._around[:, :-1], self._around[:, 1:], out=self._around[:, :-1])
 
-    def farthest(self, x: Index, y: Index, size: int) -> NDArray[np.float64]:
-        """Return the least nearness in the cells of FINE or COARSE pixels with these numbers."""
+    def farthest(self, x: Index, y: Index, size: int) -> Floats:
+        """Return the least nearness in cells (n,) of FINE or COARSE pixels, by column and row."""
         return _at(self._fine if size == FINE else self._coarse, x, y)
 
-    def farthest_in(self, low: Index, high: Index) -> NDArray[np.float64]:
-        """Return at most the least nearness in boxes of pixels from `low` to `high`, (2, b) each.
+    def farthest_in(self, low: Index, high: Index) -> Floats:
+        """Bound the least nearness in boxes of pixels from below, (b,).
 
-        Both included. Of boxes that are larger than two cells of FINE pixels it says nothing: -inf.
+        Boxes go from `low` to `high`, (2, b) each, both included. The bound of a box that is larger
+        than two FINE cells is -inf.
         """
-        around = self._around  # of boxes of FINE pixels a side, in the cell where these begin
-        out, size = _at(around, *(low // FINE)), np.maximum(*(high - low))
+        around = self._around  # enough for boxes of FINE pixels a side that begin in the cell
+        column, row = low // FINE
+        out = _at(around, column, row)
+        size = np.maximum(*(high - low))
         larger = np.flatnonzero(size >= FINE)
         if len(larger):
-            size, (x, y), farthest = (gather(v, larger) for v in (size, low, out))
+            size = gather(size, larger)
+            x, y = gather(low, larger)
+            farthest = gather(out, larger)
             right, up = np.minimum((x + FINE, y + FINE), gather(high, larger))
-            for other in ((right, y), (x, up), (right, up)):
-                np.minimum(farthest, _at(around, *(v // FINE for v in other)), out=farthest)
+            for column, row in ((right, y), (x, up), (right, up)):
+                np.minimum(farthest, _at(around, column // FINE, row // FINE), out=farthest)
             out[larger] = np.where(size < 2 * FINE, farthest, -np.inf)
         return out
 
     def farthest_around(self, x0: int, y0: int, x1: int, y1: int) -> float:
-        """Return the least nearness in the cells around one box of any size."""
-        rows, columns = (slice(a // FINE, b // FINE + 1) for a, b in ((y0, y1), (x0, x1)))
+        """Return the least nearness in all cells that a box of any size touches."""
+        rows = slice(y0 // FINE, y1 // FINE + 1)
+        columns = slice(x0 // FINE, x1 // FINE + 1)
         return float(self._fine[rows, columns].min())
 
 
-def _at(cells: NDArray[np.float64], x: Index, y: Index) -> NDArray[np.float64]:
+def _at(cells: Floats, x: Index, y: Index) -> Floats:
+    """Return the values of cells by column and row, (n,)."""
     return gather(cells.ravel(), y.astype(np.intp) * cells.shape[1] + x)

@@ -1,11 +1,12 @@
-"""Which pixels triangles cover: their edge functions, evaluated where they may be inside.
+"""Rasterises triangles: evaluates their edge functions in the pixels that they may cover.
 
-In come edge functions with the boxes of pixels that they may cover; out go pairs of a pixel and a
-triangle that the ray may hit. A box is evaluated pixel by pixel. One that is larger
-than a cell of the depth buffer is split into cells first, and cells that an edge rules out, or that
-lie behind what is in the depth buffer already, are dropped as a whole. Floating-point addition and
-multiplication are monotone: what holds at a cell's corner holds, to the last bit, at all of its
-pixels.
+A box of pixels that is larger than a cell of the depth buffer is split into cells. A cell that an
+edge rules out, or that the depth buffer hides, is dropped as a whole. Floating-point addition and
+multiplication are monotone, so that what holds at a cell's corner holds, to the last bit, at all of
+its pixels. The boxes that are left are evaluated pixel by pixel.
+
+References: Greene, "Hierarchical polygon tiling with coverage masks", SIGGRAPH 1996, for cells that
+are tested as a whole. Theorems: `SweepPixels.block_right`, `SweepPixels.may_be_seen_right`.
 """
 
 from __future__ import annotations
@@ -14,21 +15,20 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...tracer.vector import Arrays, Floats, Index, gather, groups, parts, spread
+from ...tracer.vector import Arrays, Bools, Floats, Index, gather, groups, parts, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 
-_BOXES = 1 << 8  # evaluated together
-_CELLS = 1 << 14  # tested together
+_BOXES = 1 << 8  # boxes evaluated together
+_CELLS = 1 << 14  # cells tested together
 
 
 @dataclass(frozen=True, eq=False)
 class Boxes(Arrays):
-    """b boxes of pixels: `low` and `high`, (2, b) x and y each, both included, in the region.
+    """b boxes of pixels of a region, from `low` to `high`, (2, b) x and y each, both included.
 
-    `owner` (b,) says whose edge functions each has.
+    `owner` (b,) is the number of the edge functions of each.
     """
 
     owner: Index
@@ -37,42 +37,43 @@ class Boxes(Arrays):
 
     @property
     def size(self) -> Index:
-        """The longer side of each, less 1, (b,)."""
+        """The longer side of each in pixels, minus 1, (b,)."""
         return np.maximum(*(self.high - self.low))
 
 
 @dataclass(frozen=True, eq=False)
 class Covered(Arrays):
-    """p pairs of a pixel of a depth buffer and a triangle whose ray may hit, (p,) each.
+    """p pairs of a pixel of a depth buffer and a triangle that its ray may hit, (p,) each.
 
-    `owner` is the triangle; the hit's nearness is between `least` and `most`; `sure` says whether
-    there is one for sure.
+    `owner` is the triangle. The nearness of the hit is between `least` and `most`. `sure` says
+    whether the ray surely hits.
     """
 
     pixel: Index
     owner: Index
     least: Floats
     most: Floats
-    sure: NDArray[np.bool_]
+    sure: Bools
 
 
 def rasterised(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Covered]:
-    """Yield the pairs of boxes that are no larger than a cell."""
-    # Of about one size, as they are evaluated together.
+    """Yield the pairs of boxes that are no larger than a FINE cell."""
+    # Sorted, so that boxes that are evaluated together are of about one size.
     boxes = boxes.take(np.argsort(boxes.size, kind="stable"))
     for part in parts(len(boxes), _BOXES):
         yield _block(found, boxes.take(part), depths)
 
 
 def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:
-    """Evaluate some boxes in blocks of one size."""
+    """Evaluate some boxes, in blocks as large as the largest."""
     own = found.take(boxes.owner)
     of_1, of_y, of_x = own.coefficients
-    x, y = low = boxes.low
+    low = boxes.low
+    x, y = low
     last_x, last_y = boxes.high - low
     x0, y0 = low + (depths.corner - own.origin)
     across, upwards = (np.arange(last.max() + 1)[:, None] for last in (last_x, last_y))
-    # What a block has beyond its box is not covered, as NaN is not inside.
+    # The pixels of a block beyond its box are NaN, which is not inside.
     right = np.where(across <= last_x, x0 + across, np.nan)  # (w, b)
     up = np.where(upwards <= last_y, y0 + upwards, np.nan)  # (h, b)
     rows = of_1[:, None] + of_y[:, None] * up  # (4, h, b)
@@ -87,7 +88,8 @@ def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:
     first = y.astype(np.int32) * stride + x
     pixel = (upwards[:, None] * stride + across).astype(np.int32) + first
     row = inside % len(boxes)
-    nearness, error = gather(other.ravel(), inside), gather(own.nearness_error, row)
+    nearness = gather(other.ravel(), inside)
+    error = gather(own.nearness_error, row)
     return Covered(
         gather(pixel.ravel(), inside),
         gather(boxes.owner, row),
@@ -98,9 +100,9 @@ def _block(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Covered:
 
 
 def split(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[Boxes]:
-    """Yield boxes no larger than a cell of FINE pixels; of others their parts in such cells.
+    """Yield boxes that are no larger than a FINE cell, and the parts of others in FINE cells.
 
-    Only in those which may be covered and seen.
+    Cells that cannot be covered or seen are left out.
     """
     is_small = boxes.size < FINE
     yield boxes.take(np.flatnonzero(is_small))
@@ -110,7 +112,8 @@ def split(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer) -> Iterator[B
 
 def cells(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer, size: int) -> Iterator[Boxes]:
     """Yield the parts of boxes in those cells of this size which may be covered and seen."""
-    first, last = boxes.low // size, boxes.high // size
+    first = boxes.low // size
+    last = boxes.high // size
     columns, rows = (last - first + 1).astype(np.intp)
     for start, end in groups(columns * rows, _CELLS):
         which, number = spread(np.arange(start, end), (columns * rows)[start:end])
@@ -119,13 +122,14 @@ def cells(found: EdgeFunctions, boxes: Boxes, depths: DepthBuffer, size: int) ->
         low = np.maximum(boxes.low.take(which, axis=1), cell * size)
         high = np.minimum(boxes.high.take(which, axis=1), cell * size + (size - 1))
         some = Boxes(boxes.owner.take(which), low, high)
-        yield some.take(_may_be_seen(found, some, depths.farthest(*cell, size), depths))
+        x, y = cell
+        yield some.take(_may_be_seen(found, some, depths.farthest(x, y, size), depths))
 
 
 def _may_be_seen(
-    found: EdgeFunctions, boxes: Boxes, farthest: NDArray[np.float64], depths: DepthBuffer
+    found: EdgeFunctions, boxes: Boxes, farthest: Floats, depths: DepthBuffer
 ) -> Index:
-    """Return which boxes no edge rules out, and what is in the depth buffer does not hide."""
+    """Return which boxes neither an edge rules out nor the depth buffer hides."""
     of_1, of_y, of_x = gather(found.coefficients, boxes.owner)
     low = boxes.low + (depths.corner - gather(found.origin, boxes.owner))
     high = low + (boxes.high - boxes.low)

@@ -1,10 +1,10 @@
-"""Small-triangle culling: which triangles of dense instances can cover the centre of a pixel.
+"""Culls triangles that cover no pixel's centre, in dense instances, before they are expanded.
 
-In come instances with about as many triangles as pixels, or more; out come those triangles whose
-box on the film, widened by all errors, holds the centre of a pixel of the region. Only they are
-expanded. What is left out is what `boxes_of` would leave out: so nothing else changes.
+A dense instance has more triangles than pixels. A triangle is culled if its box on the film,
+widened by all errors, contains the centre of no pixel of the region. `boxes_of` would leave it out,
+too, so that culling changes no result.
 
-The film position of a vertex v of an instance is (p / w, q / w), where p, q, w are A v, with a
+The film position of a vertex v of an instance is (p / w, q / w), where (p, q, w) = A v, with a
 matrix A (3, 4) for each instance. In float32 they are off by at most 8 2^-24 S, S = |A| |v|: by the
 roundings of A, v, their product and three sums. Where that is less than a sixteenth of w, which is
 at least W in the instance's box, p / w is off by at most
@@ -12,13 +12,14 @@ at least W in the instance's box, p / w is off by at most
     9 2^-24 (1 + S_w / W) S_p / W + 2^-21 S_p / W + 2^-8
 
 with the roundings of 1 / w and the product, and two of what is added, which is less than 2^15. The
-errors of float64 are those which `place` and `weight` of `film.py` bound: of A, of the vertices,
-and of the box itself.
+errors of float64, in A, in the vertices and in the box itself, are bounded by `place` and `weight`
+of `film.py`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,30 +29,47 @@ from ...tracer.camera import pixel_size
 from ...tracer.vector import Floats, Index, gather, largest, occurring, parts
 from .film import Film
 
-_PER_PIXEL = 2  # triangles for a pixel of an instance's box: from there on it is dense
-_VERTICES = 1 << 14  # at a time: their temporaries stay in a core's cache
-_TRIANGLES = 1 << 15  # at a time
-_ROUNDING = 2.0**-24
-_RANGE = 2.0**40  # of all factors and sums, and of 1 / w: far from where float32 loses digits
-_FARTHEST = 1 << 14  # pixels, added to numbers that are less: the sum of two fills 16 bits
-_BOTH = np.uint32(0x80008000)  # the highest bits of two of them
-_MARGIN = 0.25  # pixels: where it would be more, nothing is left out
+_PER_PIXEL = 2  # an instance with more triangles per pixel of its box is dense
+_VERTICES = 1 << 14  # vertices at a time: their temporaries stay in a core's cache
+_TRIANGLES = 1 << 15  # triangles at a time
+_ROUNDING = 2.0**-24  # the relative error of one rounding in float32
+_RANGE = 2.0**40  # no factor, sum or 1 / w is larger: far from where float32 loses digits
+_FARTHEST = 1 << 14  # pixels: added to smaller numbers, so that the sum of two fills 16 bits
+_BOTH = np.uint32(0x80008000)  # the highest bits of two sums
+_MARGIN = 0.25  # pixels: instances with a wider margin are not dense
+
+
+class Visible(NamedTuple):
+    """Triangles of k instances of a mesh that may cover a pixel."""
+
+    instances: NDArray[np.int32]  # (k,)
+    counts: Index  # (k,) how many triangles of each
+    corners: NDArray[np.int32]  # (3, m) which of `used` their vertices are
+    # (v,) those vertices: the number in the mesh, plus the mesh's number of vertices for each
+    # instance before.
+    used: Index
+    triangle: NDArray[np.int32]  # (m,) their numbers in the mesh, instance by instance
 
 
 class SmallTriangles:
-    """Instances as a camera's film shows them, in float32.
+    """The instances of a scene on a camera's film, in float32.
 
     Parameters
     ----------
+    scene : Scene
+        It has n instances.
+    film : Film
     region : Region
-        The pixels that count.
+        The pixels that are traced.
     area : (n,) float64
-        Of the instances' boxes, in pixels.
+        The area of the instances' boxes, in pixels.
     """
 
     def __init__(self, scene: Scene, film: Film, region: Region, area: Floats) -> None:
-        camera, of = film.camera, scene.instance_meshes
-        self._scene, self._region = scene, region
+        camera = film.camera
+        of = scene.instance_meshes
+        self._scene = scene
+        self._region = region
         low, high = np.array([m.bounds for m in scene.meshes])[of].transpose(1, 2, 0)
         reach = np.concatenate((np.maximum(np.abs(low), np.abs(high)), np.ones((1, len(of)))))
         columns = scene.instance_matrices[:3].copy()  # (3, 4, n): v enters as (x, y, z, 1)
@@ -63,14 +81,16 @@ class SmallTriangles:
         if camera.projection.shares_direction:
             w = np.zeros_like(right)
             w[3] = 1
-        window, (width, height) = camera.window, pixel_size(camera)
+        window = camera.window
+        width, height = pixel_size(camera)
         x = (right - window.left * w) / width - film.dx * w
         y = (up - window.bottom * w) / height - film.dy * w
         self._matrices = np.stack((x, y, w)).astype(np.float32)
         sums = np.abs((x, y, w) * reach).sum(axis=1)
         least = w[3] + np.minimum(w[:3] * low, w[:3] * high).sum(axis=0)
         constant, slope = film.place
-        far, size = max(camera.width, camera.height), size.max(axis=0)
+        far = max(camera.width, camera.height)
+        size = size.max(axis=0)
         own = constant + (slope + 2 * far * film.weight) * size
         most = np.maximum(sums[0], sums[1]) / least
         margin = (
@@ -78,29 +98,20 @@ class SmallTriangles:
         )
         self._margin = margin.astype(np.float32)
         counts = np.array([len(m.triangles) for m in scene.meshes])[of]
-        # Then all vertices are before the eye by far, as `Vertices.ahead` asks, and finite.
+        # All vertices are finite, and far in front of the eye, as `Vertices.ahead` asks.
         known = (margin < _MARGIN) & (least > 2.0**11 * film.weight * size)
         known &= (least > 200 * _ROUNDING * sums[2]) & (least > 1 / _RANGE)
         known &= largest(*sums, *reach, *np.abs(self._matrices).reshape(12, -1)) < _RANGE
         known &= largest(most, np.full_like(most, far)) < _FARTHEST // 2
         self.is_dense = known & (counts > _PER_PIXEL * area)
 
-    def within(self, mesh: Mesh, members: Index) -> Iterator[tuple[Index, ...] | None]:
-        """Find which triangles of instances of a mesh may cover a pixel, in small steps.
+    def within(self, mesh: Mesh, members: NDArray[np.int32]) -> Iterator[Visible | None]:
+        """Find the triangles of instances `members` of a mesh that may cover a pixel.
 
-        Yields None after a step; or of some instances (k,) and triangles at a time
-
-        counts : (k,) int
-            How many of each instance.
-        corners : (3, m) int32
-            Their vertices, in the order of `used`.
-        used : (v,) int
-            Those vertices: their numbers in the mesh, and that of its vertices more for each
-            instance before.
-        triangle : (m,) int32
-            The triangles' numbers in the mesh, instance by instance.
+        Yields those of some instances and triangles at a time, and None after each step in between.
         """
-        count, each = len(mesh.vertices), len(mesh.triangles)
+        count = len(mesh.vertices)
+        each = len(mesh.triangles)
         own = np.ones((4, count), np.float32)
         own[:3] = mesh.vertices.T
         corners = []
@@ -121,19 +132,21 @@ class SmallTriangles:
                 copy, triangle = np.divmod(inside, len(a))
                 at = np.stack([gather(k, triangle) + copy * count for k in (a, b, c)])
                 used, at = occurring(at, ends.size)
-                counts, triangle = np.bincount(copy, minlength=len(some)), triangle + first
-                yield some, counts, at, used, triangle.astype(np.int32)
+                counts = np.bincount(copy, minlength=len(some))
+                yield Visible(some, counts, at, used, (triangle + first).astype(np.int32))
 
     def _ends(self, vertices: NDArray[np.float32], members: Index) -> NDArray[np.int64]:
-        """Return per vertex the pixels that a triangle with it may cover: (k, v), 4 x 16 bits.
+        """Return the pixels that a triangle may cover at each vertex, (k, v), as 4 x 16 bits.
 
-        Highest x and y, -lowest x and y, within the region: so that of a triangle's largest both
-        sums are at least 0 if it may cover one. Each half is 2^14 too large, and not negative.
+        These are highest x, highest y, -lowest x, -lowest y, within the region, plus 2^14, so that
+        they are not negative. A triangle has the largest of its vertices. If it may cover a pixel,
+        highest - lowest is at least 0 for both x and y.
         """
         rows = np.ascontiguousarray(self._matrices[..., members].transpose(0, 2, 1))
-        p, q, w = rows @ vertices  # its sums may be in any order, and one vertex's differ
+        p, q, w = rows @ vertices  # the bound holds for sums in any order
         np.divide(np.float32(1), w, out=w)
-        region, margin = self._region, self._margin[members, None] + np.float32(_FARTHEST)
+        region = self._region
+        margin = self._margin[members, None] + np.float32(_FARTHEST)
         out = np.empty((*w.shape, 4), np.uint16)
         for axis, (at, start, end) in enumerate(
             ((p, region.x0, region.x1), (q, region.y0, region.y1))

@@ -1,21 +1,76 @@
-"""The commands of `reftrace`, a file each: `add` a parser's options, and `run` with them.
+"""The commands, a file each: `add` declares a command's options.
 
-`blender --command` has some of them, for the file that is open.
+Each command makes a frozen record of what was parsed, which checks it, and works from that.
+`reftrace` has all of them, `blender --command` all that are part of the add-on. A command is
+imported once it is asked for, so that `--help` takes no time.
 """
 
-HELP = {  # in its order
-    "compare": "trace a scene and compare it with Blender's own picture, or with any other",
-    "trace": "trace a scene or a mesh into a picture",
-    "explain": "show the maths of one pixel's ray: every step, in float32, float64 and exactly",
-    "judge": "judge students' own ray/triangle tests (this runs their code)",
-    "trade": "measure what every method, precision, number of samples and size costs on a scene",
-    "extremes": "find where every method breaks: far away, tiny, edge-on, and so on",
-    "bench": "measure the speed of the tracer beside embreex, Cycles and others",
-    "export": "export a .blend to a scene that needs no Blender",
-}
-# Which file's `add_` and name adds a command's options; the others are packages of their own.
-FILES = {
-    "compare": "compare",
-    **dict.fromkeys(("trace", "explain", "export"), "files"),
-    **dict.fromkeys(("trade", "extremes"), "studies"),
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import ModuleType
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command."""
+
+    help: str
+    module: Callable[[], ModuleType] | None  # imports it; None where a package has it
+
+
+def _compare() -> ModuleType:
+    from . import compare
+
+    return compare
+
+
+def _trace() -> ModuleType:
+    from . import trace
+
+    return trace
+
+
+def _explain() -> ModuleType:
+    from . import explain
+
+    return explain
+
+
+def _trade() -> ModuleType:
+    from . import trade
+
+    return trade
+
+
+def _extremes() -> ModuleType:
+    from . import extremes
+
+    return extremes
+
+
+def _export() -> ModuleType:
+    from . import export
+
+    return export
+
+
+COMMANDS = {  # in the order of `--help`
+    "compare": Command(
+        "trace a scene and compare it with Blender's own picture, or with any other", _compare
+    ),
+    "trace": Command("trace a scene or a mesh into a picture", _trace),
+    "explain": Command(
+        "show the maths of one pixel's ray: every step, in float32, float64 and exactly", _explain
+    ),
+    "judge": Command("judge students' own ray/triangle tests (this runs their code)", None),
+    "trade": Command(
+        "measure what every method, precision, number of samples and size costs on a scene", _trade
+    ),
+    "extremes": Command(
+        "find where every method breaks: far away, tiny, edge-on, and so on", _extremes
+    ),
+    "bench": Command("measure the speed of the tracer beside embreex, Cycles and others", None),
+    "export": Command("export a .blend to a scene that needs no Blender", _export),
 }

@@ -1,24 +1,30 @@
-"""Anti-aliasing: whether a colour is a mix of what the tracer sees within the filter's radius.
+"""Anti-aliasing: a colour that is a mix of what the tracer sees within the filter's radius.
 
 A filter with weights that are not negative gives a point of the convex hull of the colours that it
-mixes. Its weights are nearly the same on opposite sides of the centre: no neighbour's colour has
-all of it. One colour alone is no mix; and whose surface a pixel shows must be one that is seen.
+mixes. Its weights are nearly the same on opposite sides of the centre, so that no side has all of
+the weight. One colour alone is no mix, and the object that a pixel shows must be one that is seen.
 
-Workbench mixes log2(1 + colour) in place of RGB, before Blender 5.0 log2(1/2 + colour) and
-alpha's, too: the hulls of those are tried, too.
-The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm
-(Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
-2015): weight goes from the colour that is farthest behind to the one that is farthest ahead.
+Workbench mixes log2(1 + colour) in place of RGB; before Blender 5.0 log2(1/2 + colour), of alpha,
+too. So the hulls of these are tried as well.
+
+The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm: weight goes
+from the colour that is farthest behind to the one that is farthest ahead.
+
+References
+----------
+Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
+2015.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, Bools, Floats, Places
 from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
@@ -27,25 +33,38 @@ from ..cause import Cause
 from .coverage import coverage
 from .probe import SOUND, OpenPixels, Part, by_parts
 
-# Rings within the radius and directions on each, where the tracer is asked; later ones only of
-# what is left: a sliver passes between the samples.
+ANTI_ALIASING = Cause(
+    8,
+    "anti_aliasing",
+    "anti-aliasing",
+    "the colour is a mix of what the tracer sees within {figure:.3g} px "
+    "(the filter reaches {allowed:.3g} px)",
+    "px",
+    (0.7, 0.4, 0.2),
+    explains=True,
+    warns=True,
+)
+
+
+# Rings within the radius, and directions on each, where the tracer is asked. The denser ones are
+# for the pixels that are left: a sliver may pass between the first samples.
 DENSITIES = ((2, 8), (4, 16), (12, 32))
 # Half of the pixels around; the others lie opposite.
 _PIXELS = [(x, y) for x in range(-2, 3) for y in range(3) if y or x > 0]
-# The least weight of what lies opposite. A filter's own is a half; a few samples, which is all that
-# makes up a pixel, lie on one side of the centre by chance.
+# The least weight of the opposite side. A filter's own is a half, but a pixel has only a few
+# samples, which may lie on one side of the centre by chance.
 OPPOSITE = 0.1
-DISTINCT = 16  # colours of which each three are tried
-ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some an age
+DISTINCT = 16  # the most colours of which all triples are tried
+ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some very many
 # A mix is stored in half floats after some twenty roundings, and its samples lie between ours.
 NEAR = 2.0**-7
-STEP = 1 << 18  # numbers of which a step's iterations may take so many in all, or one iteration
+STEP = 1 << 18  # numbers that the iterations of one step take, if there is more than one
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Settle open pixels whose colour is a mix of what is seen within the filter's radius.
+    """Find open pixels whose colour is a mix of what is seen within the filter's radius.
 
-    The figure is the radius of the smallest ring that is enough.
+    Their figure is the radius of the smallest ring that is enough.
     """
     radius = pixels.picture.filter_radius
     if not pixels.open.any() or radius <= 0 or pixels.picture.lit:
@@ -59,37 +78,54 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
     """Ask on ring after ring; after the last of the densest, ask the triangles themselves."""
-    (rings, spokes), picture = density, part.picture
-    offsets, mixed, opposite = [(0.0, 0.0)], [], [0]
-    found, owner = np.zeros(len(part.band), bool), (yield from _owner_seen(part))
-    for ring in range(1, rings + 1):
+    rings = density[0]
+    picture = part.picture
+    owner = yield from _owner_seen(part)
+    found = np.zeros(len(owner), bool)
+    mixed: list[Array] = []
+    for ring in range(rings + 1):
         reach = radius * ring / rings
-        angles = 2 * np.pi * (np.arange(spokes) + ring / rings) / spokes
-        half = [(reach * np.cos(a), reach * np.sin(a)) for a in angles[: spokes // 2]]
-        if ring == rings:  # what smooths edges takes in whole pixels
-            half += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
-        for x, y in half:
-            opposite += [len(opposite) + 1, len(opposite)]
-            offsets += [(x, y), (-x, -y)]
-        for offset in offsets[len(mixed) :]:
-            hits = yield from part.probe.trace(*offset)
+        for x, y in _ring(ring, density, radius):
+            hits = yield from part.probe.trace(x, y)
             mixed.append(picture.made_of(shading.colors(part.scene, hits)))
             yield 0.0
         seen = np.stack(mixed)
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
         color = picture.color[rest, : seen.shape[-1]]
-        found[rest] = yield from is_mix(color, seen, picture.sums, np.array(opposite))
-        part.settle(found, Cause.ANTI_ALIASING, reach, radius)
+        found[rest] = yield from is_mix(color, seen, picture.sums, _opposite(len(mixed)))
+        part.give(found, ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
         left = np.flatnonzero(~found & owner)
-        across = np.array(opposite)
-        found[left] = yield from _through_cracks(part, radius, np.stack(mixed), across, left)
-        part.settle(found, Cause.ANTI_ALIASING, radius, radius)
+        found[left] = yield from _through_cracks(part, radius, np.stack(mixed), left)
+        part.give(found, ANTI_ALIASING, radius, radius)
 
 
-def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
-    """Return where the tracer sees whose surface is shown, in the centre or within its band."""
+def _ring(ring: int, density: tuple[int, int], radius: float) -> Iterator[tuple[float, float]]:
+    """Yield offsets on a ring in pairs that lie opposite each other; the 0th ring is the centre."""
+    rings, spokes = density
+    if ring == 0:
+        yield 0.0, 0.0
+        return
+    reach = radius * ring / rings
+    angles = 2 * np.pi * (np.arange(spokes // 2) + ring / rings) / spokes
+    half = [(reach * np.cos(a), reach * np.sin(a)) for a in angles]
+    if ring == rings:  # what smooths edges takes in whole pixels
+        half += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
+    for x, y in half:
+        yield x, y
+        yield -x, -y
+
+
+def _opposite(count: int) -> Places:
+    """Return which of the samples lies opposite to each: the first, and then pairs, (count,)."""
+    index = np.arange(count)
+    index[1:] += np.where(index[1:] % 2, 1, -1)
+    return index
+
+
+def _owner_seen(part: Part) -> Work[Bools]:
+    """Return where the tracer sees the object that is shown, in the centre or within its band."""
     hits = yield from part.probe.trace()
     seen = ~part.picture.other_object(hits.instance)
     if not seen.all():
@@ -102,45 +138,48 @@ def _owner_seen(part: Part) -> Work[NDArray[np.bool_]]:
     return seen
 
 
-def _through_cracks(
-    part: Part, radius: float, mixed: NDArray, opposite: NDArray, left: NDArray[np.intp]
-) -> Work[NDArray[np.bool_]]:
+def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Work[Bools]:
     """Return which of the pixels `left` are a mix, if what lies behind an edge shines through.
 
-    Some of the filter's samples may meet a crack of float32's, and show any triangle that comes
-    within the radius; so many as others that see what the centre does, at most. What comes within
-    the band of the centre may be what Blender sees there. Where all that is seen is one colour,
-    there is no edge.
+    Some of the filter's samples may hit a crack of float32's, and show any triangle that comes
+    within the radius. At most half of the weight is theirs; the rest sees what the centre does.
+    What comes within the band of the centre may be what Blender sees there. If all that is seen is
+    one colour, there is no edge.
     """
-    picture, found = part.picture, np.zeros(len(left), bool)
+    picture = part.picture
+    found = np.zeros(len(left), bool)
     may = yield from coverage(part.probe, np.full(len(part.band), radius))
     order = np.argsort(may.pixel, kind="stable")
     behind = picture.made_of(shading.colors(part.scene, may.hits))
     half = (may.distance > part.band[may.pixel])[:, None] / 2
     behind = ((1 - half) * behind + half * mixed[0, may.pixel])[order]
     ends = np.searchsorted(may.pixel[order], (left, left + 1))
+    opposite = _opposite(len(mixed))
     for n, (pixel, first, last) in enumerate(zip(left, *ends, strict=True)):
         seen = mixed[:, pixel]
         if (seen != seen[0]).any():
-            one, other = np.split(np.unique(np.hstack((seen, seen[opposite])), axis=0), 2, axis=1)
+            pairs = np.unique(np.hstack((seen, seen[opposite])), axis=0)
+            one, other = np.split(pairs, 2, axis=1)
             near = np.concatenate((one, other, np.unique(behind[first:last], axis=0)))
             across = np.arange(len(near))
-            across[: 2 * len(one)] = np.roll(across[: 2 * len(one)], len(one))
+            across[: len(pairs)] += len(pairs)
+            across[len(pairs) : 2 * len(pairs)] -= len(pairs)
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
-            found[n] = (yield from is_mix(color, near[:, None], picture.sums, across))[0]
+            [found[n]] = yield from is_mix(color, near[:, None], picture.sums, across)
         yield 0.0
     return found
 
 
 def is_mix(
-    color: NDArray, mixed: NDArray, sums: int = 0, opposite: NDArray[np.intp] | None = None
-) -> Work[NDArray[np.bool_]]:
+    color: Array, mixed: Array, sums: int = 0, opposite: Places | None = None
+) -> Work[Bools]:
     """Return which colours (n, c) are a mix of those of (k, n, c), or near to one.
 
     Each of `sums` additions in half floats may lose as much as half a unit of every channel. With
-    each colour goes some of that which is `opposite`, by its index (k,), if given.
+    `opposite` (k,), each colour only comes with a part of the colour of that index.
     """
-    color, count = np.nan_to_num(color).astype(np.float64), len(color)
+    count = len(color)
+    color = np.nan_to_num(color).astype(np.float64)
     allowed = (NEAR + sums * 2.0**-11) * np.maximum(1, np.abs(color).max(axis=-1, initial=0))
     bright = color.min(axis=-1, initial=0) >= -allowed
     found = np.zeros(count, bool)
@@ -158,25 +197,23 @@ def is_mix(
     return found
 
 
-def _logarithm(color: NDArray, offset: float = 1.0, channels: int = 3) -> NDArray[np.float64]:
-    """Return what Workbench mixes: of RGB the logarithm, and alpha as it is.
+def _logarithm(color: Array, offset: float = 1.0, channels: int = 3) -> Floats:
+    """Return what Workbench mixes: the logarithm of RGB, and alpha as it is.
 
-    A colour's own error is up to 1.44 / offset as large in it, and it is a half float itself.
+    It makes a colour's error up to 1.44 / offset times as large, and is a half float itself.
     """
     logarithms = np.log2(offset + np.maximum(color[..., :channels], 0))
     return np.concatenate((logarithms, color[..., channels:]), axis=-1)
 
 
-def in_hull(
-    target: NDArray[np.float64], points: NDArray[np.float64], allowed: NDArray[np.float64]
-) -> Work[NDArray[np.bool_]]:
+def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
 
-    A target is outside for sure once a plane lies between. Where colours lie almost on a line the
-    iterations move little: then each two and three of the colours are tried.
+    A target is surely outside once a plane lies between. If colours lie almost on a line, the
+    iterations move little: then all pairs and triples of the colours are tried.
     """
     found = np.zeros(len(target), bool)
-    left = np.arange(len(target))  # those that are not decided yet
+    left = np.arange(len(target))  # the targets that are not decided yet
     nearest = np.argmin(((points - target) ** 2).sum(axis=-1), axis=0)
     at, all_points = points[nearest, left], points
     weight = np.zeros(points.shape[:2])
@@ -210,12 +247,12 @@ def in_hull(
 
 
 def _pair(
-    points: NDArray, weight: NDArray, way: NDArray, at: NDArray
-) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    points: Array, weight: Array, way: Array, at: Array
+) -> tuple[Places, Places, Floats, Floats]:
     """Return the points farthest ahead and behind on the way from `at` to the target, (n,) each.
 
-    Besides, how much weight to move, and how far the target lies beyond the farthest of all, times
-    the length of the way.
+    Also how much weight to move between them, and how far the target lies beyond the farthest
+    point, times the length of the way.
     """
     score = np.einsum("knc,nc->kn", points, way)
     ahead = np.argmax(score, axis=0)
@@ -228,9 +265,9 @@ def _pair(
     return ahead, behind, np.clip(share, 0, weight[behind, index]), beyond
 
 
-def distance_to_triangles(target: NDArray[np.float64], points: NDArray[np.float64]) -> float:
-    """Return how far a colour (c,) is from the nearest point, side or triangle of some (k, c)."""
-    least = np.linalg.norm(points - target, axis=1).min()
+def distance_to_triangles(target: Floats, points: Floats) -> float:
+    """Return how far a colour (c,) is from the nearest point, side or triangle of points (k, c)."""
+    least = np.min(np.linalg.norm(points - target, axis=1))
     for corners in (2, 3):
         if len(points) < corners:
             break
@@ -240,5 +277,5 @@ def distance_to_triangles(target: NDArray[np.float64], points: NDArray[np.float6
         inside = (share >= 0).all(axis=1) & (share.sum(axis=1) <= 1)
         foot = first + np.einsum("ti,tij->tj", share, sides)
         away = np.linalg.norm(foot - target, axis=1)
-        least = min(least, away[inside].min(initial=np.inf))
+        least = np.min(away[inside], initial=least)
     return float(least)

@@ -1,7 +1,8 @@
-"""The background of a foreign picture, which need not be the scene's: transparent, black, white.
+"""Finds the background of a foreign picture, which need not be the scene's.
 
-Where the tracer sees nothing, nearly all of a picture may have one colour that is not the scene's.
-Then the scene is compared on that background, and the pixels that deviate from it remain.
+Where the tracer sees nothing, nearly all of a picture may have one colour, such as black, that is
+not the scene's. Then the scene is compared before that background, and only pixels that deviate
+from it differ.
 """
 
 from __future__ import annotations
@@ -11,8 +12,8 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Colors
 from ...images import encoded
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
@@ -20,15 +21,14 @@ from ...tracer.progress import Work
 from ..metrics import boundary
 from ..picture import Curve, Picture
 from . import color as colors
-from .probe import blocks
+from .probe import by_blocks
 
-NEAR = 2.0**-7  # so near a surface's colour is to a background's that these are one
+NEAR = 2.0**-7  # a surface whose colour is this near to a background's looks like it
 NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
-_NAMES = {(0, 0, 0): "black", (1, 1, 1): "white"}
 
 
 class Background(NamedTuple):
-    """Two backgrounds, linear RGBA with premultiplied alpha: the picture's and the scene's."""
+    """The picture's background and the scene's, linear RGBA with premultiplied alpha."""
 
     picture: tuple[float, ...]
     scene: tuple[float, ...]
@@ -57,20 +57,21 @@ def find_background(
 ) -> Work[Background | None]:
     """Return the background of a picture (h, w) that has one of its own, else None.
 
-    The scene's background through the transform that the surfaces went through is the scene's;
-    `curves` are what may have been done to the colours.
+    `curves` are what may have been done to the colours. What the transform of the surfaces makes of
+    the scene's background still counts as the scene's.
     """
     interior = frame.rows_done[:, None] & ~boundary(frame)
     nothing = (frame.instance_index == NOTHING) & interior
     if not nothing.any():
         return None
     own, color = frame.scene.background, np.median(picture.color[nothing], axis=0)
-    same = 0
-    for rows in blocks(nothing.shape):
-        there = picture.at(rows).at(nothing[rows])
-        same += int((~there.other_color(np.broadcast_to(color, there.color.shape))).sum())
-        yield 0.0
-    if not np.isfinite(color).all() or same < NEARLY_ALL * nothing.sum():
+
+    def has_it(rows: slice) -> Bools:
+        there = picture.at(rows)
+        return nothing[rows] & ~there.other_color(np.broadcast_to(color, there.color.shape))
+
+    same = yield from by_blocks(nothing.shape, has_it)
+    if not np.isfinite(color).all() or same.sum() < NEARLY_ALL * nothing.sum():
         return None
     found = yield from colors.find_transform(frame, picture, interior, curves)
     transform = found.of if found else None
@@ -83,28 +84,30 @@ def find_background(
     return Background(tuple(map(float, color)), tuple(map(float, own)), picture.opaque)
 
 
-def _apart(
-    frame: Frame, picture: Picture, color: NDArray[np.float32], surface: NDArray[np.bool_]
-) -> Work[bool]:
-    """Return whether a colour is a background's: surfaces that have it are where they should be.
+def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Work[bool]:
+    """Return whether a colour can be a background's: the surfaces in it are where they should be.
 
-    A picture upside down shows the floor where the sky is, and the sky where the floor is.
+    (A picture upside down shows the floor where the sky is, and the sky where the floor is.)
     """
-    of, shown = 0, 0
-    for rows in blocks(surface.shape):
+
+    def has_it(rows: slice) -> Bools:
         made = picture.made_of(frame.color[rows])
-        own = surface[rows] & (np.abs(made - color[: made.shape[-1]]) <= NEAR).all(axis=-1)
-        there = picture.at(rows).at(own)
-        of += len(there.color)
-        shown += int((~there.other_color(frame.color[rows][own])).sum())
-        yield 0.0
-    return shown >= NEARLY_ALL * of
+        return surface[rows] & (np.abs(made - color[: made.shape[-1]]) <= NEAR).all(axis=-1)
+
+    def shows_it(rows: slice) -> Bools:
+        return own[rows] & ~picture.at(rows).other_color(frame.color[rows])
+
+    own = yield from by_blocks(surface.shape, has_it)
+    shown = yield from by_blocks(surface.shape, shows_it)
+    return bool(shown.sum() >= NEARLY_ALL * own.sum())
 
 
 def _name(color: Sequence[float], opaque: bool) -> str:
-    """Name linear premultiplied RGBA, by what a screen shows."""
+    """Name linear premultiplied RGBA by what a screen shows."""
     if color[3] == 0 and not opaque:
         return "transparent"
-    *rgb, alpha = (round(float(v), 3) for v in encoded(np.array(color)))
-    of = _NAMES.get(tuple(rgb)) or f"({', '.join(f'{v:g}' for v in rgb)}) of sRGB"
-    return of if opaque or alpha == 1 else f"{of} with alpha {alpha:g}"
+    red, green, blue, alpha = (round(float(v), 3) for v in encoded(np.array(color)))
+    name = f"({red:g}, {green:g}, {blue:g}) of sRGB"
+    if red == green == blue and red in (0, 1):
+        name = "white" if red else "black"
+    return name if opaque or alpha == 1 else f"{name} with alpha {alpha:g}"

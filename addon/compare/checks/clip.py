@@ -1,7 +1,7 @@
-"""Where float32 decides on which side of a clip plane a surface lies.
+"""Clip planes: float32 decides on which side of them a surface lies.
 
-Open pixels are settled where Blender shows what the tracer would see had it taken, or left out, a
-surface as near to a clip plane as Blender's arithmetic can tell.
+A pixel gets this cause if Blender shows what the tracer would see with, or without, a surface that
+lies nearer to a clip plane than Blender's arithmetic can tell.
 """
 
 from __future__ import annotations
@@ -11,19 +11,31 @@ from dataclasses import replace
 import numpy as np
 
 from ...scene import Camera
-from ...tracer.hits import NOTHING
-from ...tracer.nearest import Hits, plan
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ..bounds import U32, depth_resolution
 from ..cause import Cause
 from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
 
-# The clip range is widened by so many times what it may be off for a point right before the camera.
+CLIP_PLANE = Cause(
+    7,
+    "clip_plane",
+    "clip plane",
+    "a surface lies {figure:.3g} m from a clip plane, and float32 clips to within {allowed:.3g} m",
+    "m",
+    (1.0, 1.0, 0.4),
+    explains=True,
+    rounding=True,
+)
+
+
+# How much wider the clip range is made than what float32 may move a point right before the camera.
 WIDENED = 64
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Settle open pixels at the clip planes, a part of the picture at a time."""
+    """Find open pixels at the clip planes, a part of the picture at a time."""
     if pixels.open.any():
         scene = pixels.case.scene
         wide = replace(scene, camera=_widened(scene.camera))
@@ -33,24 +45,27 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def _clipped(part: Part) -> Work[None]:
-    """Go from the front to the back as far as a surface may be clipped."""
-    camera, count = part.scene.camera, len(part.probe.px)
+    """Go from front to back through the surfaces that may be clipped."""
+    camera = part.scene.camera
     after: Hits | None = None
-    going, near = np.ones(count, bool), np.zeros(count, bool)
-    figure, allowed = np.zeros(count), np.zeros(count)
+    near = np.zeros(len(part.probe.px), bool)
+    going = ~near
+    figure = allowed = np.zeros(len(near))
     for _ in range(LAYERS):
         after = hits = yield from part.probe.trace(after=after)
-        start, end = np.abs(hits.t - camera.clip_start), np.abs(hits.t - camera.clip_end)
-        distance, bound = np.minimum(start, end), part.resolution(hits)
+        ends = np.abs(hits.t - camera.clip_start), np.abs(hits.t - camera.clip_end)
+        distance = np.minimum(*ends)
+        bound = part.resolution(hits)
         at_clip = (hits.instance != NOTHING) & (distance <= bound)
         inside = (hits.t >= camera.clip_start) & (hits.t <= camera.clip_end)
-        # What is surely clipped is passed; what is surely not ends the way.
+        # A surface that is surely clipped is passed; one that is surely not ends the way.
         seen = going & (inside | at_clip | (hits.instance == NOTHING))
         may = seen & at_clip
-        figure, allowed = np.where(may, distance, figure), np.where(may, bound, allowed)
+        figure = np.where(may, distance, figure)
+        allowed = np.where(may, bound, allowed)
         near |= may
         same = seen & near & ~part.picture.differ(part.scene, hits)
-        part.settle(same, Cause.CLIP_PLANE, figure, allowed)
+        part.give(same, CLIP_PLANE, figure, allowed)
         yield 0.0
         going &= ~seen | at_clip
         if not (going & (hits.instance != NOTHING)).any():
@@ -59,10 +74,10 @@ def _clipped(part: Part) -> Work[None]:
 
 def _widened(camera: Camera) -> Camera:
     """Return a camera that also sees what Blender may take to be within its clip range."""
-    ends = np.array((camera.clip_start, camera.clip_end))
-    view = U32 * WIDENED * (np.abs(camera.origin).sum() + np.abs(ends))
-    off = depth_resolution(camera, ends, view)
-    start = camera.clip_start - off[0]
+    ends = np.array((camera.clip_start, camera.clip_end), np.float64)
+    view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
+    before, behind = depth_resolution(camera, ends, view)
+    start = camera.clip_start - before
     if not camera.projection.sees_behind:
         start = max(start, camera.clip_start / 2)
-    return replace(camera, clip_start=start, clip_end=camera.clip_end + off[1])
+    return replace(camera, clip_start=start, clip_end=camera.clip_end + behind)

@@ -1,104 +1,131 @@
-"""Which triangles may cover a pixel's sample, and which surely do, if that sample may lie off.
+"""Finds the triangles that may cover a pixel's sample, and those that surely do.
 
-A rasteriser rounds each triangle's corners on its own. A sliver of a thousandth of a pixel lies
-between any samples that one could try, and is drawn all the same; and where a triangle has been
-clipped, a crack may open along an edge that it shared. So the triangles themselves are asked.
+The sample may lie off its centre, as a rasteriser rounds each triangle's corners by themselves. So
+a sliver of a thousandth of a pixel may be drawn although it lies between any samples that one could
+try; and where a triangle was clipped, a crack may open along an edge that it shared. Therefore the
+triangles themselves are looked at.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, Bools, Floats, Index
 from ...tracer import plane, shading
-from ...tracer.camera import camera_rays, film_beside
-from ...tracer.hits import NOTHING
-from ...tracer.nearest import Hits, Pairs, test_pairs, test_planes, within_clip
+from ...tracer.camera import film_beside
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work
-from ...tracer.triangle import TESTS
+from ...tracer.world import Pairs
 from .probe import Probe
 
 # An aimed ray goes this share of the way to the triangle's middle, so that it does not pass the
 # rim; in a large triangle less, so that it stays within the band.
 INWARD = 2.0**-20
 
-# A triangle is only taken to have been missed near its edge where it is higher than this, in widths
-# of the band. Else every triangle of a fine mesh, or of a fan of needles, would be near its edge,
-# and a fault could hide behind that. (That a sliver was missed is seen by the samples around it.)
+# A sample can only miss a triangle near its edge if the triangle is higher than this, in widths of
+# the band. Otherwise every triangle of a fine mesh, or of a fan of needles, would be near its edge,
+# and a fault could hide behind that. (The samples around the centre see that a sliver was missed.)
 LEAST_HEIGHT = 16
 
 
 class Coverage(NamedTuple):
-    """What k triangles that may cover one of n pixels would show there.
+    """What k triangles that may cover one of n pixels would show there."""
 
-    `hits` are theirs, each where the triangle comes nearest to the centre, at `distance` (k,)
-    pixels; `pixel` (k,) says of which pixel. `sure` are the n nearest hits that Blender's sample
-    cannot miss.
-    """
+    pixel: Index  # (k,) of the n
+    distance: Floats  # (k,) pixels, from the centre to the triangle's nearest point
+    hits: Hits  # k: of each triangle at this point
+    sure: Hits  # n: the nearest hits that Blender's sample cannot miss
+    behind: Floats  # (k,) depth of the sure surface where each of `hits` is
 
-    pixel: NDArray[np.integer]
-    distance: NDArray[np.float64]
+
+class _Aimed(NamedTuple):
+    """Hits of rays that were aimed at triangles, at an `offset` (2, k) from a pixel's centre."""
+
+    pixel: Index
+    distance: Floats
+    offset: Floats
     hits: Hits
-    sure: Hits
-    behind: NDArray[np.float64]  # (k,) depth of the sure surface where each of `hits` is
 
 
-def coverage(probe: Probe, band: NDArray[np.float64]) -> Work[Coverage]:
-    """Return what may cover the pixels of a probe, whose samples lie within `band` (n,) pixels."""
-    scene, settings = probe.plan.scene, probe.plan.settings
-    dtype = settings.precision.dtype
+def coverage(probe: Probe, band: Floats) -> Work[Coverage]:
+    """Return what may cover the pixels of a probe, if samples lie within `band` (n,) pixels."""
     sure = Hits.none(len(band))
-    centres = camera_rays(scene.camera, probe.px, probe.py, dtype)
-    test_planes(scene, centres, sure)
-    found = []
+    centres = probe.rays()
+    test_planes(probe.scene, centres, sure)
+    found = [_Aimed(np.zeros(0, int), np.zeros(0), np.zeros((2, 0)), Hits.none(0))]
     for some in probe.chunks:
         corners = _around_centre(probe, some)
         nearest, rim = nearest_to_origin(*corners)
         own = band[some.pixel]
-        longest = np.max([np.hypot(*(corners[i] - corners[i - 1])) for i in range(3)], axis=0)
-        (ux, uy), (vx, vy) = corners[1] - corners[0], corners[2] - corners[0]
         with np.errstate(invalid="ignore"):
-            thin = np.abs(ux * vy - uy * vx) < LEAST_HEIGHT * own * longest  # its least height is
-            certain = np.flatnonzero((rim > own) | thin | np.isnan(rim))
+            certain = (rim > own) | np.isnan(rim) | _thin(corners, own)
             near = np.flatnonzero(np.abs(nearest).max(axis=0) <= own)
-        test_pairs(scene, settings, centres, some.take(certain), sure)
-        inward = sum(corners)[:, near] / 3 - nearest[:, near]
-        share = np.minimum(INWARD, own[near] / 64 / np.maximum(np.hypot(*inward), 1e-300))
-        x, y = nearest[:, near] + share * inward
-        pixel = some.pixel[near]
-        rays = camera_rays(scene.camera, probe.px[pixel] + x, probe.py[pixel] + y, dtype)
-        hit, t, s = TESTS[settings.method](rays, *some.corners[..., near])
-        hit = np.flatnonzero(hit & within_clip(scene.camera, t))
-        of, offset = some.take(near[hit]), np.stack((x, y))[:, hit]
-        distance = np.abs(nearest[:, near[hit]]).max(axis=0)
-        found.append((of.pixel, distance, offset, t[hit], of.instance, of.triangle, s[:, hit]))
+        test_pairs(probe.scene, probe.settings, centres, some.take(np.flatnonzero(certain)), sure)
         yield 0.0
-    if not found:
-        return Coverage(np.zeros(0, int), np.zeros(0), Hits.none(0), sure, np.zeros(0))
-    pixel, distance, offset, t, instance, triangle, s = (
-        np.concatenate(c, axis=-1) for c in zip(*found, strict=True)
+        middle = corners[..., near].mean(axis=0)
+        found.append(_aim(probe, some.take(near), nearest[:, near], middle, own[near]))
+        yield 0.0
+    pixel = np.concatenate([aimed.pixel for aimed in found])
+    offset = np.concatenate([aimed.offset for aimed in found], axis=1)
+    return Coverage(
+        pixel,
+        np.concatenate([aimed.distance for aimed in found]),
+        Hits.joined([aimed.hits for aimed in found]),
+        sure,
+        _depth_of(sure, probe, pixel, offset),
     )
-    # A surface seen at a slant is nearer on one side of the pixel than on the other.
-    own = sure.take(pixel)
-    rays = camera_rays(scene.camera, probe.px[pixel] + offset[0], probe.py[pixel] + offset[1])
-    points, normals = probe.points(sure)[pixel].T, shading.normals(scene, own).T
-    behind = np.where(own.instance != NOTHING, plane.intersect(rays, points, normals), np.inf)
-    behind = np.where(np.isnan(behind), own.t, behind)
-    return Coverage(pixel, distance, Hits.of(t, instance, triangle, s), sure, behind)
 
 
-def _around_centre(probe: Probe, some: Pairs) -> list[NDArray[np.float64]]:
-    """Corners on the film, each (2, p) pixels from the pixel's centre; NaN behind the eye."""
-    out = []
-    for corner in some.corners:
+def _around_centre(probe: Probe, some: Pairs) -> Floats:
+    """Return corners on the film, (3, 2, p) pixels from the pixel's centre; NaN behind the eye."""
+    out = np.empty((3, 2, len(some.pixel)))
+    for corner, place in zip(some.corners, out, strict=True):
         px, py = probe.px[some.pixel], probe.py[some.pixel]
-        out.append(film_beside(probe.plan.scene.camera, corner.astype(np.float64), px, py))
+        place[:] = film_beside(probe.scene.camera, corner.astype(np.float64), px, py)
     return out
 
 
-def nearest_to_origin(a: NDArray, b: NDArray, c: NDArray) -> tuple[NDArray, NDArray]:
+def _thin(corners: Floats, band: Floats) -> Bools:
+    """Return which triangles (3, 2, p) are too low to have been missed near an edge."""
+    edges = corners - np.roll(corners, 1, axis=0)
+    longest = np.hypot(edges[:, 0], edges[:, 1]).max(axis=0)
+    ux, uy = corners[1] - corners[0]
+    vx, vy = corners[2] - corners[0]
+    area = np.abs(ux * vy - uy * vx)  # twice the triangle's
+    return area < LEAST_HEIGHT * band * longest
+
+
+def _aim(probe: Probe, some: Pairs, nearest: Floats, middle: Floats, band: Floats) -> _Aimed:
+    """Return what rays hit that are aimed at the nearest points (2, p) of p triangles."""
+    inward = middle - nearest
+    share = np.minimum(INWARD, band / 64 / np.maximum(np.hypot(*inward), 1e-300))
+    x, y = offset = nearest + share * inward
+    hits = Hits.none(len(some.pixel))
+    own = replace(some, pixel=np.arange(len(hits)))  # a ray for each triangle
+    test_pairs(probe.scene, probe.settings, probe.rays(x, y, some.pixel), own, hits)
+    there = np.flatnonzero(hits.instance != NOTHING)
+    distance = np.abs(nearest[:, there]).max(axis=0)
+    return _Aimed(some.pixel[there], distance, offset[:, there], hits.take(there))
+
+
+def _depth_of(sure: Hits, probe: Probe, pixel: Index, offset: Floats) -> Floats:
+    """Return the depth of k pixels' sure surfaces at an offset (2, k) from their centres.
+
+    A surface seen at a slant is nearer on one side of the pixel than on the other.
+    """
+    own = sure.take(pixel)
+    points, normals = probe.points(sure)[pixel].T, shading.normals(probe.scene, own).T
+    x, y = offset
+    there = plane.intersect(probe.rays(x, y, pixel), points, normals)
+    depth = np.where(own.instance != NOTHING, there, np.inf)
+    return np.where(np.isnan(depth), own.t, depth)
+
+
+def nearest_to_origin(a: Array, b: Array, c: Array) -> tuple[Array, Array]:
     """Return the point of each triangle (a, b, c), (2, n) each, that lies nearest to the origin.
 
     Returns
@@ -108,7 +135,8 @@ def nearest_to_origin(a: NDArray, b: NDArray, c: NDArray) -> tuple[NDArray, NDAr
         Distance of the origin from the triangle's edges; negative where it lies outside. NaN where
         a corner is.
     """
-    best, best_square = np.zeros_like(a), np.full(a.shape[1], np.inf)
+    best = np.zeros_like(a)
+    best_square = np.full(a.shape[1], np.inf)
     sides = []
     with np.errstate(divide="ignore", invalid="ignore"):
         for p, q in ((a, b), (b, c), (c, a)):

@@ -1,7 +1,7 @@
-"""Edges and depth ties: the tracer asked again around the centres, and behind their surface.
+"""Edges and depth ties: the tracer is asked again around the centres, and behind their surface.
 
-Pixels are settled where the tracer sees, as near as Blender's float32 and its rasteriser may be
-off, what Blender shows.
+A pixel gets its cause if the tracer sees what Blender shows so near to the centre, or so little
+behind, that Blender's float32 and its rasteriser may be off by as much.
 """
 
 from __future__ import annotations
@@ -9,12 +9,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Bools, Floats
 from ...scene import Scene
 from ...tracer.camera import film_of
-from ...tracer.hits import NOTHING
-from ...tracer.nearest import Hits, plan
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ...tracer.vector import transform_points
 from ..cause import Cause
@@ -22,8 +23,32 @@ from ..picture import Picture
 from .coverage import coverage
 from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
 
-# Where in the band the tracer is asked again, in widths of it: eight directions on three rings,
-# and eight between them on the rim.
+EDGE = Cause(
+    1,
+    "edge",
+    "edge",
+    "{figure:.3g} px from the centre the tracer sees what Blender shows "
+    "(float32 and its rasteriser may be off by {allowed:.3g} px)",
+    "px",
+    (1.0, 0.3, 0.0),
+    explains=True,
+    rounding=True,
+)
+DEPTH_TIE = Cause(
+    2,
+    "depth_tie",
+    "depth tie",
+    "what Blender shows lies {figure:.3g} m behind what the tracer sees "
+    "(a depth buffer tells {allowed:.3g} m apart there)",
+    "m",
+    (0.0, 0.7, 1.0),
+    explains=True,
+    rounding=True,
+)
+
+
+# Where the tracer is asked again, in widths of the band: in eight directions on three rings, and in
+# eight between them on the rim.
 _EIGHT = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 OFFSETS = (
     *((ring * x, ring * y) for ring in (0.3, 0.6, 1.0) for x, y in _EIGHT),
@@ -32,48 +57,48 @@ OFFSETS = (
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Settle open pixels at edges and depth ties, a part of the picture at a time."""
+    """Find open pixels at edges and depth ties, a part of the picture at a time."""
     if pixels.open.any():
-        reach = float(pixels.band[pixels.open].max())
+        reach = float(np.max(pixels.band[pixels.open]))
         made = yield from plan(pixels.case.scene, SOUND, reach)
         asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.2)
         yield from scaled(by_parts(pixels, made, _look, asked), 0.2, 0.8)
 
 
 class _Asked(NamedTuple):
-    """What is known of the n pixels of a part, more with each way to ask."""
+    """What is known of the n pixels of a part: more is found by each way to ask."""
 
     centre: Hits
-    lost: NDArray[np.bool_]  # where the picture's own method lost what its centre shows
-    found: NDArray[np.float64]  # (2, n) px: how far off the picture's colour is seen, and its owner
-    beside: list[Hits]  # of the samples in the band
+    lost: Bools  # the picture's own method lost what the centre sees
+    found: Floats  # (2, n) px: how far away the picture's colour is seen, and its object
+    beside: list[Hits]  # at the samples in the band
 
 
 def _look(part: Part) -> Work[None]:
-    """Ask at samples, then behind, then of the triangles themselves, while pixels are left."""
+    """Ask at samples, then behind, then the triangles themselves, while pixels have no cause."""
     centre = yield from part.probe.trace()
     lost = ~part.picture.differ(part.scene, centre)
     asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [])
     for look in (_beside, _behind, _covering):
-        if not part.settled:
+        if not part.done:
             yield from look(part, asked)
 
 
-def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> NDArray[np.float64]:
-    """Return how far off n hits have the picture's colour, and its owner, (2, n) pixels.
+def _sides(scene: Scene, picture: Picture, hits: Hits, distance: ArrayLike) -> Floats:
+    """Return the distance of n hits with the picture's colour, and with its object, (2, n) pixels.
 
-    Infinitely far where they have not. The two come from two drawings, in which an edge or a tie
-    may go either way: each is looked for on its own.
+    It is infinite for the others. The two come from two drawings, in which an edge or a tie may go
+    either way, so each is looked for by itself.
     """
     same = picture.same_color(scene, hits), ~picture.other_object(hits.instance)
     return np.where(same, distance, np.inf)
 
 
 def _beside(part: Part, asked: _Asked) -> Work[None]:
-    """See whether within the band around a pixel's centre there is what Blender shows.
+    """Look for what Blender shows within the band around a pixel's centre.
 
-    Where it is seen in the centre itself, the picture's method lost it: on an edge within the band,
-    where rounding decides, that is no fault; elsewhere (as the literal test does it) it is.
+    If the centre itself sees it, the picture's method lost it. That is no fault if an edge lies
+    within the band, where rounding decides; elsewhere it is one, as of the literal textbook test.
     """
     centre, found = asked.centre, asked.found
     for x, y in OFFSETS:
@@ -83,18 +108,19 @@ def _beside(part: Part, asked: _Asked) -> Work[None]:
         other = (hits.triangle != centre.triangle) | (hits.instance != centre.instance)
         np.minimum(found, _sides(part.scene, part.picture, hits, distance), out=found)
         off = np.where(asked.lost, np.where(other, distance, np.inf), found.max(axis=0))
-        part.settle(off < np.inf, Cause.EDGE, off, part.band)
+        part.give(off < np.inf, EDGE, off, part.band)
         yield 0.0
-        if part.settled:
+        if part.done:
             return
 
 
 def _behind(part: Part, asked: _Asked) -> Work[None]:
-    """Settle open pixels that show a surface which ties with the first one."""
+    """Look for what Blender shows in surfaces that tie with the first one."""
     scene, picture, first = part.scene, part.picture, asked.centre
     allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
-    hits, (color, owner) = first, asked.found < np.inf
+    color, owner = asked.found < np.inf
     color &= ~asked.lost
+    hits = first
     for _ in range(LAYERS):
         hits = yield from part.probe.trace(after=hits)
         with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
@@ -102,14 +128,14 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
             tied = gap <= allowed
         color |= tied & picture.same_color(scene, hits)
         owner |= tied & ~picture.other_object(hits.instance)
-        part.settle(tied & color & owner, Cause.DEPTH_TIE, gap, allowed)
+        part.give(tied & color & owner, DEPTH_TIE, gap, allowed)
         yield 0.0
-        if part.settled:
+        if part.done:
             return
 
 
 def _covering(part: Part, asked: _Asked) -> Work[None]:
-    """Find what no sample does: a triangle that comes that near, before any surely covered one."""
+    """Look for triangles that no sample hits, but that come near before any surely covered one."""
     scene, width, found = part.scene, part.band, asked.found
     may = yield from coverage(part.probe, width)
     farthest = may.behind + part.resolution(may.sure)[may.pixel]
@@ -125,15 +151,15 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
         np.minimum.at(side, may.pixel[visible], off[visible])
     np.minimum(found, np.where(np.isinf(closed), nothing, np.inf), out=found)
     off = found.max(axis=0)
-    part.settle((off < np.inf) & ~asked.lost, Cause.EDGE, off, width)
+    part.give((off < np.inf) & ~asked.lost, EDGE, off, width)
 
 
-def _closed(scene: Scene, beside: list[Hits], asks: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return how far off n pixels surely see a surface, though each triangle may end there, (n,).
+def _closed(scene: Scene, beside: list[Hits], asks: Bools) -> Floats:
+    """Return the depth at which n pixels surely see a closed surface of several triangles, (n,).
 
-    Infinitely far where they need not. Triangles that share an edge, or a corner all around it,
-    leave no gap between them, as a rasteriser rounds what they share alike; but where one is
-    clipped, it gets corners of its own. Only some pixels are looked at, those that ask.
+    It is infinite where there is none. Triangles that share an edge, or a corner all around it,
+    leave no gap between them, as a rasteriser rounds what they share alike. But a clipped triangle
+    gets corners of its own. Only the pixels that ask are looked at.
     """
     instance = np.stack([h.instance for h in beside])
     triangle = np.stack([h.triangle for h in beside])
@@ -142,7 +168,8 @@ def _closed(scene: Scene, beside: list[Hits], asks: NDArray[np.bool_]) -> NDArra
     asked = np.flatnonzero(asks & on_one & (instance[0] != NOTHING))
     for number in np.unique(instance[0, asked]):
         pixels, of = asked[instance[0, asked] == number], scene.instances[number]
-        mesh, names = scene.meshes[of.mesh], triangle[:, pixels]
+        mesh = scene.meshes[of.mesh]
+        names = triangle[:, pixels]
         corners = mesh.vertices[mesh.triangles[names]]  # (samples, pixels, 3, 3)
         same = (corners[0][:, :, None] == corners[:, :, None]).all(axis=-1)
         shared = same.any(axis=-1).all(axis=0).sum(axis=-1)

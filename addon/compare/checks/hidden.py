@@ -1,38 +1,48 @@
 """What only one side has: an object, or another frame of the scene.
 
-An object that the picture is known to show, and that the tracer was told to leave out, is named by
-the manifest. An alternative is believed where tracing it gives what the picture shows, and only if
-it does so in most of the pixels that it changes at all.
+The manifest names objects that the tracer was told to leave out: if the picture is known to show
+one, this is the cause. An alternative scene is believed if tracing it gives what the picture shows
+in most of the pixels that it changes at all, and only in those.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...arrays import Bools
 from ...rendering import steps
 from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Settings
 from ..case import Alternative
-from ..cause import Cause, Hidden
+from ..cause import AGREE, Cause, Hidden
 from . import edges
-from .probe import OpenPixels, blocks
+from .probe import OpenPixels, by_blocks
+
+HIDDEN = Cause(
+    10,
+    "hidden",
+    "hidden for one side",
+    "only one side shows {name}",
+    "index",
+    (0.08, 0.2, 0.08),
+    explains=True,
+    warns=True,
+)
+
 
 CONFIRMED = 0.5  # of the pixels that an alternative changes
 
 
 def check(pixels: OpenPixels) -> Work[None]:
-    """Settle open pixels that show what only one side has."""
+    """Find open pixels that show what only one side has."""
     why = {e.name: e.reason for e in pixels.case.manifest.objects if e.hidden}
     for number, name in enumerate(pixels.picture.names):
         if name in why:
             where = pixels.open & (pixels.picture.owner == number)
             if where.any():
-                pixels.settle(where, Cause.HIDDEN, _named(pixels, Hidden(name, why[name])))
+                pixels.give(where, HIDDEN, _named(pixels, Hidden(name, why[name])))
             yield 0.0
     alternatives = pixels.case.alternatives
     for number, other in enumerate(alternatives):
@@ -42,41 +52,43 @@ def check(pixels: OpenPixels) -> Work[None]:
 
 
 def _named(pixels: OpenPixels, hidden: Hidden) -> float:
-    """Add to the hidden objects; return the index."""
+    """Add to the hidden objects; returns the index."""
     pixels.out.hidden.append(hidden)
     return float(len(pixels.out.hidden) - 1)
 
 
 def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
-    """Settle open pixels that show what an alternative does; yields the share that is done.
+    """Find open pixels that show what an alternative does; yields the share that is done.
 
-    Whose surfaces are shown is numbered for the traced scene, and not asked for.
+    Their objects are not asked for, as the picture has them by the instances of the traced scene.
     """
     case = replace(pixels.case, scene=other.scene)
-    picture = replace(pixels.picture, owner=None, owners=None, colorless=case.colorless)
+    colorless = case.colorless
+    picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless)
     there = replace(pixels, case=case, picture=picture)
     traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
     changed = (traced.color != pixels.frame.color).any(axis=-1)
-    changed &= pixels.open | (pixels.out.cause == Cause.AGREE)
-    changed &= ~picture.colorless[traced.instance_index]  # any colour would be the right one
+    changed &= pixels.open | (pixels.out.cause == AGREE)
+    changed &= ~colorless[traced.instance_index]  # any colour would be the right one
     if (same & changed).sum() <= CONFIRMED * changed.sum():
         return
     same &= changed & pixels.open
-    pixels.settle(same, Cause.HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
+    pixels.give(same, HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
     # Its edges are as uncertain as those of the traced scene.
     yield from scaled(edges.check(there), 0.5, 0.5)
 
 
-def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, NDArray[np.bool_]]]:
-    """Trace the case's scene, which is not the one that was; return which pixels show that."""
-    scene, picture = pixels.case.scene, pixels.picture
+def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
+    """Trace the case's scene, which is not the one that was traced; return which pixels show it."""
+    scene = pixels.case.scene
     traced = Frame.empty(scene)
     yield from steps(scene, Settings(), traced)
-    same = np.zeros(traced.shape, bool)
-    for rows in blocks(same.shape):
-        part, seen = picture.at(rows), traced.instance_index[rows]
-        same[rows] = part.alike(scene, seen, traced.color[rows]) & ~part.other_object(seen)
-        yield 1.0
+
+    def alike(rows: slice) -> Bools:
+        part, seen = pixels.picture.at(rows), traced.instance_index[rows]
+        return part.alike(scene, seen, traced.color[rows]) & ~part.other_object(seen)
+
+    same = yield from scaled(by_blocks(traced.shape, alike), 1.0, 0.0)
     return traced, same
 
 

@@ -1,7 +1,7 @@
-"""Where Blender's two drawings contradict one another: there, whose surface it is is not known.
+"""Finds where Blender's two drawings contradict one another: there, the object is not known.
 
-An edge may fall to this side in the drawing of the colours, and to that side in the drawing of
-whose surfaces they are. An object that cannot have the colour that is shown is not shown there.
+An edge may fall to one side in the drawing of the colours, and to the other in the drawing of the
+objects. A pixel whose colour an object cannot have does not show that object.
 """
 
 from __future__ import annotations
@@ -9,8 +9,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Colors, Places
 from ...scene import Scene
 from ...tracer import shading
 from ...tracer.frame import Frame
@@ -22,30 +22,31 @@ from .probe import blocks
 
 
 def without_contradictions(case: Case, frame: Frame) -> Work[Case]:
-    """Return the case with the owners forgotten that their pixels' colours contradict.
+    """Return the case without the objects that their pixels' colours contradict.
 
-    Only where the colour is the one that was traced: else the pixel differs, whoever owns it.
+    Only pixels with the traced colour are looked at: others differ, whatever object they show.
     """
     picture, scene = case.picture, case.scene
-    if picture.owner is None or picture.lit or picture.filter_radius > 0:
+    owners = picture.owners
+    if picture.owner is None or owners is None or picture.lit or picture.filter_radius > 0:
         return case
     owner = picture.owner.copy()
-    unclear = case.colorless | shading.interpolated(scene, np.arange(len(picture.owners)))
+    unclear = case.colorless | shading.interpolated(scene, np.arange(len(owners)))
     for rows in blocks(owner.shape):
-        part = picture.at(rows)
+        part, shown = picture.at(rows), owner[rows]
         odd = part.other_object(frame.instance_index[rows])
         odd &= ~part.other_color(frame.color[rows])
-        for number in np.unique(part.owner[odd]):
-            own = np.flatnonzero(picture.owners == number)
+        for number in np.unique(shown[odd]):
+            own = np.flatnonzero(owners == number)
             if len(own) and not unclear[own].any():
-                here = odd & (part.owner == number)
+                here = odd & (shown == number)
                 may = _may_have(part.at(here), _colors(scene, own))
-                owner[rows][here] = np.where(may, number, UNKNOWN)
+                shown[here] = np.where(may, number, UNKNOWN)
         yield 1.0
     return replace(case, picture=replace(picture, owner=owner))
 
 
-def _colors(scene: Scene, instances: NDArray[np.intp]) -> NDArray[np.float32]:
+def _colors(scene: Scene, instances: Places) -> Colors:
     """Return the colours that some instances, planes and the background may have, (m, 4)."""
     first, last = (rows[instances] for rows in scene.color_rows)
     ends = np.unique(np.stack((first, last)), axis=1).T
@@ -53,7 +54,7 @@ def _colors(scene: Scene, instances: NDArray[np.intp]) -> NDArray[np.float32]:
     return np.unique(scene.color_table[rows], axis=0)
 
 
-def _may_have(picture: Picture, colors: NDArray[np.float32]) -> NDArray[np.bool_]:
+def _may_have(picture: Picture, colors: Colors) -> Bools:
     """Return which of n pixels show one of the colours (m, 4)."""
     shown = np.zeros(len(picture.color), bool)
     for color in colors:

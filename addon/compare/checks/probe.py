@@ -1,8 +1,8 @@
 """The open pixels, which differ and have no cause yet, and the rays that the checks ask about them.
 
-The picture has no such rays: they pass beside their pixel's centre, or go on behind its first hit.
-A check asks with them what a pixel would show had Blender's arithmetic moved it a little. It does
-so for a part of the picture at a time, in steps of a bounded number of pixels and pairs.
+These rays pass beside their pixel's centre, or go on behind its first hit. With them a check asks
+what a pixel would show had Blender's arithmetic moved it a little. It does so for a part of the
+picture at a time, in steps of a bounded number of pixels and pairs.
 """
 
 from __future__ import annotations
@@ -12,35 +12,49 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Bools, Floats, Index, Places
 from ...methods import Method
 from ...scene import Region, Scene
-from ...tracer.camera import camera_rays
+from ...tracer.camera import Rays, camera_rays, film_positions
+from ...tracer.candidates import Plan, candidates
 from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING
-from ...tracer.nearest import Hits, Pairs, Plan, candidates, film_positions, test_pairs, test_planes
+from ...tracer.hits import NOTHING, Hits
+from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
 from ...tracer.vector import groups
+from ...tracer.world import Pairs
 from ..bounds import depth_resolution, view_error
 from ..case import Case
-from ..cause import Cause, Causes
+from ..cause import AGREE, Cause, Causes
 from ..picture import Picture
 
-# A method that loses hits would find at some sample or other whatever Blender shows.
+# How the checks trace. A method that loses hits would find whatever Blender shows at some sample.
 SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
 
 LAYERS = 4  # surfaces behind one another that are looked at
 FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
 BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
 
+Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows
+
 
 def blocks(shape: tuple[int, ...]) -> list[slice]:
     """Split a picture (h, w, ...) into whole rows of about BLOCK pixels."""
     rows = max(1, BLOCK // shape[1])
     return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
+
+
+def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
+    """Return what a function says of each pixel (h, w); it is asked about some rows at a time."""
+    out = np.zeros(shape, bool)
+    for rows in blocks(shape):
+        out[rows] = of(rows)
+        yield 0.0
+    return out
 
 
 @dataclass(eq=False)
@@ -51,44 +65,57 @@ class OpenPixels:
     frame: Frame  # what was traced
     picture: Picture  # (h, w): the case's, as it is seen once a transform of its colours is found
     out: Causes  # what has been found
-    open: NDArray[np.bool_]  # (h, w)
-    band: NDArray[np.float64]  # (h, w) pixels: how far from its centre Blender's sample may lie
+    open: Bools  # (h, w)
+    band: Floats  # (h, w) pixels: how far from its centre Blender's sample may lie
 
-    def settle(
+    def give(
         self,
-        where: NDArray[np.bool_],
+        where: Bools,
         cause: Cause,
         figure: ArrayLike = np.nan,
         allowed: ArrayLike = np.nan,
-        at: tuple[NDArray[np.intp], ...] | None = None,
+        at: Some = slice(None),
     ) -> None:
-        """Give pixels that have none a cause: those of `where`, (h, w), or (n,) of those `at`."""
-        where = where & (self.out.cause[... if at is None else at] == Cause.AGREE)
-        given = where if at is None else tuple(v[where] for v in at)
-        self.out.cause[given], self.open[given] = cause, False
-        for values, own in ((self.out.figure, figure), (self.out.allowed, allowed)):
-            values[given] = np.broadcast_to(own, where.shape)[where]
+        """Give a cause to pixels without one: those of `where`, (h, w), or (n,) of those `at`."""
+        new = where & (self.out.cause[at] == AGREE)
+        for values, given in (
+            (self.out.cause, cause.number),
+            (self.out.figure, figure),
+            (self.out.allowed, allowed),
+            (self.open, False),
+        ):
+            values[at] = np.where(new, given, values[at])
 
     def rows(self, rows: slice) -> OpenPixels:
         """Return those of some rows; their causes are written into the whole."""
-        o = self.out
-        arrays = {name: getattr(o, name)[rows] for name in ("cause", "figure", "allowed", "blind")}
-        out = replace(o, **arrays)
-        open_, band = self.open[rows], self.band[rows]
-        return replace(self, picture=self.picture.at(rows), out=out, open=open_, band=band)
+        out = replace(
+            self.out,
+            cause=self.out.cause[rows],
+            figure=self.out.figure[rows],
+            allowed=self.out.allowed[rows],
+            blind=self.out.blind[rows],
+        )
+        return replace(
+            self,
+            picture=self.picture.at(rows),
+            out=out,
+            open=self.open[rows],
+            band=self.band[rows],
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class Probe:
-    """Some pixels of a tile, with every triangle that rays near their centres may meet."""
+    """Some pixels of a tile, with every triangle that rays near their centres may hit."""
 
-    plan: Plan
-    px: NDArray[np.float64]  # (n,) film positions of the centres, in pixels of the whole picture
-    py: NDArray[np.float64]
+    scene: Scene
+    px: Floats  # (n,) film positions of the centres, in pixels of the whole picture
+    py: Floats
     chunks: list[Pairs]  # `pixel` numbers the n pixels
+    settings: Settings
 
     @classmethod
-    def of(cls, plan: Plan, tile: Region, wanted: NDArray[np.bool_]) -> Work[Probe]:
+    def of(cls, plan: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
         """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
 
         Yields the share of the work done; returns the probe.
@@ -98,26 +125,36 @@ class Probe:
             if some is not None and len(some.pixel):
                 chunks.append(some)
             yield share
-        return cls(plan, *film_positions(tile, pixel=np.flatnonzero(wanted)), chunks)
+        px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
+        return cls(plan.scene, px, py, chunks, settings)
 
-    def points(self, hits: Hits) -> NDArray[np.float64]:
+    def rays(
+        self,
+        dx: Floats | float = 0.0,
+        dy: Floats | float = 0.0,
+        pixel: Index | slice = slice(None),
+    ) -> Rays:
+        """Return rays that pass the centres of some of the n pixels at (dx, dy), in pixels."""
+        dtype = Precision(self.settings.precision).dtype
+        return camera_rays(self.scene.camera, self.px[pixel] + dx, self.py[pixel] + dy, dtype)
+
+    def points(self, hits: Hits) -> Floats:
         """Return where the rays through the n centres end, (n, 3) world space."""
-        return positions(camera_rays(self.plan.scene.camera, self.px, self.py), hits)
+        return positions(camera_rays(self.scene.camera, self.px, self.py), hits)
 
     def trace(
-        self, dx: ArrayLike = 0.0, dy: ArrayLike = 0.0, after: Hits | None = None
+        self, dx: Floats | float = 0.0, dy: Floats | float = 0.0, after: Hits | None = None
     ) -> Work[Hits]:
         """Trace one ray a pixel, a chunk of pairs a step.
 
         It passes its pixel's centre at (dx, dy), a number or (n,) each, in pixels: at most the
-        plan's reach. Only what lies behind the n hits `after` counts.
+        plan's reach. With `after`, only what lies behind those n hits counts.
         """
-        scene, settings = self.plan.scene, self.plan.settings
-        rays = camera_rays(scene.camera, self.px + dx, self.py + dy, settings.precision.dtype)
+        rays = self.rays(dx, dy)
         hits = Hits.none(len(self.px))
-        test_planes(scene, rays, hits, after)
+        test_planes(self.scene, rays, hits, after)
         for some in self.chunks:
-            test_pairs(scene, settings, rays, some, hits, after)
+            test_pairs(self.scene, self.settings, rays, some, hits, after)
             yield 0.0
         return hits
 
@@ -127,7 +164,7 @@ class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
 
     pixels: OpenPixels  # of the part's rows
-    wanted: NDArray[np.bool_]  # (rows, w): where the n pixels are
+    wanted: Bools  # (rows, w): where the n pixels are
     probe: Probe
 
     @cached_property
@@ -136,7 +173,7 @@ class Part:
         return self.pixels.case.scene
 
     @cached_property
-    def at(self) -> tuple[NDArray[np.intp], ...]:
+    def at(self) -> tuple[Places, ...]:
         """The rows and columns of the n pixels."""
         return np.nonzero(self.wanted)
 
@@ -146,22 +183,20 @@ class Part:
         return self.pixels.picture.at(self.at)
 
     @cached_property
-    def band(self) -> NDArray[np.float64]:
+    def band(self) -> Floats:
         """How far from the n centres Blender's samples may lie, in pixels."""
         return self.pixels.band[self.at]
 
     @property
-    def settled(self) -> bool:
-        """Whether no pixel is left."""
+    def done(self) -> bool:
+        """Whether all n pixels have a cause."""
         return not self.pixels.open[self.at].any()
 
-    def settle(
-        self, where: NDArray[np.bool_], cause: Cause, figure: ArrayLike, allowed: ArrayLike
-    ) -> None:
-        """Give those of the n pixels a cause that have none yet."""
-        self.pixels.settle(where, cause, figure, allowed, self.at)
+    def give(self, where: Bools, cause: Cause, figure: ArrayLike, allowed: ArrayLike) -> None:
+        """Give a cause to those of the n pixels that have none yet."""
+        self.pixels.give(where, cause, figure, allowed, self.at)
 
-    def resolution(self, hits: Hits) -> NDArray[np.float64]:
+    def resolution(self, hits: Hits) -> Floats:
         """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
         seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
         found = hits.take(seen)
@@ -174,9 +209,9 @@ def by_parts(
     pixels: OpenPixels,
     plan: Plan,
     look: Callable[[Part], Work[None]],
-    asked: NDArray[np.bool_] | bool = True,
+    asked: Bools | bool = True,
 ) -> Work[None]:
-    """Have `look` settle the open pixels of a whole picture, a part of it at a time.
+    """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
     The scene of `plan` is what is asked: it may have another clip range than the case's. Only the
     pixels `asked` (h, w) are looked at, if given.
@@ -189,19 +224,21 @@ def by_parts(
             yield done + 0.5 * size
 
 
-def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[NDArray[np.bool_]]:
+def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Bools]:
     """Return which open pixels, (h, w), show the colour and the object of something near them.
 
-    What the others show no ray sees that passes within the plan's reach, at whatever depth.
+    No ray that passes within the plan's reach sees what the others show, at whatever depth.
     """
     scene, out = plan.scene, pixels.open.copy()
-    everywhere = (NOTHING, *range(len(scene.instances), len(scene.instances) + len(scene.planes)))
+    count = len(scene.instances)
+    everywhere = (NOTHING, *range(count, count + len(scene.planes)))
     parts = parts_of(scene, out, BLOCK)
     for number, (tile, rows, wanted) in enumerate(parts):
-        picture, count = pixels.picture.at(rows).at(wanted), int(wanted.sum())
-        seen = np.zeros((2, count), bool)
+        picture = pixels.picture.at(rows).at(wanted)
+        size = len(picture.color)
+        seen = np.zeros((2, size), bool)
         for instance in everywhere:
-            seen |= _shown(picture, scene, np.full(count, instance), np.full(count, NOTHING))
+            seen |= _shown(picture, scene, np.full(size, instance), np.full(size, NOTHING))
             yield number / len(parts)
         for share, some in candidates(plan, tile, wanted.ravel()):
             yield (number + share) / len(parts)
@@ -213,22 +250,18 @@ def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[NDArray[np.bool_]]:
     return out
 
 
-def _shown(
-    picture: Picture, scene: Scene, instance: NDArray[np.integer], triangle: NDArray[np.integer]
-) -> NDArray[np.bool_]:
-    """Return where n pixels show the colour of a triangle, and its object, (2, n).
+def _shown(picture: Picture, scene: Scene, instance: Index, triangle: Index) -> Bools:
+    """Return where n pixels may show the colour of a triangle, and its object, (2, n).
 
     Between corners, a triangle may have any colour.
     """
-    count = len(instance)
-    hits = Hits.of(np.zeros(count), instance, triangle, np.zeros((3, count)))
+    hits = Hits.none(len(instance))
+    hits.instance[:], hits.triangle[:] = instance, triangle
     color = picture.same_color(scene, hits) | interpolated(scene, instance)
     return np.stack((color, ~picture.other_object(instance)))
 
 
-def parts_of(
-    scene: Scene, open_: NDArray[np.bool_], most: int
-) -> list[tuple[Region, slice, NDArray[np.bool_]]]:
+def parts_of(scene: Scene, open_: Bools, most: int) -> list[tuple[Region, slice, Bools]]:
     """Return parts of whole rows with about `most` open pixels, as tiles and rows, and these."""
     r = scene.camera.region
     return [

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ...certainty import Certainty
-from ...compare.cause import Cause
+from ...compare.cause import AGREE
+from ...compare.causes import CAUSES
 from ...compare.comparison import Comparison
 from ...explain import html
 from ...images import data_uri, to_display
@@ -81,7 +82,7 @@ def _causes(comparison: Comparison) -> list[dict[str, Any]]:
             "pixels": count[cause.key],
             "color": None if cause.color is None else _hex(cause.color),
         }
-        for cause in Cause
+        for cause in CAUSES
     ]
 
 
@@ -114,7 +115,7 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     """Return as many of the pixels' numbers as fit, and sentences on what was left out."""
     frame, causes = comparison.frame, comparison.causes
     seen = arrays.seen(frame)
-    index = np.flatnonzero(causes.cause != Cause.AGREE)
+    index = np.flatnonzero(causes.cause != AGREE)
     differing = {"index": packed(index.astype(np.uint32))}
     for name in ("cause", "figure", "allowed"):
         differing[name] = packed(getattr(causes, name).ravel()[index])

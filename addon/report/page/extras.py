@@ -88,7 +88,7 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.flo
     parts = parts_of(scene, lost, BLOCK)
     for number, (tile, rows, wanted) in enumerate(parts):
         done, share = number / len(parts), 1 / len(parts)
-        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, share)
+        probe = yield from scaled(Probe.of(made, tile, wanted.ravel(), settings), done, share)
         hits = yield from scaled(probe.trace(), done + share, 0.0)
         color[rows][wanted] = shading.colors(scene, hits)
     return color

@@ -79,28 +79,28 @@ def test_enter_is_a_maximum(rng, order, pixels):
 @pytest.mark.parametrize("order", [o for o in ORDERS if o != "extreme"])
 @pytest.mark.parametrize("pixels", [1, 2, 40, 3000])
 @pytest.mark.parametrize("width", [0.0, 1e-3, 1.0])
-def test_winners_and_rivals_are_all_that_may_be_the_nearest(rng, order, pixels, width):
+def test_winners_and_fragments_are_all_that_may_be_the_nearest(rng, order, pixels, width):
     """As by definition: whose most is not less than the greatest least of its pixel."""
-    depths, every, rivals = DepthBuffer(Region(2, 3, 75, 70)), [], []
+    depths, every, fragments = DepthBuffer(Region(2, 3, 75, 70)), [], []
     for first in range(0, 12_000, 3000):
         pixel = depths.places(rng.integers(0, pixels, 3000))
         least = ORDERS[order](rng, 3000)
         most = least + width * rng.choice([0, 0.1, 1], 3000)
         surface = np.arange(first, first + 3000)
         every.append(np.stack((pixel, surface, most, least)))
-        rivals += depths.enter(pixel, surface, least, most)
+        fragments += depths.enter(pixel, surface, least, most)
     pixel, surface, most, least = np.concatenate(every, axis=1)
     pixel = pixel.astype(int)
     expected = np.flatnonzero(most >= depths.nearness[pixel])
-    rivals = Fragments.joined(rivals)
-    rivals = rivals.take(depths.not_hidden(rivals))
+    fragments = Fragments.joined(fragments)
+    fragments = fragments.take(depths.not_hidden(fragments))
     winner = depths.winners[depths.pixels(pixel)]
     assert (least[winner] == depths.nearness[pixel]).all()
-    assert set(winner.tolist()) | set(rivals.surface.tolist()) == set(expected.tolist())
-    assert np.array_equal(pixel[rivals.surface], rivals.pixel)
-    assert np.array_equal(most[rivals.surface], rivals.nearest)
-    assert not np.isin(rivals.surface, winner).any()  # so a winner without any is alone
-    assert len(rivals) > 0 or order not in ("equal", "few values")
+    assert set(winner.tolist()) | set(fragments.surface.tolist()) == set(expected.tolist())
+    assert np.array_equal(pixel[fragments.surface], fragments.pixel)
+    assert np.array_equal(most[fragments.surface], fragments.nearest)
+    assert not np.isin(fragments.surface, winner).any()  # so a winner without any is alone
+    assert len(fragments) > 0 or order not in ("equal", "few values")
 
 
 def test_what_is_not_a_number_is_not_entered(rng):

@@ -14,6 +14,7 @@ from reference_tracer.certified.sweep import small_boxes
 from reference_tracer.certified.sweep.chunks import Expanded, Names
 from reference_tracer.certified.sweep.depth_buffer import DepthBuffer
 from reference_tracer.certified.sweep.film import Film
+from reference_tracer.certified.sweep.rasterise import Boxes
 from reference_tracer.certified.sweep.small_boxes import SIDE, are_small, small_pairs
 from reference_tracer.scene import Region
 from reference_tracer.tracer.camera import camera_rays
@@ -67,8 +68,8 @@ def test_what_is_said_is_true(make, monkeypatch, orthographic, claim):
         left: list = []
         region = Region(3, 2, WIDTH - 5, HEIGHT - 1)
         depths = DepthBuffer(region)
-        given = film, expanded, low, high, small, depths, Counter(), left
-        parts = list(small_pairs(*given))
+        some = Boxes(small, low[:, small], high[:, small])
+        parts = list(small_pairs(film, expanded, some, depths, Counter(), left))
         found = {}
         for part in parts:
             for pixel, owner, *said in zip(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import AGREE, ANTI_ALIASING, UNEXPLAINED
 from reference_tracer.compare.checks.anti_aliasing import NEAR, distance_to_triangles, is_mix
 from reference_tracer.compare.picture import Picture
 from reference_tracer.rendering import render
@@ -61,9 +61,9 @@ def filtered(scene, picture, radius):
 def test_a_smoothed_picture_is_explained_and_has_its_radius(room):
     smooth = render(room, Settings(samples=4)).color
     _, found = filtered(room, smooth, 1.0)
-    differ = found.cause != Cause.AGREE
+    differ = found.cause != AGREE
     assert differ.sum() > 50
-    assert (found.cause[differ] == Cause.ANTI_ALIASING).all()
+    assert (found.cause[differ] == ANTI_ALIASING).all()
     assert (found.figure[differ] <= found.allowed[differ]).all()
     assert (found.allowed[differ] == 1).all() and (found.figure[differ] < 1).any()
 
@@ -71,15 +71,15 @@ def test_a_smoothed_picture_is_explained_and_has_its_radius(room):
 def test_without_a_filter_it_is_not(room):
     smooth = render(room, Settings(samples=4)).color
     _, found = filtered(room, smooth, 0.0)
-    assert (found.cause == Cause.UNEXPLAINED).sum() > 50
-    assert not (found.cause == Cause.ANTI_ALIASING).any()
+    assert (found.cause == UNEXPLAINED).sum() > 50
+    assert not (found.cause == ANTI_ALIASING).any()
 
 
 @pytest.mark.slow
 def test_a_filter_excuses_no_fault_inside(room):
     frame, found = filtered(room, render(room).color * np.float32((1, 0.8, 1, 1)), 2.0)
     surface = frame.instance_index >= 0
-    assert (found.cause[surface] == Cause.UNEXPLAINED).mean() > 0.8
+    assert (found.cause[surface] == UNEXPLAINED).mean() > 0.8
 
 
 @pytest.mark.slow
@@ -88,12 +88,12 @@ def test_a_shift_is_found_through_a_filter(room, shifted):
 
     moved = replace(room, camera=shifted(room.camera, 4, 0))
     _, found = filtered(room, render(moved, Settings(samples=4)).color, 1.0)
-    assert (found.cause == Cause.UNEXPLAINED).sum() > 100
+    assert (found.cause == UNEXPLAINED).sum() > 100
 
 
 def test_sums_of_half_floats_lose_a_little(room):
     frame = render(room)
     low = frame.color * np.float32(1 - 32 * 2.0**-12)
-    for sums, cause in ((0, Cause.UNEXPLAINED), (32, Cause.AGREE)):
+    for sums, cause in ((0, UNEXPLAINED), (32, AGREE)):
         found = result_of(find_causes(room, frame, Picture(low, sums=sums)))
         assert (found.cause[frame.instance_index >= 0] == cause).all()

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.bounds import depth_resolution
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import CLIP_PLANE, UNEXPLAINED
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Mesh
 
@@ -31,7 +31,7 @@ def test_a_wall_at_the_clip_start(make, explained, orthographic, side):
     other = render(wall(make, camera, 2.0 - side * off)).color
     assert (other != render(scene).color).any()
     found = explained(scene, other)
-    assert (found.cause == Cause.CLIP_PLANE).all()
+    assert (found.cause == CLIP_PLANE).all()
     assert (found.figure <= found.allowed).all()
     np.testing.assert_allclose(found.figure, off, rtol=1e-6)
 
@@ -44,7 +44,7 @@ def test_a_wall_at_the_clip_start_behind_the_eye(make, explained, side):
     scene = wall(make, camera, -50.0 + side * off)
     other = render(wall(make, camera, -50.0 - side * off)).color
     assert (other != render(scene).color).any()
-    assert (explained(scene, other).cause == Cause.CLIP_PLANE).all()
+    assert (explained(scene, other).cause == CLIP_PLANE).all()
 
 
 @pytest.mark.parametrize("side", [-1, 1])
@@ -54,7 +54,7 @@ def test_a_wall_at_the_clip_end(make, explained, side):
     scene = wall(make, camera, 5.0 + side * off)
     other = render(wall(make, camera, 5.0 - side * off)).color
     found = explained(scene, other)
-    assert (found.cause == Cause.CLIP_PLANE).all()
+    assert (found.cause == CLIP_PLANE).all()
 
 
 def test_farther_off_it_is_unexplained(make, explained):
@@ -62,14 +62,14 @@ def test_farther_off_it_is_unexplained(make, explained):
     off = 1e-3  # metres
     scene = wall(make, camera, 2.0 + off)
     other = render(wall(make, camera, 2.0 - off)).color
-    assert (explained(scene, other).cause == Cause.UNEXPLAINED).all()
+    assert (explained(scene, other).cause == UNEXPLAINED).all()
 
 
 def test_another_clip_range_is_a_fault(make, explained):
     camera = make.camera(clip_start=0.5, clip_end=100.0)
     scene = wall(make, camera, 3.0)
     other = render(replace(scene, camera=replace(camera, clip_start=3.5))).color
-    assert (explained(scene, other).cause == Cause.UNEXPLAINED).all()
+    assert (explained(scene, other).cause == UNEXPLAINED).all()
 
 
 def test_what_is_at_the_clip_explains_only_what_lies_behind_it(make, explained):
@@ -78,4 +78,4 @@ def test_what_is_at_the_clip_explains_only_what_lies_behind_it(make, explained):
     scene = wall(make, camera, 2.0)
     picture = render(scene).color.copy()
     picture[...] = (0.3, 0.9, 0.7, 1)
-    assert (explained(scene, picture).cause == Cause.UNEXPLAINED).all()
+    assert (explained(scene, picture).cause == UNEXPLAINED).all()

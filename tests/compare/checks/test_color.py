@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.cause import Cause
+from reference_tracer.compare.causes import AGREE, COLOR, UNEXPLAINED
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture
 from reference_tracer.images import curve, curve_undone, decoded
@@ -46,15 +46,15 @@ def test_a_transform_is_named(room, frame, change, name):
     causes = found(room, frame, Picture(changed(frame, change)))
     assert causes.transform == name
     surface = frame.instance_index >= 0
-    assert set(np.unique(causes.cause[surface])) <= {Cause.COLOR, Cause.AGREE}
-    own = causes.cause == Cause.COLOR
+    assert set(np.unique(causes.cause[surface])) <= {COLOR, AGREE}
+    own = causes.cause == COLOR
     assert own.sum() > 0.9 * surface.sum()
     assert (causes.figure[own] <= causes.allowed[own]).all()
 
 
 def test_none_is_looked_for_where_none_may_be(room, frame):
     causes = found(room, frame, Picture(changed(frame, curve)), curves=None)
-    assert causes.transform == "" and (causes.cause == Cause.UNEXPLAINED).sum() > 500
+    assert causes.transform == "" and (causes.cause == UNEXPLAINED).sum() > 500
 
 
 def test_a_file_that_was_cut_off_not_rounded(room, frame):
@@ -63,7 +63,7 @@ def test_a_file_that_was_cut_off_not_rounded(room, frame):
     color[..., :3] = decoded(stored / 255)
     causes = found(room, frame, Picture(color, levels=255))
     assert causes.transform == "values cut off, not rounded"
-    assert not (causes.cause == Cause.UNEXPLAINED).any()
+    assert not (causes.cause == UNEXPLAINED).any()
 
 
 def test_linear_values_in_a_png(room, frame):
@@ -71,7 +71,7 @@ def test_linear_values_in_a_png(room, frame):
     color[..., :3] = decoded(np.rint(255 * frame.color[..., :3].astype(np.float64)) / 255)
     causes = found(room, frame, Picture(color, levels=255))
     assert causes.transform.startswith("sRGB's curve left out")
-    assert not (causes.cause == Cause.UNEXPLAINED).any()
+    assert not (causes.cause == UNEXPLAINED).any()
 
 
 @pytest.mark.parametrize("power", [1 / 2.2, 2.2, 1.31])
@@ -84,7 +84,7 @@ def test_a_gamma_of_coded_values(room, frame, power):
     name = causes.transform
     assert name.startswith("a gamma of ") and name.endswith(" applied to coded (sRGB) values")
     assert float(name.split()[3]) == pytest.approx(1 / power, rel=0.02)
-    assert not (causes.cause == Cause.UNEXPLAINED).any()
+    assert not (causes.cause == UNEXPLAINED).any()
 
 
 def test_a_large_area_alone_fits_no_curve(room, frame):
@@ -97,7 +97,7 @@ def test_a_large_area_alone_fits_no_curve(room, frame):
     color = frame.color.copy()
     color[..., :3] **= power[..., None]
     causes = found(room, frame, Picture(color))
-    assert causes.transform == "" and not (causes.cause == Cause.COLOR).any()
+    assert causes.transform == "" and not (causes.cause == COLOR).any()
 
 
 def test_one_grey_surface_proves_no_fit(make):
@@ -106,7 +106,7 @@ def test_one_grey_surface_proves_no_fit(make):
     scene = replace(scene, instances=(grey,))
     frame = render(scene)
     causes = found(scene, frame, Picture(changed(frame, lambda c: c * 0.7)))
-    assert causes.transform == "" and (causes.cause == Cause.UNEXPLAINED).all()
+    assert causes.transform == "" and (causes.cause == UNEXPLAINED).all()
 
 
 def test_a_missing_object_shows_through_a_transform(room, frame):
@@ -116,15 +116,15 @@ def test_a_missing_object_shows_through_a_transform(room, frame):
     color[..., :3] = curve(color[..., :3])
     causes = found(room, frame, Picture(color.astype(np.float32)))
     assert causes.transform == "sRGB's curve applied once more"
-    assert (causes.cause[box] == Cause.UNEXPLAINED).mean() > 0.8
-    assert (causes.cause[(frame.object_index == 0)] == Cause.COLOR).mean() > 0.9
+    assert (causes.cause[box] == UNEXPLAINED).mean() > 0.8
+    assert (causes.cause[(frame.object_index == 0)] == COLOR).mean() > 0.9
 
 
 def test_noise_has_no_transform(room, frame, rng):
     color = frame.color * rng.uniform(0.2, 2, (*frame.t.shape, 1)).astype(np.float32)
     color[..., 3] = frame.color[..., 3]
     causes = found(room, frame, Picture(color))
-    assert causes.transform == "" and not (causes.cause == Cause.COLOR).any()
+    assert causes.transform == "" and not (causes.cause == COLOR).any()
 
 
 def test_boundaries_are_counted_once(make):

@@ -57,7 +57,7 @@ def asked(scene, band=BAND, settings=None):
     region = scene.camera.region
     made = result_of(plan(scene, settings, reach=band))
     count = region.width * region.height
-    probe = result_of(Probe.of(made, region, np.ones(count, bool)))
+    probe = result_of(Probe.of(made, region, np.ones(count, bool), settings))
     return result_of(coverage(probe, np.full(count, band)))
 
 

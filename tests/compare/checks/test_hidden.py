@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare.case import Alternative
-from reference_tracer.compare.cause import Cause, Hidden
+from reference_tracer.compare.cause import Hidden
+from reference_tracer.compare.causes import HIDDEN, UNEXPLAINED
 from reference_tracer.compare.checks.hidden import with_object, without
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.manifest import ObjectEntry
@@ -32,9 +33,9 @@ def test_an_object_that_the_picture_lacks(named):
     lacking = without(named, "Box")
     causes = found(named, render(lacking).color, Alternative("Box", WHY, lacking))
     assert causes.hidden == [Hidden("Box", WHY)]
-    assert not (causes.cause == Cause.UNEXPLAINED).any()
-    assert (causes.cause == Cause.HIDDEN).sum() > 50
-    assert (causes.figure[causes.cause == Cause.HIDDEN] == 0).all()
+    assert not (causes.cause == UNEXPLAINED).any()
+    assert (causes.cause == HIDDEN).sum() > 50
+    assert (causes.figure[causes.cause == HIDDEN] == 0).all()
 
 
 def test_an_object_that_only_the_picture_has(named):
@@ -44,7 +45,7 @@ def test_an_object_that_only_the_picture_has(named):
     np.testing.assert_array_equal(render(whole).color, render(named).color)
     causes = found(lacking, render(named).color, Alternative("Box", WHY, whole))
     assert causes.hidden == [Hidden("Box", WHY)]
-    assert not (causes.cause == Cause.UNEXPLAINED).any()
+    assert not (causes.cause == UNEXPLAINED).any()
 
 
 def test_a_flag_that_explains_nothing_is_not_named(named):
@@ -52,7 +53,7 @@ def test_a_flag_that_explains_nothing_is_not_named(named):
     picture = render(without(named, "Box")).color
     causes = found(named, picture, Alternative("Ball", WHY, without(named, "Ball")))
     assert causes.hidden == []
-    assert (causes.cause == Cause.UNEXPLAINED).sum() > 50
+    assert (causes.cause == UNEXPLAINED).sum() > 50
 
 
 def test_an_object_that_is_known_to_be_shown(named):
@@ -67,6 +68,6 @@ def test_an_object_that_is_known_to_be_shown(named):
     entry = ObjectEntry("Box", "MESH", False, why, hidden=True)
     causes = result_of(find_causes(lacking, frame, shown, objects=[entry]))
     assert causes.hidden == [Hidden("Box", why)]
-    assert (causes.cause[owner == 1] == Cause.HIDDEN).mean() > 0.9
+    assert (causes.cause[owner == 1] == HIDDEN).mean() > 0.9
     causes = result_of(find_causes(lacking, frame, shown))
-    assert (causes.cause[owner == 1] == Cause.UNEXPLAINED).mean() > 0.9
+    assert (causes.cause[owner == 1] == UNEXPLAINED).mean() > 0.9

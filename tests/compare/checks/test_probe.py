@@ -38,7 +38,7 @@ def scene(make, rng):
 
 
 def probe_of(scene, settings, wanted, reach=0.5):
-    return result_of(Probe.of(result_of(plan(scene, settings, reach)), TILE, wanted))
+    return result_of(Probe.of(result_of(plan(scene, settings, reach)), TILE, wanted, settings))
 
 
 @pytest.fixture
@@ -106,9 +106,9 @@ def test_nothing_wanted_and_nothing_there(scene, make, wanted):
 
 def test_steps_are_small(scene, wanted, monkeypatch):
     monkeypatch.setattr(candidates, "PAIRS", 100)
-    probe = probe_of(scene, PLAIN, wanted)
+    shares = []
+    made = result_of(plan(scene, PLAIN, 0.5))
+    probe = result_of(Probe.of(made, TILE, wanted, PLAIN), shares.append)
     assert len(probe.chunks) > 5
     assert max(len(some.pixel) for some in probe.chunks) <= 100
-    shares = []
-    result_of(Probe.of(probe.plan, TILE, wanted), shares.append)
     assert (np.diff(shares) >= 0).all() and 0 <= shares[0] and shares[-1] <= 1

@@ -1,7 +1,7 @@
-"""What every pixel of a region sees, of all its fragments.
+"""Resolves the pixels of a swept region: decides which surface each of them sees.
 
-In come the winners and their rivals that a sweep has found; out go `Hits`. A pixel whose winner has
-no rival is decided. The rays of all others, and all that they may see, go to a `Ladder`.
+A pixel whose winner has no fragment that may be nearer is decided. The rays of the others are
+tested again by a `Ladder`, with all surfaces that they may see.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...certainty import Certainty
 from ...scene import Scene
@@ -17,7 +16,7 @@ from ...tracer.camera import camera_rays, corner_rays, film_positions
 from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics, Ties
 from ...tracer.progress import Steps, mapped
-from ...tracer.vector import Index, gather, grouped, groups, parts
+from ...tracer.vector import Bools, Index, gather, grouped, groups, parts
 from ...tracer.world import Pairs, WorldTriangles, world_corners
 from ..ladder import Ladder
 from ..measures import Known, Measured
@@ -26,14 +25,15 @@ from .depth_buffer import DepthBuffer, Fragments
 from .film import Film
 from .tournament import tournament
 
-_PAIRS = 1 << 15  # that a contest tests at a time
-_FRAGMENTS = 1 << 17  # looked at together: a step of some milliseconds
-_RAYS, _CANDIDATES = 1 << 14, 1 << 15  # of a contest, at most
+_PAIRS = 1 << 15  # pairs that a ladder tests at a time
+_FRAGMENTS = 1 << 17  # fragments looked at together: a step of some milliseconds
+_RAYS = 1 << 14  # rays of a ladder, at most
+_CANDIDATES = 1 << 15  # candidates of a ladder, at most
 
 
 @dataclass(frozen=True, eq=False)
-class Verdict:
-    """The end of a sweep: its depth buffer, and how it numbers surfaces."""
+class Resolver:
+    """The end of a sweep: its depth buffer, and the numbers of its surfaces."""
 
     scene: Scene
     film: Film
@@ -42,14 +42,15 @@ class Verdict:
     statistics: Statistics
 
     def steps(self, fragments: list[Fragments]) -> Steps[Hits]:
-        """Decide every pixel by its fragments, which it empties, in small steps with names."""
+        """Decide every pixel, in small steps that yield their stage; empties `fragments`."""
         region = self.depths.region
         count = region.width * region.height
         instance, triangle = np.full((2, count), NOTHING, np.int32)
         certainty = np.full(count, Certainty.BOUND, np.uint8)
         yield "verdict"
-        open_, pairs = np.zeros(count, bool), []
-        # Each is let go of as soon as it is looked at.
+        open_ = np.zeros(count, bool)
+        pairs = []
+        # Fragments are freed as soon as they are looked at.
         every = (fragments.pop(0) for _ in range(len(fragments)))
         for some in Fragments.together(every, _FRAGMENTS):
             some = some.take(self.depths.not_hidden(some))
@@ -59,10 +60,12 @@ class Verdict:
             yield "verdict"
         winners = self.depths.winners
         for part in parts(count, PIXELS):
-            own, is_open = winners[part], open_[part]
+            own = winners[part]
+            is_open = open_[part]
             decided = np.flatnonzero((own != NOTHING) & ~is_open)
             names = self.numbers.names_of(gather(own, decided))
-            instance[part.start + decided], triangle[part.start + decided] = names
+            instance[part.start + decided] = names[0]
+            triangle[part.start + decided] = names[1]
             beside = np.flatnonzero((own != NOTHING) & is_open)
             pairs.append((part.start + beside, gather(own, beside)))
             yield "verdict"
@@ -73,11 +76,11 @@ class Verdict:
         return out
 
     def _enter_open(
-        self, hits: Hits, open_: NDArray[np.bool_], pairs: list[tuple[Index, Index]]
+        self, hits: Hits, open_: Bools, pairs: list[tuple[Index, Index]]
     ) -> Steps[Known]:
-        """Enter the pixels that may see several surfaces, or none for sure: some at a time.
+        """Decide the `open_` pixels, some at a time: they may see several surfaces, or none.
 
-        `pairs` are these pixels and their surfaces; they are used up.
+        `pairs` are these pixels and their surfaces; empties the list.
         """
         every = np.flatnonzero(open_)
         self.statistics.culling["left"] += len(every)
@@ -95,7 +98,8 @@ class Verdict:
                 if len(own):
                     members.append((pixel[own], surface[own]))
             yield "contest"
-        ties, known = [], [Known.none()]
+        ties = []
+        known = [Known.none()]
         for (first, last), members in zip(ends, contests, strict=True):
             which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
@@ -111,17 +115,18 @@ class Verdict:
         return Known.joined(known)
 
     def _contest(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
-        """Decide the rays of pixels, each with all surfaces that it may see: pairs of the two."""
-        scene, film = self.scene, self.film
+        """Decide the rays of pixels (n,), given all pairs of one of them and a surface, (p,)."""
+        scene = self.scene
+        film = self.film
         at = film_positions(self.depths.region, film.dx, film.dy, pixel)
-        on_mesh = np.flatnonzero(surface >= len(scene.planes))  # it has the planes already
-        ray, surface = ray[on_mesh], surface[on_mesh]
-        surface, row = np.unique(surface, return_inverse=True)
+        on_mesh = np.flatnonzero(surface >= len(scene.planes))  # a ladder has all planes anyway
+        ray = ray[on_mesh]
+        surface, row = np.unique(surface[on_mesh], return_inverse=True)
         around = corner_rays(film.camera, film.dx, film.dy)
         ladder = Ladder.of(scene, camera_rays(film.camera, *at), around)
         names = self.numbers.names_of(surface)
         triangles = WorldTriangles(world_corners(scene, *names), *names)
-        # Ray by ray, and once each: a triangle of unknown orientation has two set-ups.
+        # Sort by ray, and drop duplicates: a triangle of unknown orientation was set up twice.
         key = np.sort(ray * len(surface) + row)  # faster than `np.unique`
         key = key[np.flatnonzero(np.diff(key, prepend=-1))]
         ray, row = np.divmod(key, max(1, len(surface)))

@@ -1,0 +1,105 @@
+"""`reftrace explain`: derives one pixel's ray, and prints or writes the derivation."""
+
+from __future__ import annotations
+
+import sys
+from argparse import Namespace
+from collections.abc import Sequence
+from contextlib import redirect_stdout
+from dataclasses import dataclass
+from pathlib import Path
+
+from ... import images
+from ...explain import reproducer
+from ...explain.candidates import LIMIT, gather_pixel
+from ...explain.pixel import Pixel
+from ...explain.writers import WRITERS
+from ...framing import Choice
+from ...report import pixel
+from ...scene import SceneError
+from ..arguments import refuse
+from ..camera_options import CAMERA_OPTIONS, add_camera, choice_from
+from ..opening import SOURCES, load
+from ..parser import AGREE, COUNT, Parser
+from ..running import printable
+
+
+@dataclass(frozen=True)
+class ExplainOptions:
+    """The options of `reftrace explain`."""
+
+    scene: Path
+    pixel: Sequence[int] | None  # x, y; None of a reproducer, which is one pixel by itself
+    limit: int
+    choice: Choice
+    out: Path | None
+    reproducer: Path | None
+
+    @classmethod
+    def parsed(cls, given: Namespace) -> ExplainOptions:
+        """Return what was parsed; raises SceneError if options contradict one another."""
+        out, again = given.out, given.reproducer
+        if out and again and out.resolve() == again.resolve():
+            raise SceneError(f"--out and --reproducer are the same file, '{out}'")
+        if given.scene.suffix.lower() == ".json":
+            why = f"is not for '{given.scene}', which is one pixel by itself"
+            refuse(given, ("pixel", "limit", *CAMERA_OPTIONS), why)
+        elif given.pixel is None:
+            raise SceneError("--pixel X Y says which pixel; 0 0 is the picture's lower left")
+        return cls(
+            scene=given.scene,
+            pixel=given.pixel,
+            limit=given.limit or LIMIT,
+            choice=choice_from(given, given.scene),
+            out=out,
+            reproducer=again,
+        )
+
+
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    parser.runs(
+        lambda given: explain(ExplainOptions.parsed(given)),
+        "reftrace explain scene.blend --pixel 480 270 --out pixel.html",
+    )
+    parser.add_scene(f"{SOURCES}, or a pixel.json that --reproducer wrote")
+    parser.add_argument(
+        "--pixel", type=int, nargs=2, metavar=("X", "Y"), help="0 0 is the picture's lower left"
+    )
+    parser.add_argument(
+        "--out",
+        type=parser.path_ending(*WRITERS),
+        metavar="FILE",
+        help=f"{', '.join(WRITERS)}; without it, Markdown is printed",
+    )
+    parser.add_argument(
+        "--reproducer",
+        type=parser.path_ending(".json"),
+        metavar="FILE.json",
+        help="write the pixel's ray and all that it may meet: `reftrace explain FILE.json` derives "
+        "it again, without the scene",
+    )
+    parser.add_argument(
+        "--limit",
+        type=COUNT,
+        metavar="N",
+        help=f"show at most this many triangles (default {LIMIT})",
+    )
+    add_camera(parser)
+
+
+def explain(options: ExplainOptions) -> int:
+    """Derive, and print or write it."""
+    found = _gathered(options)
+    print(printable(pixel.write(found, options.out, options.reproducer)), end="")
+    return AGREE
+
+
+def _gathered(options: ExplainOptions) -> Pixel:
+    if options.pixel is None:
+        return reproducer.read(options.scene)
+    # What is said meanwhile, by Blender too, is no part of the Markdown.
+    with images.redirected(1, 2), redirect_stdout(sys.stderr):
+        scene, _ = load(options.scene, options.choice)
+    x, y = options.pixel
+    return gather_pixel(scene, x, y, options.limit, options.scene.name)

@@ -1,0 +1,142 @@
+"""`reftrace trace`: traces a scene or a mesh into a picture."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ... import images
+from ...certified.rounding import check_rounding
+from ...framing import Choice
+from ...methods import Method
+from ...rendering import render
+from ...report import folders
+from ...scene import Scene, SceneError
+from ...scene_files import MESH_SUFFIXES
+from ...tracer.coloring import Color
+from ...tracer.frame import Frame
+from ...tracer.progress import result_of
+from ...tracer.settings import Settings
+from ..arguments import GivenSettings, Place, add_settings, place_from, settings_from
+from ..camera_options import add_camera, choice_from
+from ..opening import SOURCES, load
+from ..parser import AGREE, Parser
+from ..running import progress_bar
+
+
+@dataclass(frozen=True)
+class TraceOptions:
+    """The options of `reftrace trace`."""
+
+    scene: Path
+    out: Path
+    settings: GivenSettings
+    choice: Choice
+    rows: Sequence[int] | None  # the first and the last
+    check_rounding: bool
+    place: Place
+
+    @classmethod
+    def parsed(cls, given: Namespace) -> TraceOptions:
+        """Return what was parsed; raises SceneError if options contradict one another."""
+        return cls(
+            scene=given.scene,
+            out=given.out,
+            settings=settings_from(given),
+            choice=choice_from(given, given.scene),
+            rows=given.rows,
+            check_rounding=given.check_rounding,
+            place=place_from(given),
+        )
+
+    @property
+    def is_png(self) -> bool:
+        """Whether the picture is what a screen shows, not every output."""
+        return self.out.suffix.lower() == ".png"
+
+
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    parser.runs(
+        lambda given: trace(TraceOptions.parsed(given)),
+        "reftrace trace mesh.ply --out mesh.png --width 800",
+    )
+    parser.add_scene(SOURCES)
+    parser.add_argument(
+        "--out",
+        required=True,
+        type=parser.path_ending(".png", ".exr"),
+        metavar="PICTURE",
+        help="picture.png (what a screen shows) or picture.exr (every output)",
+    )
+    add_settings(parser)
+    parser.add_argument(
+        "--color",
+        choices=[c.value for c in Color],
+        help="what a surface shows (default what a .blend stores, else object: its own colour)",
+    )
+    parser.add_argument(
+        "--rows",
+        type=int,
+        nargs=2,
+        metavar=("FIRST", "LAST"),
+        help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
+    )
+    parser.add_argument(
+        "--check-rounding",
+        action="store_true",
+        help="count the pixels that show another surface because rays and corners are rounded "
+        "before the proof begins",
+    )
+    add_camera(parser)
+
+
+def trace(options: TraceOptions) -> int:
+    """Trace, and write the picture."""
+    with folders.made_for_file(options.out):
+        scene, stored = load(options.scene, options.choice)
+        settings = options.settings.over(stored)
+        if options.rows:
+            scene = _rows_alone(scene, settings, *options.rows)
+        frame, checked = _traced(scene, settings, options)
+        with folders.replacing_file(options.out) as new:
+            if options.is_png:
+                images.save_png(new, images.to_display(frame.color))
+            else:
+                images.save_exr(new, frame.passes())
+    s = frame.statistics
+    print(
+        f"{frame.shape[1]} x {frame.shape[0]} pixels, {s.triangles:,} triangles, "
+        f"{s.pairs_tested:,} pairs tested in {s.seconds:.2f} s ({s.method}, "
+        f"{settings.precision}): {options.out}"
+    )
+    for line in (*s.required(), *checked):
+        print(line)
+    is_mesh = options.scene.suffix.lower() in MESH_SUFFIXES
+    if options.is_png and is_mesh and not options.settings.color:
+        print("each mesh has one flat colour: --color facing shows its shape")
+    return AGREE
+
+
+def _traced(scene: Scene, settings: Settings, options: TraceOptions) -> tuple[Frame, list[str]]:
+    """Return the picture, and lines about rounding if they are asked for."""
+    if options.check_rounding and Method(settings.method).is_plain:
+        raise SceneError("--check-rounding is about proven pixels: --method certified has them")
+    with options.place as place, progress_bar() as progress:
+        frame = render(scene, settings, progress, **place)
+        if not options.check_rounding:
+            return frame, []
+        return frame, result_of(check_rounding(scene, frame), progress)
+
+
+def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:
+    """Return the scene with a camera that sees only some rows of the picture."""
+    r = scene.camera.region
+    if settings.color == Color.DEPTH:
+        raise SceneError("--rows: the greys of --color depth are those of a whole picture")
+    if not 0 <= first <= last < r.height:
+        raise SceneError(f"--rows {first} {last}: rows are 0 to {r.height - 1}, the lower first")
+    region = replace(r, y0=r.y0 + first, y1=r.y0 + last + 1)
+    return replace(scene, camera=replace(scene.camera, region=region))

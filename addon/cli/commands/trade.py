@@ -1,0 +1,86 @@
+"""`reftrace trade`: measures what tracing a scene costs, method by method."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from contextlib import nullcontext
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...framing import Choice
+from ...report import folders
+from ...report import trade as report
+from ...study import tradeoff
+from ...tracer.progress import result_of
+from ...tracer.settings import Settings
+from ..arguments import GivenSettings, Place, place_from
+from ..camera_options import SIZE_OF_STUDY, add_camera, choice_from
+from ..opening import SOURCES, load
+from ..parser import AGREE, COUNT, Parser
+from ..running import progress_bar
+
+
+@dataclass(frozen=True)
+class TradeOptions:
+    """The options of `reftrace trade`."""
+
+    scene: Path
+    out: Path | None
+    samples: int
+    width: int | None  # of the largest picture
+    choice: Choice
+    place: Place
+
+    @classmethod
+    def parsed(cls, given: Namespace) -> TradeOptions:
+        """Return what was parsed; raises SceneError if options contradict one another."""
+        most = GivenSettings(samples=given.samples).over(Settings(samples=tradeoff.SAMPLES))
+        return cls(
+            scene=given.scene,
+            out=given.out,
+            samples=most.samples,
+            width=given.width,
+            choice=choice_from(given, given.scene, of_study=True),
+            place=place_from(given),
+        )
+
+
+def add(parser: Parser) -> None:
+    """Add the command's options."""
+    parser.runs(
+        lambda given: trade(TradeOptions.parsed(given)),
+        "reftrace trade sample_scenes/suzanne.blend --out out/",
+    )
+    parser.add_scene(SOURCES)
+    parser.add_argument(
+        "--out", type=parser.path, metavar="DIR", help="folder for the table, JSON and plot"
+    )
+    parser.add_argument(
+        "--samples",
+        type=int,
+        metavar="N",
+        help=f"measure up to N x N rays a pixel (default {tradeoff.SAMPLES})",
+    )
+    parser.add_argument(
+        "--width",
+        type=COUNT,
+        metavar="PIXELS",
+        help="width of the largest picture, of a scene or a mesh; a scene's height follows "
+        f"(default {SIZE_OF_STUDY[0]}, or the scene's own width where that is less)",
+    )
+    add_camera(parser, of_study=True)
+
+
+def trade(options: TradeOptions) -> int:
+    """Measure, and print the table."""
+    with folders.made(options.out) if options.out else nullcontext():
+        scene, _ = load(options.scene, options.choice)
+        with options.place as place, progress_bar() as progress:
+            name = options.scene.name
+            work = tradeoff.measure(scene, options.width, options.samples, name, **place)
+            found = result_of(work, progress)
+        print(report.table(found))
+        if options.out:
+            report.write(options.out, found)
+            print(f"written to {options.out}")
+    return AGREE

@@ -1,0 +1,104 @@
+"""Transforms of colours that may have made a picture differ: curves, exposures, swapped channels.
+
+Each is a function of straight linear RGB (..., 3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..arrays import Array
+from ..images import curve, curve_undone
+from .picture import MAJORITY, Curve, Transform
+
+FITTED_SHARE = 0.9  # the share of pixels for a curve with a number that was fitted to them
+LEAST_CHANGE = 0.01  # an exposure or gamma nearer to 1 than this would be one of rounding
+FIT = 0.02  # values below this, or above 1 less this, say little of a curve
+
+CURVES = (
+    Curve("sRGB's curve applied once more", lambda c: curve(np.clip(c, 0, 1))),
+    Curve("sRGB's curve left out", lambda c: curve_undone(np.clip(c, 0, 1))),
+    Curve(
+        "a power of 1/2.2 in place of sRGB's curve",
+        lambda c: curve_undone(np.clip(c, 0, 1) ** (1 / 2.2)),
+    ),
+    Curve("a power of 1/2.2", lambda c: np.clip(c, 0, None) ** (1 / 2.2)),
+    Curve("red and blue swapped", lambda c: c[..., ::-1]),
+)
+
+
+def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) -> Iterator[Curve]:
+    """Yield what may turn traced colours (k, 3) into the shown ones, the likeliest first.
+
+    Both are straight linear RGB. The picture was stored in `levels` of sRGB's curve, 0 for floats;
+    `more` are transforms that are known beforehand.
+    """
+    yield from more
+    yield from CURVES
+    if levels:
+        for named in (Curve("values", lambda c: c), *CURVES[1:3]):
+            yield Curve(f"{named.name} cut off, not rounded", _cut_off(named.of, levels))
+    for power in (2.2, 1 / 2.2):
+        yield _coded_power(power, levels, MAJORITY)
+    a, b = traced.ravel(), shown.ravel()
+    with np.errstate(invalid="ignore"):
+        fits = (a > FIT) & (b > FIT) & np.isfinite(b)
+    if _several(a[fits]):
+        factor = float(np.median(b[fits] / a[fits]))
+        if abs(factor - 1) > LEAST_CHANGE:
+            name = f"an exposure of {np.log2(factor):+.3g} stops"
+            yield Curve(name, lambda c: c * factor, FITTED_SHARE)
+    fits &= (a < 1 - FIT) & (b < 1 - FIT)
+    if _several(a[fits]):
+        power = _power(a[fits], b[fits])
+        if abs(power - 1) > LEAST_CHANGE:
+            name = f"a gamma of {1 / power:.3g}"
+            yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE)
+        times = float(np.median(curve(b[fits]) / curve(a[fits])))
+        if abs(times - 1) > LEAST_CHANGE:
+            name = f"a factor of {times:.3g} on coded (sRGB) values"
+            yield Curve(name, lambda c: curve_undone(times * curve(np.clip(c, 0, 1))), FITTED_SHARE)
+        coded = _power(curve(a[fits]), curve(b[fits]))
+        if abs(coded - 1) > LEAST_CHANGE:
+            yield _coded_power(coded, levels, FITTED_SHARE)
+
+
+def _several(values: Array) -> bool:
+    """Return whether there are different values: one alone fits any curve of one number."""
+    return len(values) > 0 and float(np.ptp(values)) > LEAST_CHANGE
+
+
+def _power(a: Array, b: Array) -> float:
+    """Return p of b = a**p: the median, then a least squares fit to the values near to that."""
+    x, y = np.log(a), np.log(b)
+    power = float(np.median(y / x))
+    near = np.abs(a**power - b) < FIT
+    if not near.any():
+        return power
+    x, y = x[near], y[near]
+    weight = b[near] ** 2  # as db = b d(log b)
+    return float(np.sum(weight * x * y) / np.sum(weight * x * x))
+
+
+def _coded_power(power: float, levels: int, share: float) -> Curve:
+    """Return a power of sRGB's coded values, which were rounded to `levels` before."""
+
+    def transform(color: Array) -> Array:
+        stored = curve(np.clip(color, 0, 1))
+        if levels:
+            stored = np.rint(levels * stored) / levels
+        return curve_undone(stored**power)
+
+    return Curve(f"a gamma of {1 / power:.3g} applied to coded (sRGB) values", transform, share)
+
+
+def _cut_off(of: Transform, levels: int) -> Transform:
+    """Return a transform that then rounds down to `levels` of sRGB's curve."""
+
+    def transform(color: Array) -> Array:
+        stored = levels * curve(np.clip(of(color), 0, 1))
+        return curve_undone(np.floor(stored + 1e-6) / levels)
+
+    return transform

@@ -1,0 +1,35 @@
+"""Says in words what went wrong, and tells a user's mistakes from faults of this program."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+
+from .certified.arithmetic import AssumptionError
+from .compare.picture import SizeError
+from .images import MissingLibraryError
+from .scene import SceneError
+from .tracer.memory import PictureTooLargeError
+
+# A user can do something about these; any other error is our fault, and its traceback is wanted.
+EXPECTED = (SceneError, SizeError, OSError, MemoryError, MissingLibraryError, AssumptionError)
+
+
+def words(error: BaseException) -> str:
+    """Return what a user is told of an error, in one line."""
+    text = " ".join(str(error).split())
+    if isinstance(error, MemoryError) and not isinstance(error, PictureTooLargeError):
+        return f"there is not enough memory{text and f' ({text})'}: choose a smaller size"
+    return text or type(error).__name__
+
+
+def failure(work: Callable[..., object], *arguments: object) -> str:
+    """Do some work; return in words what went wrong, or "" if nothing did."""
+    try:
+        work(*arguments)
+    except (*EXPECTED, ValueError) as error:
+        return words(error)
+    except Exception as error:  # the user must hear of any error
+        traceback.print_exc()
+        return f"Reference Tracer failed: {type(error).__name__}: {error}"
+    return ""

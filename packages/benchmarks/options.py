@@ -1,0 +1,17 @@
+"""What a benchmark is asked to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class BenchOptions:
+    """The options of `reftrace bench`."""
+
+    out: Path
+    scenes: tuple[str, ...] = ()  # all of them, if none is named
+    quick: bool = False
+    baseline: Path | None = None  # bench.json of an earlier run
+    repeats: int | None = None  # rounds
