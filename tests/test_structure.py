@@ -175,6 +175,7 @@ def test_the_tracer_knows_the_scene_and_nothing_of_blender():
     units = {name.split(".")[0] for name in reached(whole_graph() | {"": set()}, start)}
     assert units <= {
         "",
+        "arrays",
         "certainty",
         "images",
         "manifest",

@@ -66,7 +66,7 @@ _SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
 _UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
 
 
-def _sine(angle: Number, quarters: int) -> Number:
+def _sine(angle: Number | Vector, quarters: int) -> Number | Vector:
     """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
     if not isinstance(angle, Fraction):
         return sine(angle, quarters)

@@ -139,9 +139,7 @@ def film_of(camera: Camera, points: Vectors) -> tuple[Floats, Floats, Floats]:
     return (x - w.left) / width, (y - w.bottom) / height, t
 
 
-def film_beside(
-    camera: Camera, points: Vectors, px: NDArray[np.float64], py: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def film_beside(camera: Camera, points: Vectors, px: Floats, py: Floats) -> Floats:
     """Return how far from film positions (n,) world points (3, n) appear, (2, n) pixels.
 
     Straight lines in space are straight there. Where the film is curved, it is the plane that
