@@ -20,8 +20,10 @@ class Certainty(IntEnum):
     EXACT = 2, "#56b4e9", "by integers", "integers decided, where the error bound left a doubt"
     AMBIGUOUS = 3, "#f0e442", "by a rule", _RULE
 
-    def __new__(cls, number: int, color: str, words: str, sentence: str) -> Certainty:
-        """Make a member of a record."""
+    def __new__(
+        cls, number: int, color: str = "", words: str = "", sentence: str = ""
+    ) -> Certainty:
+        """Make a member of its record; a number alone is looked up."""
         self = int.__new__(cls, number)
         self._value_, self.color, self.words, self.sentence = number, color, words, sentence
         return self

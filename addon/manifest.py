@@ -46,8 +46,8 @@ class Effect(Enum):
     IN_FRONT = "the object is drawn over what is before it"
     UNSEEN = "the object is not drawn, and what is behind it is"
     HOLDOUT = "the object cuts a hole into the picture"
-    LIGHT = "every colour may be another; whose surface a pixel shows stays as it is"
-    PICTURE = "every pixel may be another"
+    LIGHT = "every colour may differ; which surface a pixel shows stays as it is"
+    PICTURE = "every pixel may differ"
 
     @property
     def everywhere(self) -> bool:

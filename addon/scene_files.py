@@ -143,7 +143,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
     Returns
     -------
     list of (Mesh, world_from_object)
-        Z up: (x, y, z) of a file whose Y is up is (x, -z, y), to the bit. Triangles that are not
+        Z up: (x, y, z) of a file with Y up becomes (x, -z, y), to the bit. Triangles that are not
         finite are left out.
 
     Raises

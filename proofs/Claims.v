@@ -30,7 +30,7 @@ Check Forms.parallel_D.
 Check Forms.plane_T.
 (** The forms: likewise D of an infinite plane. *)
 Check Forms.plane_D.
-(** Sides: what contest.py calls sure is inside all three edges. *)
+(** Sides: what ladder.py calls sure is inside all three edges. *)
 Check Pairs.sides_sure_right.
 (** Sides: what it does not call possible is outside of one edge and inside of another. *)
 Check Pairs.sides_impossible_right.

@@ -55,8 +55,8 @@ from reference_tracer.explain.derivation import derive
 assert "never" in {str(a.method) for a in derive(scene, 4, 4).answers}
 """
 SEES_METHOD_IN_BLENDER = """
-from reference_tracer.blender.ui.properties import METHOD_ITEMS
-assert ("never", "Never", "Misses", 77) in METHOD_ITEMS
+from reference_tracer.blender.ui.choices import METHODS
+assert ("never", "Never", "Misses", 77) in METHODS
 """
 PASS = {
     "tracer/frame.py": (
@@ -65,9 +65,9 @@ PASS = {
         '    Pass("rows_done"),\n',
         '    Pass("twice", "Twice"),\n',
     ),
-    "blender/ui/properties.toml": (
-        "]\n\n# identifier, name, description\nsources",
-        '  ["Twice", "Twice", "Two times t", 0x400],\n',
+    "blender/ui/choices.py": (
+        ")\n\n# Which export of the scene",
+        '    ("Twice", "Twice", "Two times t", 0x400),\n',
     ),
 }
 SEES_PASS = """
@@ -75,8 +75,8 @@ frame = render(scene, Settings("textbook"))
 assert np.array_equal(frame.passes()["twice"], 2 * frame.t)
 """
 SEES_PASS_IN_BLENDER = """
-from reference_tracer.blender.ui.properties import PASS_ITEMS
-assert PASS_ITEMS[-1][:2] == ("Twice", "Twice")
+from reference_tracer.blender.ui.choices import PASSES
+assert PASSES[-1][:2] == ("Twice", "Twice")
 """
 # The panorama's own: its file, and its record's lines; without them nobody knows of it.
 CAMERA_FILE = "projections/equirectangular.py"
@@ -106,6 +106,36 @@ assert load_scene("scene.npz").camera.projection == PROJECTIONS["equirectangular
 derivation = derive(new, 4, 4)
 assert "cos v" in str(derivation.camera)
 assert to_dict(derivation)["camera"]["orthographic"] == "equirectangular"
+"""
+COLUMN = {
+    "study/trade.py": (
+        "    best_pixels: bool = False",
+        "    hits: int = 0\n",
+        ")\nTIMED",
+        '    Column("hits", "hits", False, lambda r: f"{r.hits} hit", unit="pixels"),\n',
+    ),
+    "study/tradeoff.py": (
+        "    rounds: list[float] = field",
+        "    hits: int = 0\n",
+        "            rounds=tuple(self.rounds),",
+        "            hits=self.hits,\n",
+        "        choice.coverage_error =",
+        "        choice.hits = int((frame.triangle_index >= 0).sum())\n",
+    ),
+}
+SEES_COLUMN = """
+from reference_tracer.report import trade
+from reference_tracer.study.tradeoff import measure
+from reference_tracer.tracer.progress import result_of
+found = result_of(measure(scene, 8, 1))
+assert found.whole[-1].hits > 9
+said = f"{found.whole[-1].hits} hit"
+held = trade.to_dict(found)
+assert held["units"]["hits"] == "pixels" and held["rows"][0]["hits"] == found.rows[0].hits
+page = trade.page_table(found)
+assert "hits" in page["head"] and any(said in row for row in page["rows"])
+assert " hits\\n" in trade.table(found) + "\\n" and said in trade.table(found)
+assert f"hits {said}" in trade.pictures(found)["tradeoff"]
 """
 CAUSE = {
     "compare/checks/comet.py": (
@@ -287,6 +317,12 @@ def test_a_camera_type_is_a_file_and_a_record(tmp_path):
     shutil.copy(ADDON / CAMERA_FILE, copy / CAMERA_FILE)
     done = run(tmp_path, SCENE + SEES_PANORAMA)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_trades_column_is_its_field_and_its_record(tmp_path):
+    """The tables, the JSON, the page, the plot and the check of a cluster's rows have it, too."""
+    assert COLUMN.keys() == named("a trade's column")
+    seen(tmp_path, COLUMN, SEES_COLUMN)
 
 
 def test_a_pass_is_its_property_and_its_record(tmp_path):

@@ -163,6 +163,21 @@ def test_no_import_runs_in_a_circle():
     assert not circle(whole_graph())
 
 
+# Blender's rooms, each of which knows only those before it.
+ROOMS = ("reading", "drawing", "live", "ui")
+
+
+def test_a_room_of_blenders_knows_only_those_before_it():
+    """And what they share beneath them: the temporary scene, values, versions."""
+    graph = whole_graph()
+    for number, room in enumerate(ROOMS):
+        own = {name for name in graph if name.startswith(f"blender.{room}.")}
+        known = {
+            other.split(".")[1] for name in own for other in graph[name] if "blender." in other
+        }
+        assert own and known.isdisjoint(ROOMS[number + 1 :]), room
+
+
 def test_a_circle_is_found():
     assert circle({"a": {"b"}, "b": {"c"}, "c": {"b"}}) == ["b", "c", "b"]
     assert circle({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []

@@ -2,8 +2,8 @@
 
     python tools/prove.py
 
-First proofs/Recorded.v is compared with what the tracer does now. Then every file of proofs/ is
-compiled, and proofs/Claims.v asks Coq what the theorems of the claim assume. Nothing may be left
+First proofs/recorded/ is compared with what the tracer does now. Then every file of proofs/ is
+compiled, and Coq is asked what the theorems named in proofs/Claims.v assume. Nothing may be left
 out (`Admitted`), and nothing assumed but what Coq's real numbers rest on.
 """
 
@@ -32,6 +32,19 @@ HOLES = re.compile(
 _CLAIM = re.compile(r"\(\*\*\s*((?:(?!\*\)).)*?)\s*\*\)\s*Check (\S+)\.", re.DOTALL)
 
 
+def files(folder: Path = PROOFS) -> list[Path]:
+    """Return the Coq files of the proofs, in all folders."""
+    return sorted(folder.rglob("*.v"))
+
+
+def listed() -> list[Path]:
+    """Return the files that `_CoqProject` names; the program ends if it is not as it must be."""
+    flags, *names = (PROOFS / "_CoqProject").read_text(encoding="utf-8").splitlines()
+    if flags != "-Q . Reftrace":
+        sys.exit("proofs/_CoqProject must begin with `-Q . Reftrace`")
+    return [PROOFS / name for name in names]
+
+
 def without_comments(text: str) -> str:
     """Return Coq's text without its comments, which may stand in one another."""
     out, level = [], 0
@@ -45,7 +58,7 @@ def without_comments(text: str) -> str:
 def holes(folder: Path = PROOFS) -> list[str]:
     """Return where in the proofs something is left out or taken for granted."""
     found = []
-    for path in sorted(folder.glob("*.v")):
+    for path in files(folder):
         for match in HOLES.finditer(without_comments(path.read_text(encoding="utf-8"))):
             found.append(f"{path.name}: {match.group(1)}")
     return found
@@ -88,9 +101,8 @@ def main() -> None:
         sys.exit(
             f"{compared.stderr}\nThe theorems speak of other code than this. See docs/proof.md."
         )
-    flags, *listed = (PROOFS / "_CoqProject").read_text(encoding="utf-8").splitlines()
-    if flags != "-Q . Reftrace" or {path.name for path in PROOFS.glob("*.v")} != set(listed):
-        sys.exit("proofs/_CoqProject must be `-Q . Reftrace` and the name of each file of proofs/")
+    if sorted(listed()) != files():
+        sys.exit("proofs/_CoqProject must name each file of proofs/ once")
     if left_out := holes():
         sys.exit("\n".join(["The proofs have holes:", *left_out]))
     run("coq_makefile", "-f", "_CoqProject", "-o", "Makefile.coq")
@@ -100,10 +112,10 @@ def main() -> None:
         print(f"{name}\n    {words}")
     if others := (assumed := assumptions([name for name, _ in every])) - AXIOMS:
         sys.exit(f"assumed beyond Coq's real numbers: {', '.join(sorted(others))}")
-    files = sorted(PROOFS.glob("*.v"))
-    lines = sum(len(path.read_text(encoding="utf-8").splitlines()) for path in files)
+    texts = [path.read_text(encoding="utf-8") for path in files()]
+    lines = sum(len(text.splitlines()) for text in texts)
     print(
-        f"\n{len(every)} theorems of {len(files)} files, {lines:,} lines: read by Coq; 0 admitted."
+        f"\n{len(every)} theorems of {len(texts)} files, {lines:,} lines: read by Coq; 0 admitted."
         f"\nThey assume what Coq's real numbers do: {', '.join(sorted(assumed))}"
     )
 

@@ -1,9 +1,9 @@
-"""The open scene for a comparison with a picture of which nobody says how it was made.
+"""Prepares the open scene for comparison with a picture that Blender need not have made.
 
-The scene may have been another then: a flag hides an object, or it was the frame beside. And the
-picture may have gone through one of Blender's view transforms. Blender itself transforms the
-colours that a traced scene can show, by saving a picture of them: a constant colour has no others.
-A scene with colours between corners has more, and gets none.
+The scene may have been another then: a flag hides an object, or it was the frame before or after.
+And the picture may have gone through one of Blender's view transforms. To know what these do,
+Blender saves a picture of the colours that the traced scene can show. This needs constant colours:
+with colours that change between corners, no view transform is tried.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors, Floats
 from ..compare.case import Alternative, Case
 from ..compare.checks.hidden import with_object, without
 from ..compare.picture import Curve, Picture
@@ -29,21 +29,22 @@ from ..tracer.settings import Settings
 from .compare import export_open_file
 from .drawing.drawings import Drawing, drawn_by_others
 from .drawing.judges import AUTO, judge_named
-from .drawing.temporary import go_to, temporary_scene, values_kept
-from .drawing.viewport import read
+from .drawing.picture import read
 from .engine import export_for_render
 from .reading.export import export
+from .temporary import go_to, temporary_scene
+from .values import values_restored
 from .versions import set_format
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
-MOST = 16  # alternatives: each is traced where pixels are left open
+MOST = 16  # alternatives: each of them is traced where pixels have no cause
 MOST_COLORS = 4096
 
 
 def gather_against(
     context: Any, picture: Picture, settings: Settings, self_check: bool = False
 ) -> Case:
-    """Export the context's scene as a render has it, for a picture that Blender need not have made.
+    """Export the context's scene as a render has it, for a picture of unknown origin.
 
     Raises
     ------
@@ -51,7 +52,7 @@ def gather_against(
         If the scene cannot be traced.
     """
     scene, manifest, _ = export_open_file(context)
-    judge = judge_named(AUTO, True, not scene.camera.projection.is_linear)
+    judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
     drawing = Drawing(context.scene, context.view_layer.name, judge, True, None, scene, manifest)
     return Case(
         scene,
@@ -65,7 +66,7 @@ def gather_against(
 
 
 def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:
-    """Return scenes that differ from one, exported as a render has it, in one flag or the frame."""
+    """Return scenes that differ in one flag or the frame from one exported as a render has it."""
     other, viewport = export(context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
     out = []
@@ -84,7 +85,7 @@ def _frames(context: Any) -> list[Alternative]:
         return []
     out = []
     now = context.scene.frame_current
-    with values_kept(), temporary_scene(context.scene, context.view_layer.name) as tmp:
+    with values_restored(), temporary_scene(context.scene, context.view_layer.name) as tmp:
         for frame in (now - 1, now + 1):
             go_to(tmp, frame)
             scene, _, _ = export_for_render(tmp)
@@ -110,14 +111,16 @@ def view_transforms(user: Any, scene: Scene) -> tuple[Curve, ...]:
         )
 
 
-def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Yield names and what becomes of the colours (n, 3), linear as sRGB's curve is undone."""
+def _shown(tmp: Any, table: Colors) -> Iterator[tuple[str, Floats]]:
+    """Yield each view transform's name and what it makes of colours (n, 3), sRGB's curve undone."""
     view = tmp.view_settings
     own = view.view_transform
     plain = (view.exposure, view.gamma, view.look) == (0.0, 1.0, "None")
     more = f" with exposure {view.exposure:+.3g}, gamma {view.gamma:.3g}, look '{view.look}'"
     yield f"'{own}'" + ("" if plain else more), _saved(tmp, table)
-    view.look, view.exposure, view.gamma = "None", 0.0, 1.0
+    view.look = "None"
+    view.exposure = 0.0
+    view.gamma = 1.0
     for name in COMMON:
         with suppress(TypeError):  # this Blender does not have it
             view.view_transform = name
@@ -125,9 +128,9 @@ def _shown(tmp: Any, table: NDArray[np.float32]) -> Iterator[tuple[str, NDArray[
             yield f"'{name}'", _saved(tmp, table)
 
 
-def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
+def _saved(tmp: Any, table: Colors) -> Floats:
     """Return colours (n, 3) as Blender writes them to a PNG of 16 bits, sRGB's curve undone."""
-    image = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
+    image: Any = bpy.data.images.new("Reference Tracer Colours", len(table), 1, float_buffer=True)
     try:
         opaque = np.ones((len(table), 1), np.float32)
         image.pixels.foreach_set(np.hstack((table, opaque)).ravel())
@@ -141,10 +144,10 @@ def _saved(tmp: Any, table: NDArray[np.float32]) -> NDArray[np.float64]:
         bpy.data.images.remove(image)
 
 
-def _looked_up(table: NDArray[np.float32], shown: NDArray[np.float64]) -> Any:
-    """Return the transform that gives each colour of a table (n, 3) what is shown of it."""
+def _looked_up(table: Colors, shown: Floats) -> Any:
+    """Return the function that maps each colour of a table (n, 3) to what is shown of it."""
 
-    def transform(color: NDArray[np.float64]) -> NDArray[np.float64]:
+    def transform(color: Floats) -> Floats:
         flat = color.reshape(-1, 3)
         found, index = np.unique(flat, axis=0, return_inverse=True)
         nearest = [int(np.abs(table - c).sum(axis=1).argmin()) for c in found]

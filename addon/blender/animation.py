@@ -1,6 +1,6 @@
-"""The frames of an animation, one after the other: the scene is stepped, and each compared.
+"""Compares the frames of an animation: the scene is stepped through them, in order.
 
-What is simulated and not baked depends on the frames before: those are visited, too, in order.
+What is simulated and not baked depends on the frames before: these are visited, too.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from ..report import animation as report
 from ..scene import SceneError
 from ..tracer.progress import Work, result_of, scaled
 from .compare import compare_to_folder, made_folder
-from .drawing.temporary import values_kept
 from .reading.camera import export_camera
 from .stepping import bake_bodies, visited
+from .values import values_restored
 
 _ADDON = __package__.rpartition(".")[0]  # which imports this, and must not be imported here
 
@@ -32,18 +32,30 @@ def compare_frames(
     made_by: Any = None,
     **choices: Any,
 ) -> Work[list[FrameRow]]:
-    """Step the scene that is shown to each frame, compare it, and write the table of all so far.
+    """Step the context's scene to each frame, compare it, and write the table of all so far.
 
-    A frame that cannot be compared is a row, too. Frames that are whole in the folder, and made by
-    `made_by`, are not compared again. `told` hears all rows after each new one, which is the last.
-    The choices are those of :func:`compare.gather_case`.
+    A frame that cannot be compared is a row, too.
+
+    Parameters
+    ----------
+    directory : str
+        The folder for all that is written.
+    frames : range
+    told : callable
+        Called with all rows after each new one, which is the last.
+    made_by : dict, optional
+        What the comparisons depend on. Frames that are whole in the folder and were made by the
+        same are not compared again.
+    **choices
+        The fields of :class:`.compare.Choices`.
 
     Raises
     ------
     SceneError, OSError
         If there is no camera, or the folder cannot be written.
     """
-    scene, folder = bpy.context.scene, made_folder(directory)
+    scene: Any = bpy.context.scene
+    folder = made_folder(directory)
     if not (scene.camera or any(marker.camera for marker in scene.timeline_markers)):
         export_camera(scene)  # says so once, not in each frame
     title = f"{bpy.path.basename(bpy.data.filepath)}, {scene.name}"
@@ -51,7 +63,7 @@ def compare_frames(
     todo = sorted(set(frames) - {row.frame for row in rows})
     report.write(folder, title, frames, rows)
     before = scene.frame_current, scene.frame_subframe
-    with values_kept():
+    with values_restored():
         try:
             for frame in visited(scene, todo):
                 scene.frame_set(frame)
@@ -78,7 +90,7 @@ def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -
 
 
 def frames_of(scene: Any) -> range:
-    """Return the frames that a scene's animation has."""
+    """Return the frames of a scene's animation."""
     return range(scene.frame_start, scene.frame_end + 1, scene.frame_step)
 
 

@@ -64,10 +64,7 @@ def _run(argv: list[str]) -> int:
 
 def register() -> None:
     """Register the command."""
-    handle = bpy.utils.register_cli_command(  # type: ignore[func-returns-value]  # the stubs' gap
-        "reference_tracer", run
-    )
-    _registered.append(handle)
+    _registered.append(bpy.utils.register_cli_command("reference_tracer", run))
 
 
 def unregister() -> None:

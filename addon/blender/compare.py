@@ -1,4 +1,4 @@
-"""Trace and Compare, up to where Blender is no longer needed, and from where it is again.
+"""Trace and Compare: has Blender export and draw the scene, and returns the work that is left.
 
 `gather_case` makes everything that only Blender can give, in one uninterrupted call. What it
 returns holds no reference to Blender's data, so that tracing may go on while the user works.
@@ -6,12 +6,13 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import bpy
 
+from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
@@ -28,14 +29,30 @@ from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer
 from ..tracer.settings import Settings
 from .drawing.drawings import Drawing, with_identity, with_what_draws_itself
-from .drawing.judges import JUDGES, Judge, judge_named
+from .drawing.judge import Judge
+from .drawing.judges import JUDGES, judge_named
+from .drawing.picture import picture, prepare_scene
 from .drawing.rasteriser import snapping_of
-from .drawing.temporary import go_to, temporary_scene, values_kept
-from .drawing.viewport import anti_aliasing, picture, prepare_scene, solid_shading, use_view_shading
+from .drawing.shading import anti_aliasing, of_shading, solid_shading, use_view_shading
+from .drawing.stand_ins import stand_ins
+from .drawing.workbench import WORKBENCH
 from .engine import export_for_judge
 from .reading.camera import export_camera
-from .reading.planes import stand_ins
-from .reading.unmodelled import by_handlers, of_shading
+from .reading.unmodelled import by_handlers
+from .temporary import go_to, temporary_scene
+from .values import values_restored
+
+
+@dataclass(frozen=True)
+class Choices:
+    """How to compare; None means as the scene stores it."""
+
+    settings: Settings | None = None
+    judge: str | None = None  # its name in capitals, or AUTO
+    as_is: bool | None = None  # Blender draws with the shading that the scene has
+    identity: bool | None = None  # whose surface each pixel shows is found, too
+    self_check: bool | None = None  # the comparison is tried on known faults, too
+    tracer: Tracer | None = None  # what traces; by default, this process
 
 
 def compared(case: Case) -> Work[Comparison]:
@@ -44,18 +61,14 @@ def compared(case: Case) -> Work[Comparison]:
     return (yield from trace_and_compare(replace(case, manifest=manifest)))
 
 
-def gather_case(
-    context: Any,
-    settings: Settings | None = None,
-    judge: str | None = None,
-    as_is: bool | None = None,
-    identity: bool | None = None,
-    self_check: bool | None = None,
-    tracer: Tracer | None = None,
-) -> Case:
+def gather_case(context: Any, **choices: Any) -> Case:
     """Export the context's scene and view layer, and have Blender draw them.
 
-    What is not given is as the scene stores it.
+    Parameters
+    ----------
+    context : bpy.types.Context
+    **choices
+        The fields of :class:`Choices`.
 
     Raises
     ------
@@ -64,69 +77,77 @@ def gather_case(
     RuntimeError
         If Blender makes no picture of it.
     """
-    scene, layer = context.scene, context.view_layer.name
+    chosen = Choices(**choices)
+    scene = context.scene
+    layer = context.view_layer.name
     stored = scene.reference_tracer
-    like_for_like = stored.shading == "LIKE_FOR_LIKE" if as_is is None else not as_is
-    settings = settings or stored.settings()
-    if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
-        settings = replace(settings, samples=1)
-    camera = export_camera(scene)  # first, as its errors name the user's scene, say what to do
+    like_for_like = stored.shading == "LIKE_FOR_LIKE" if chosen.as_is is None else not chosen.as_is
+    camera = export_camera(scene)  # first: its errors name the user's scene, say what to do
     is_panorama = not camera.projection.is_linear
-    engine = judge_named(judge or stored.judge, bpy.app.background, is_panorama)
-    of_view = engine.needs_window and not like_for_like
+    judge = judge_named(chosen.judge or stored.judge, bpy.app.background, is_panorama)
+    of_view = judge.needs_window and not like_for_like
     view_shading = solid_shading(context) if of_view else None
-    checked = stored.self_check if self_check is None else self_check
-    later = None
-    r = camera.region
-    check_memory(r.width, r.height, COMPARED, 2 * ALWAYS)  # before Blender draws
-    with temporary_scene(scene, layer, engine) as tmp:
-        if view_shading:
-            use_view_shading(tmp, view_shading)
-        used = prepare_scene(tmp, like_for_like)
-        used["shading_of"] = "3D view" if view_shading else "scene"
-        used["anti_aliasing"] = smooth = anti_aliasing(tmp, engine, like_for_like)
-        exported, manifest, certificate = export_for_judge(tmp, layer, engine)
+    self_check = stored.self_check if chosen.self_check is None else chosen.self_check
+    check_memory(
+        camera.region.width, camera.region.height, COMPARED, 2 * ALWAYS
+    )  # before Blender draws
+    with temporary_scene(scene, layer, judge.ignores) as tmp:
+        used = _prepared(tmp, judge, like_for_like, view_shading)
+        exported, manifest, certificate = export_for_judge(tmp, layer, judge)
         if certificate:
             certificate.check()
         there = [o.name_full for o in scene.objects]
         if like_for_like and used["color_type"] == "RANDOM":
-            engine.check_random(exported, manifest.owners)
+            judge.check_random(exported, manifest.owners)
         if not like_for_like:
-            of = f"scene '{scene.name}'"
-            own = (replace(u, object=of) for u in of_shading(tmp, engine, smooth))
+            of_picture = of_shading(tmp, judge, used["anti_aliasing"])
+            own = (replace(u, object=f"scene '{scene.name}'") for u in of_picture)
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
-        if checked:
-            later = _a_frame_later(tmp, layer, engine)
-        snapping = snapping_of(engine)  # its drawing is the first, which may be another
-        of_planes = manifest.owners[len(exported.instances) :]
-        with stand_ins(tmp, layer, exported, of_planes) as with_planes:
-            drawn = picture(tmp, layer, engine, exported.camera, like_for_like)
-    shown = Picture(
-        drawn,
-        Source(engine.name, bpy.app.version_string, settings=used),
-        sample_radius=engine.sample_radius,
-        filter_radius=0.0 if smooth == "OFF" else engine.filter_radius,
-        sums=int(smooth) if smooth.isdigit() else 0,
-        snapping=snapping,
-    )
-    drawing = Drawing(scene, layer, engine, like_for_like, view_shading, exported, manifest)
-    if stored.identity if identity is None else identity:
+        later = _a_frame_later(tmp, layer, judge) if self_check else None
+        snapping = snapping_of(judge)  # its drawing is the first, which may differ from the others
+        planes = manifest.owners[len(exported.instances) :]
+        with stand_ins(tmp, layer, exported, planes) as with_planes:
+            pixels = picture(tmp, layer, judge, exported.camera, like_for_like)
+    shown = _picture(pixels, judge, used, snapping)
+    drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest)
+    if stored.identity if chosen.identity is None else chosen.identity:
         shown = with_identity(drawing, shown)
     shown, manifest = with_what_draws_itself(drawing, shown)
     if there != [o.name_full for o in scene.objects]:
         manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(scene)))
-    return Case(
-        *(with_planes, manifest, settings, shown, certificate),
-        self_check=checked,
-        next_frame=later,
-        tracer=tracer,
+    settings = chosen.settings or stored.settings()
+    if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
+        settings = replace(settings, samples=1)
+    case = Case(with_planes, manifest, settings, shown, certificate)
+    return replace(case, self_check=self_check, next_frame=later, tracer=chosen.tracer)
+
+
+def _prepared(tmp: Any, judge: Judge, like_for_like: bool, view_shading: Any) -> dict[str, Any]:
+    """Set a temporary scene up for a judge; return the settings that the picture is made with."""
+    if view_shading:
+        use_view_shading(tmp, view_shading)
+    used = prepare_scene(tmp, like_for_like)
+    used["shading_of"] = "3D view" if view_shading else "scene"
+    used["anti_aliasing"] = anti_aliasing(tmp, judge, like_for_like)
+    return used
+
+
+def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float) -> Picture:
+    smooth = used["anti_aliasing"]
+    return Picture(
+        pixels,
+        Source(judge.name, bpy.app.version_string, settings=used),
+        sample_radius=judge.sample_radius,
+        filter_radius=0.0 if smooth == "OFF" else judge.filter_radius,
+        sums=int(smooth) if smooth.isdigit() else 0,
+        snapping=snapping,
     )
 
 
 def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     """Return the scene of the next frame, and go back to this one."""
     now = tmp.frame_current
-    with values_kept():
+    with values_restored():
         go_to(tmp, now + 1)
         later, _, _ = export_for_judge(tmp, layer, judge)
         go_to(tmp, now)
@@ -138,8 +159,13 @@ def compare_to_folder(
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing and writing the files.
 
-    With `trade` and `extremes`, these are measured for the page, too. On failure the folder's JSON
-    says why. Raises what :func:`gather_case` and `compare.compare` raise, and OSError.
+    With `trade` and `extremes`, these are measured for the page, too. The choices are the fields of
+    :class:`Choices`. On failure the folder's JSON says why.
+
+    Raises
+    ------
+    OSError
+        If the folder cannot be written; else what :func:`gather_case` and the comparison raise.
     """
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
@@ -150,7 +176,7 @@ def compare_to_folder(
 def _written(
     folder: Path, work: Work[Comparison], share: float, *measured: bool
 ) -> Work[Comparison]:
-    """Compare, which takes a share of the time, find what the page shows besides, and write."""
+    """Compare, which takes a share of the time; then find what else the page shows, and write."""
     with comparison_report.failure_written(folder):
         comparison = yield from scaled(work, 0.0, share)
         finding = page.extras(comparison, *measured)
@@ -164,7 +190,7 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
     """Have every engine draw the scene at once; return the work of comparing each.
 
     Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
-    written if it is empty. The choices are those of :func:`gather_case`.
+    written if it is empty. The choices are the fields of :class:`Choices`.
 
     Raises
     ------
@@ -205,7 +231,7 @@ def _all_compared(
 
 
 def made_folder(directory: str) -> Path:
-    """Return a folder that is there now; its path is as Blender writes it, or as the shell does.
+    """Make a folder, and return it; its path is as Blender writes it, or as the shell does.
 
     Raises
     ------
@@ -220,17 +246,19 @@ def made_folder(directory: str) -> Path:
 def export_open_file(context: Any, judge: Judge | None = None) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
 
-    For a judge it is as a comparison exports it.
+    For a judge, it is exported as for a comparison with its picture.
 
     Raises
     ------
     SceneError
         If the scene cannot be traced.
     """
-    scene, layer, stored = context.scene, context.view_layer.name, context.scene.reference_tracer
-    export_camera(scene)  # first, as its errors name the user's scene, say what to do
-    with temporary_scene(scene, layer, judge) as tmp:
+    scene = context.scene
+    layer = context.view_layer.name
+    stored = scene.reference_tracer
+    export_camera(scene)  # first: its errors name the user's scene, say what to do
+    with temporary_scene(scene, layer, judge.ignores if judge else None) as tmp:
         if judge:
             prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
-        exported, manifest, _ = export_for_judge(tmp, layer, judge or JUDGES["workbench"])
+        exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)
     return exported, manifest, stored.settings()

@@ -1,8 +1,8 @@
 """The render engine REFERENCE_TRACER: F12, animations, `blender -b -E ...`, the 3D view.
 
-Blender hands over an evaluated depsgraph; it is exported first, and what is traced then is the
-exported scene. Every failure ends in `report({'ERROR'})`: an exception or `error_set` alone would
-leave Blender writing an empty picture and exiting with 0.
+Blender hands over an evaluated depsgraph. It is exported first; what is traced is the exported
+scene. Every failure ends in `report({'ERROR'})`: after an exception or `error_set` alone, Blender
+would write an empty picture and exit with 0.
 """
 
 from __future__ import annotations
@@ -13,24 +13,29 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
+from .temporary import is_temporary
+
 if TYPE_CHECKING:
     from ..compare.certificate import CameraCertificate
     from ..manifest import Manifest
     from ..scene import Scene
     from ..tracer.frame import Frame, Pass
-    from .drawing.judges import Judge
+    from ..tracer.hits import Statistics
+    from ..tracer.settings import Settings
+    from .drawing.judge import Judge
 
     Certified = tuple[Scene, Manifest, CameraCertificate | None]
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message
-SHOW_EVERY = 0.5  # seconds, at least: showing rows takes at most the tenth part of the time
+SHOW_EVERY = 0.5  # seconds between showing rows, at least; it takes at most a tenth of the time
 
-_captured: list[Certified] | None = None
+# What the engine exported of temporary scenes, by their names, until it is asked for.
+_exported: dict[str, Certified] = {}
 
 
 class ReferenceTracerEngine(bpy.types.RenderEngine):
-    """A thin engine: exports, drives `tracer.render.steps`, hands the rows to Blender."""
+    """Exports, traces step by step, and hands the rows to Blender; the work is done elsewhere."""
 
     bl_idname = ENGINE
     bl_label = "Reference Tracer"
@@ -38,18 +43,20 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
     bl_use_postprocess = True
     bl_use_eevee_viewport = True  # else there is no mode Material Preview
 
-    def update_render_passes(self, scene: Any, renderlayer: Any) -> None:
+    # Blender calls it by position, where the stubs have keywords.
+    def update_render_passes(self, scene: Any, renderlayer: Any) -> None:  # type: ignore[override]
         """Declare the passes to the compositor."""
+        declare: Any = self.register_pass
         for p in _enabled(renderlayer):
-            self.register_pass(scene, renderlayer, p.label, len(p.letters), p.letters, p.kind)
+            declare(scene, renderlayer, p.label, len(p.letters), p.letters, p.kind)
 
-    def render(self, depsgraph: Any) -> None:
-        """Render one view layer of one frame."""
+    # The stubs have Blender's property of this name instead.
+    def render(self, depsgraph: Any) -> None:  # type: ignore[override]
+        """Render one view layer of one frame; a temporary scene is only exported."""
         from ..errors import failure
-        from .drawing.temporary import is_temporary
 
-        captures = _captured is not None and is_temporary(depsgraph.scene)
-        if error := failure(_capture if captures else self._trace, depsgraph):
+        work = _keep_export if is_temporary(depsgraph.scene) else self._trace
+        if error := failure(work, depsgraph):
             self.report({"ERROR"}, error)
 
     def view_update(self, context: Any, depsgraph: Any) -> None:
@@ -64,60 +71,73 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self.live.draw(self, context, depsgraph)
 
     def _trace(self, depsgraph: Any) -> None:
-        from ..rendering import steps
         from ..tracer.frame import Frame
         from .reading.export import export
 
-        began = time.monotonic()
-        due = began + SHOW_EVERY
         self.update_stats("", "Exporting")
         scene, manifest = export(depsgraph)
         for line in manifest.lines():
             print(f"Reference Tracer: {line}")
-        settings = depsgraph.scene.reference_tracer.settings()
         frame = Frame.empty(scene)
-        layer, rows, shown = depsgraph.view_layer.name, frame.shape[0], 0
+        layer = depsgraph.view_layer.name
         passes = _enabled(depsgraph.view_layer)
-        for share in steps(scene, settings, frame):
+        shown = self._fill(frame, depsgraph.scene.reference_tracer.settings(), layer, passes[:1])
+        # Blender takes over all passes of a row at once: those that are added need all rows again.
+        first = 0 if len(passes) > 1 else shown
+        self._show(frame, layer, passes, slice(first, frame.shape[0]))
+        if frame.cancelled:
+            done = int(frame.rows_done.sum())
+            _say(f"Cancelled: {done} of {frame.shape[0]} rows are traced, the others are empty")
+        else:
+            self._tell(frame.statistics)
+
+    def _fill(self, frame: Frame, settings: Settings, layer: str, picture: Sequence[Pass]) -> int:
+        """Trace a frame and show its picture as it grows; return how many rows are shown."""
+        from ..rendering import steps
+
+        began = time.monotonic()
+        due = began + SHOW_EVERY
+        shown = 0
+        for share in steps(frame.scene, settings, frame):
             if share < 1 and self.test_break():
                 frame.cancel()
                 break
-            now = time.monotonic()
             self.update_progress(share)
+            now = time.monotonic()
             if now > due:
                 left = f", {(now - began) * (1 - share) / share:.0f} s left" if share else ""
                 self.update_stats("", f"Tracing {int(100 * share)} %{left}")
                 done = int(frame.rows_done.sum())  # they are done from the lowest upwards
                 if done > shown:
-                    self._show(frame, layer, passes[:1], slice(shown, done))
+                    self._show(frame, layer, picture, slice(shown, done))
                     shown = done
                 ended = time.monotonic()
                 due = ended + max(SHOW_EVERY, 9 * (ended - now))
-        # Blender takes over all passes of a row at once: those that are added need all rows again.
-        self._show(frame, layer, passes, slice(0 if len(passes) > 1 else shown, rows))
-        if frame.cancelled:
-            done = int(frame.rows_done.sum())
-            _say(f"Cancelled: {done} of {rows} rows are traced, the others are empty")
-            return
-        for line in (required := frame.statistics.required()):
-            print(f"Reference Tracer: {line}")
-        for note in frame.statistics.notes:  # such as that nothing can be certified here
-            self.report({"WARNING"}, note[0].upper() + note[1:])
-        self.update_stats("", required[0] if required else "")
+        return shown
 
     def _show(self, frame: Frame, layer: str, passes: Sequence[Pass], rows: slice) -> None:
         """Give Blender some rows of some passes; it puts them where they belong."""
         import numpy as np
 
-        width, height = frame.shape[1], rows.stop - rows.start
-        result = self.begin_result(0, rows.start, width, height, layer=layer)
-        have = result.layers[0].passes
+        result: Any = self.begin_result(
+            0, rows.start, frame.shape[1], rows.stop - rows.start, layer=layer
+        )
+        known = result.layers[0].passes
         for p in passes:
-            if p.label not in have:
+            if p.label not in known:
                 self.add_pass(p.label, len(p.letters), p.letters, layer=layer)
             values = np.ascontiguousarray(p.shown(getattr(frame, p.name)[rows]), dtype=np.float32)
-            have[p.label].rect.foreach_set(values.ravel())
+            known[p.label].rect.foreach_set(values.ravel())
         self.end_result(result)
+
+    def _tell(self, statistics: Statistics) -> None:
+        """Say what a picture took."""
+        required = statistics.required()
+        for line in required:
+            print(f"Reference Tracer: {line}")
+        for note in statistics.notes:  # such as that nothing can be certified here
+            self.report({"WARNING"}, note[0].upper() + note[1:])
+        self.update_stats("", required[0] if required else "")
 
 
 def _enabled(layer: Any) -> tuple[Pass, ...]:
@@ -138,12 +158,13 @@ def _say(text: str) -> None:
 
 
 def _set_status(text: str | None) -> None:
-    for window in bpy.context.window_manager.windows:
+    manager: Any = bpy.context.window_manager
+    for window in manager.windows:
         window.workspace.status_text_set(text)
 
 
 def export_certified(depsgraph: Any) -> Certified:
-    """Return what :func:`export.export` does, and how well its camera is Blender's own."""
+    """Return what :func:`.reading.export.export` does, and how close its camera is to Blender's."""
     from .reading.camera import certify_camera
     from .reading.export import export
 
@@ -151,14 +172,14 @@ def export_certified(depsgraph: Any) -> Certified:
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 
 
-def _capture(depsgraph: Any) -> None:
-    _captured.append(export_certified(depsgraph))
+def _keep_export(depsgraph: Any) -> None:
+    _exported[depsgraph.scene.name_full] = export_certified(depsgraph)
 
 
 def export_for_render(scene: Any) -> Certified:
-    """Return the *render* evaluation of a temporary scene, whose engine is set to this one.
+    """Return the *render* evaluation of a temporary scene, and set its engine to this one.
 
-    Such an evaluation exists only inside an engine.
+    Such an evaluation exists only inside an engine: so the scene is rendered by this one.
 
     Raises
     ------
@@ -166,25 +187,21 @@ def export_for_render(scene: Any) -> Certified:
         If the scene cannot be traced.
     """
     from ..scene import SceneError
-    from .drawing.temporary import values_kept
+    from .values import values_restored
 
-    global _captured
     scene.render.engine = ENGINE
-    _captured = []
     try:
         # Else the frame would be that of the context's scene (5.2).
         override = bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0])
-        with values_kept(), override:
+        with values_restored(), override:
             bpy.ops.render.render(scene=scene.name)
-        return _captured[0]
     except RuntimeError as error:  # Blender turns our report into one
         raise SceneError(str(error).removeprefix("Error: ").strip()) from error
-    finally:
-        _captured = None
+    return _exported.pop(scene.name_full)
 
 
 def export_for_judge(tmp: Any, layer: str, judge: Judge) -> Certified:
-    """Return what a judge is to be compared with, as :func:`export_certified` does."""
+    """Return what a judge's picture is to be compared with, as :func:`export_certified` does."""
     if not judge.needs_window:
         return export_for_render(tmp)
     with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):

@@ -1,4 +1,4 @@
-"""What Blender has to be told about, in order; unregistered in reverse."""
+"""Registers the add-on with Blender, and unregisters it in reverse order."""
 
 from __future__ import annotations
 
@@ -11,13 +11,14 @@ from .ui import inspector, menus, panels, preferences, properties, study_panels
 from .ui.long_work import OPERATORS, LongWork
 from .ui.results import forget
 
-MODULES = properties, preferences, engine, menus, panels, study_panels
-_operators = bpy.utils.register_classes_factory(OPERATORS)  # the panels import them
+MODULES = (properties, preferences, engine, menus, panels, study_panels)
+# The panels import the operators.
+_register, _unregister = bpy.utils.register_classes_factory(OPERATORS)
 
 
 @bpy.app.handlers.persistent
 def _file_closes(*_: Any) -> None:
-    """Forget what was found in the file that goes, and what Blender ends with it."""
+    """Forget the results of the file that is closed; Blender ends the operators that run."""
     forget()
     LongWork.running = ""
     inspector.REFERENCE_TRACER_OT_inspect.running = False
@@ -27,7 +28,7 @@ def register() -> None:
     """Register every module of the add-on."""
     for module in MODULES:
         module.register()
-    _operators[0]()
+    _register()
     bpy.app.handlers.load_post.append(preferences.set_up_new_file)
     bpy.app.handlers.load_pre.append(_file_closes)
 
@@ -36,8 +37,12 @@ def unregister() -> None:
     """Undo :func:`register`."""
     bpy.app.handlers.load_pre.remove(_file_closes)
     bpy.app.handlers.load_post.remove(preferences.set_up_new_file)
-    LongWork.stop()
+    if LongWork.running:  # Blender tells no operator that its add-on is switched off
+        context: Any = bpy.context
+        window = context.window or context.window_manager.windows[0]
+        with context.temp_override(window=window):  # a script may have none
+            LongWork.stop(context)
     forget()
-    _operators[1]()
+    _unregister()
     for module in reversed(MODULES):
         module.unregister()

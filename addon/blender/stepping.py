@@ -1,4 +1,4 @@
-"""From one frame of a scene to another: what is simulated and not baked needs those between."""
+"""Steps a scene to a frame: what is simulated and not baked needs the frames before it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _ZONE = "GeometryNodeSimulationOutput"
 
 
 def visited(scene: Any, frames: list[int]) -> Iterable[int]:
-    """Return the frames to step through, in order, for some that are sorted to be as played."""
+    """Return the frames to step through, in order, so that some sorted ones are as when played."""
     modifiers = (m.type in _SIMULATED for o in bpy.data.objects for m in o.modifiers)
     nodes = (n.bl_idname == _ZONE for tree in bpy.data.node_groups for n in tree.nodes)
     if frames and (any(modifiers) or any(nodes)):
@@ -21,9 +21,9 @@ def visited(scene: Any, frames: list[int]) -> Iterable[int]:
 
 
 def bake_bodies(scene: Any, last: int) -> None:
-    """Bake rigid bodies up to a frame: no copy of a scene has them otherwise.
+    """Bake rigid bodies up to a frame: a copy of the scene has them only so.
 
-    The process is a command's own, as its file is never saved.
+    Only for a command's own process, which never saves the file.
     """
     if (bodies := scene.rigidbody_world) and bodies.enabled:
         cache = bodies.point_cache

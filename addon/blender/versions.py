@@ -1,4 +1,4 @@
-"""Where Blenders from 4.2 to 5.2 differ: no other module asks which one this is."""
+"""Knows where Blenders from 4.2 to 5.2 differ: no other module asks for the version."""
 
 from __future__ import annotations
 
@@ -37,8 +37,9 @@ def curves(action: Any) -> list[Any]:
 
 
 def radii(obj: Any, frame: Any) -> list[float]:
-    """Return those of what a grease pencil's frame draws, metres: thousandths up to 4.2."""
+    """Return the radii of what a grease pencil's frame draws, in metres."""
     if obj.type == "GPENCIL":
+        # Up to 4.2 widths are in thousandths.
         return [s.line_width * obj.data.pixel_factor / 1000 for s in frame.strokes]
     radius = frame.drawing.attributes.get("radius")
     return [point.value for point in radius.data] if radius else []
@@ -49,4 +50,6 @@ def set_format(render: Any, kind: str, mode: str, depth: str) -> None:
     settings = render.image_settings
     if _FROM_5:
         settings.media_type = "IMAGE"
-    settings.file_format, settings.color_mode, settings.color_depth = kind, mode, depth
+    settings.file_format = kind
+    settings.color_mode = mode
+    settings.color_depth = depth

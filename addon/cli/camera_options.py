@@ -33,11 +33,15 @@ def add_camera(parser: Parser, of_study: bool = False) -> None:
             "--width",
             type=COUNT,
             metavar="PIXELS",
-            help=f"default {width} for a mesh; for a scene its own, or what --height implies",
+            help=f"width of the picture (default {width} for a mesh; a scene's own, or what "
+            "--height implies)",
         )
-    implied = "" if of_study else "; for a scene its own, or what --width implies"
+    implied = "" if of_study else "; a scene's own, or what --width implies"
     group.add_argument(
-        "--height", type=COUNT, metavar="PIXELS", help=f"default {height} for a mesh{implied}"
+        "--height",
+        type=COUNT,
+        metavar="PIXELS",
+        help=f"height of the picture (default {height} for a mesh{implied})",
     )
     group.add_argument(
         "--up",

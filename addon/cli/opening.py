@@ -92,7 +92,7 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
                 f"({error})"
             ) from error
         from ..blender import registration
-        from ..blender.reading.choice import chosen
+        from ..blender.choice import chosen
 
         if not choice.opened:
             registration.register()

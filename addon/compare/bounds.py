@@ -115,6 +115,7 @@ def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
     error `view` (n,) besides.
     """
     near, far = camera.clip_start, camera.clip_end
+    depth = np.asarray(depth, np.float64)
     step = camera.projection.depth_step((far - near) * U32, depth, near, far)
     return _DEPTH_STEPS * step + 2 * view
 
@@ -208,7 +209,8 @@ def spread_error(own: Floats) -> Work[Floats]:
     around that pixel that reaches as far as the next power of two.
     """
     band = np.full(own.shape, SNAPPING)
-    reach, height, most = 1, len(own), max(own.shape)
+    height, most = len(own), max(own.shape)
+    reach = 1
     while True:
         together = max(_ROWS, 2 * reach)
         for y in range(0, height, together):

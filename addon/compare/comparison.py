@@ -142,7 +142,8 @@ class Comparison:
 
     def _tracer(self) -> dict[str, Any]:
         """Return how the scene was traced, as JSON can hold it."""
-        s, settings, certainty = self.frame.statistics, self.case.settings, self.frame.certainty
+        s, settings = self.frame.statistics, self.case.settings
+        certainty = self.frame.certainty
         off = rounding(self.scene)._asdict()
         return {
             "method": s.method,
@@ -161,7 +162,8 @@ class Comparison:
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        pixels, settings, traced = self.pixels, self.case.settings, self.frame.statistics
+        pixels = self.pixels
+        settings, traced = self.case.settings, self.frame.statistics
         return [
             f"{pixels['agree']:,} of {pixels['total']:,} pixels agree with "
             f"{self.case.picture.source}, {pixels['differ']:,} differ",

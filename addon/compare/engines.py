@@ -56,7 +56,8 @@ class EngineRow(NamedTuple):
 
 def _wrong(comparison: Comparison) -> list[dict[str, Any]]:
     """Return the first pixels that differ, the unexplained ones first: both sides, and why."""
-    causes, frame, identity = comparison.causes, comparison.frame, comparison.identity
+    causes, frame = comparison.causes, comparison.frame
+    identity = comparison.identity
     drawn = drawn_over(comparison.case.picture)
     differ = np.isin(causes.cause, [c for c in CAUSES if c.explains or c == UNEXPLAINED])
     places = np.argwhere(differ)

@@ -1,4 +1,4 @@
-"""What a lecture is made of: headings, sentences, tables, numbers; and each of them in Markdown."""
+"""The blocks of a lecture (headings, sentences, tables, numbers), and each of them in Markdown."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ class Table(NamedTuple):
 
 
 class BlockRow(NamedTuple):
-    """A number: what it is called, and for each float its digits and its error in ulp.
+    """A number's label, and for each float its digits and its error in ulp.
 
-    The first of a vector's three says where the vector comes from.
+    The first of a vector's three has the vector's formula.
     """
 
     label: str

@@ -1,8 +1,8 @@
-"""A scene and one of its pixels -> the triangles and planes whose box on the film holds it.
+"""Finds the triangles and planes that one pixel's ray may meet: their box on the film holds it.
 
-Not only what lies before the camera and within its clip range: a teacher shows, too, why what is
-behind the eye is not seen. So the boxes are asked for twice, of the camera and of one that looks
-the other way; and first of the instances' own boxes, so that a forest takes no longer than a tree.
+A teacher shows, too, why a surface behind the eye or beyond the clip range is not seen. So the
+boxes are found twice, for the camera and for one that looks the other way. The instances' own boxes
+come first, so that a forest takes no longer than a tree.
 """
 
 from __future__ import annotations
@@ -13,16 +13,17 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Places
 from ..methods import Method
 from ..scene import Camera, Instance, Mesh, Region, Scene
-from ..tracer.candidates import Pairs
+from ..tracer.candidates import candidates
 from ..tracer.hits import NOTHING, Name
-from ..tracer.nearest import candidates, plan, within_clip
+from ..tracer.nearest import plan, within_clip
 from ..tracer.progress import result_of
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.triangle import textbook
-from ..tracer.world import WorldTriangles, refused
-from .pixel import Candidate, Pixel, certified_hits, check_pixel, plain_answer
+from ..tracer.world import Pairs, WorldTriangles, refused
+from .pixel import Candidate, Pixel, answer, check_pixel
 
 LIMIT = 8  # candidates that one still reads
 
@@ -45,10 +46,10 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     x, y : int
         Of the traced picture, the camera's region; (0, 0) is its lower left.
     limit : int
-        Keep so many triangles: first what the textbook accepts, the nearest first, then what the
-        ray passes, the closest miss first. More, where the proven answer, or what one of the plain
-        methods sees, would not be the same.
-        Infinite planes do not count.
+        The number of triangles to return: first those that the textbook accepts, the nearest
+        first, then those that the ray passes, the closest miss first. There are more where the
+        proven answer, or what one of the plain methods sees, would not be the same. Infinite planes
+        do not count.
     source : str
         What a reader calls the scene.
 
@@ -74,13 +75,13 @@ def gather_pixel(scene: Scene, x: int, y: int, limit: int = LIMIT, source: str =
     )
     order = _order(pixel, triangles)
     count = _enough(pixel, triangles, order, limit)
-    seen = {plain_answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
+    seen = {answer(pixel, triangles, some).seen for some in PLAIN_SETTINGS}
     more = (k for k in order[count:] if (triangles.instance[k], triangles.triangle[k]) in seen)
-    kept = [*order[:count], *more]
+    shown = [*order[:count], *more]
     return replace(
         pixel,
-        candidates=(*(_candidate(scene, triangles, k) for k in kept), *planes),
-        left_out=len(order) - len(kept),
+        candidates=(*(_candidate(scene, triangles, k) for k in shown), *planes),
+        left_out=len(order) - len(shown),
     )
 
 
@@ -88,14 +89,14 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
     """Return the triangles whose boxes on the film hold the tile's one pixel, each once."""
     found: dict[Name, NDArray[np.float64]] = {}
     corners = (np.array(np.meshgrid(*mesh.bounds.T, indexing="ij")) for mesh in scene.meshes)
-    cubes = [Mesh(corner.reshape(3, 8).T, _CUBE) for corner in corners]
-    blank = [Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances]
+    cubes = tuple(Mesh(corner.reshape(3, 8).T, _CUBE) for corner in corners)
+    blank = tuple(Instance(i.mesh, i.object, i.world_from_object) for i in scene.instances)
     boxes = replace(scene, meshes=cubes, instances=blank, planes=())
     for camera in _both_ways(replace(scene.camera, region=tile)):
-        # First the instances that have a bounding box that the ray may meet.
+        # First the instances with a bounding box that the ray may meet.
         met = (pairs.instance for pairs in _pairs(replace(boxes, camera=camera), 0.5))
         near = np.unique(np.concatenate([np.zeros(0, np.intp), *met]))
-        some = replace(scene, camera=camera, instances=[scene.instances[k] for k in near])
+        some = replace(scene, camera=camera, instances=tuple(scene.instances[k] for k in near))
         for pairs in _pairs(some, 0.0):
             names = zip(near[pairs.instance].tolist(), pairs.triangle.tolist(), strict=True)
             found |= zip(names, np.moveaxis(pairs.corners, 2, 0), strict=True)
@@ -123,7 +124,7 @@ def _pairs(scene: Scene, reach: float) -> Iterator[Pairs]:
             yield pairs
 
 
-def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
+def _order(pixel: Pixel, triangles: WorldTriangles) -> Places:
     """Return the triangles' order for a reader: hits by t, then near misses."""
     rays = pixel.rays()
     hit, t, s = textbook(rays, *triangles.corners)
@@ -134,19 +135,19 @@ def _order(pixel: Pixel, triangles: WorldTriangles) -> NDArray[np.intp]:
     return np.lexsort((triangles.triangle, triangles.instance, distance, outside, ~seen))
 
 
-def _enough(pixel: Pixel, triangles: WorldTriangles, order: NDArray[np.intp], limit: int) -> int:
+def _enough(pixel: Pixel, triangles: WorldTriangles, order: Places, limit: int) -> int:
     """Return how many of the first in order have the same proven answer as all of them.
 
     At least `limit`: what is tied with the first comes with it, and what raised a doubt of it.
     """
-    whole = certified_hits(pixel, triangles)
-    names = whole.ties.get(0, frozenset()) | {(int(whole.instance[0]), int(whole.triangle[0]))}
+    whole = answer(pixel, triangles)
+    names = whole.ties | {whole.seen}
     ordered = zip(triangles.instance[order], triangles.triangle[order], strict=True)
     last = max((k for k, name in enumerate(ordered, start=1) if name in names), default=0)
     count = max(limit, last)
     while count < len(order):
-        hits = certified_hits(pixel, triangles.take(order[:count]))
-        if hits.certainty[0] == whole.certainty[0] and hits.ties == whole.ties:
+        some = answer(pixel, triangles.take(order[:count]))
+        if (some.certainty, some.ties) == (whole.certainty, whole.ties):
             break
         count *= 2
     return min(count, len(order))

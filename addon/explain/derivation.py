@@ -1,18 +1,19 @@
-"""One pixel, step by step: camera, ray, every candidate, the nearest, its colour, how sure it is.
+"""Derives one pixel step by step: camera, ray, candidates, the nearest, its colour, its certainty.
 
-In comes a scene and a pixel (or a `Pixel` by itself); out goes a `Derivation`, which the writers
-beside this file turn into Markdown, HTML and JSON. Every number comes in float32, float64 and
-exactly, side by side.
+Every number is computed in float32, in float64 and exactly, side by side. The writers beside this
+file turn a `Derivation` into Markdown, HTML and JSON.
 
-What is exact: in the camera's steps, the numbers of the camera as they are stored, in float64. From
-the ray on, that ray and the corners in world space, as float64 has them: *these* are the scene, as
-they are for the certified tracer, and no rounding follows.
+The camera's steps are exact for the numbers of the camera as float64 stores them. From the ray on,
+the steps are exact for that ray and the corners in world space as float64 has them: *these* are the
+scene, as they are for the certified tracer, and no rounding follows.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from . import textbook
 from .candidates import LIMIT, gather_pixel
 from .formulas import CAMERA, COLOR, PLANE, STORED, TRIANGLE, Formula, ray_formulas
 from .pixel import Answer, Candidate, Pixel, certified_answer, plain_answers
-from .textbook import Arithmetic, Judgement, Number, Values
+from .textbook import Arithmetic, Judgement, Values
 
 Columns = dict[Arithmetic, Values]
 
@@ -31,20 +32,20 @@ Columns = dict[Arithmetic, Values]
 class Quantity:
     """A number, or a vector of three, in every arithmetic.
 
-    `values` maps to as many numbers each; exactly, there are none where one would divide by 0.
+    `values` has 1 or 3 numbers for each; none are exact where one would divide by 0.
     """
 
     key: str
     formula: Formula
-    values: Mapping[Arithmetic, tuple[Number, ...]]
+    values: Mapping[Arithmetic, tuple[Any, ...]]  # floats of numpy's, or fractions
 
     @property
     def count(self) -> int:
-        """1, or 3 of a vector."""
+        """How many numbers it has: 1, or 3 for a vector."""
         return len(self.values[Arithmetic.FLOAT64])
 
-    def exact(self, index: int) -> Number | None:
-        """Return the truth of a component, None where there is none."""
+    def exact(self, index: int) -> Fraction | None:
+        """Return a component's exact value, None where there is none."""
         values = self.values[Arithmetic.EXACT]
         return values[index] if values else None
 
@@ -57,30 +58,27 @@ class Test:
 
     candidate: Candidate
     quantities: tuple[Quantity, ...]
-    verdicts: Mapping[Arithmetic, Judgement]
+    judgements: Mapping[Arithmetic, Judgement]
 
-    def number(self, key: str, kind: Arithmetic) -> Number:
-        """Return a step's value, of a vector the first component."""
+    def number(self, key: str, kind: Arithmetic) -> Any:
+        """Return a step's value; for a vector, its first component."""
         return next(q.values[kind][0] for q in self.quantities if q.key == key)
 
 
 @dataclass(frozen=True, eq=False)
 class Derivation:
-    """The whole of it.
-
-    `nearest` is the index of the nearest test that each arithmetic accepts by the textbook, None
-    for none; `seen` that of what is certainly seen, and `color` its colour, linear RGBA.
-    """
+    """All steps of one pixel."""
 
     pixel: Pixel
     camera: tuple[Quantity, ...]
     ray: tuple[Quantity, ...]
     tests: tuple[Test, ...]
+    # By arithmetic: the index of the nearest test that the textbook accepts in it, None for none.
     nearest: Mapping[Arithmetic, int | None]
     answers: tuple[Answer, ...]
     certified: Answer
     shading: tuple[Quantity, ...]  # the colour's steps; none where it is constant
-    color: tuple[float, ...]
+    color: tuple[float, ...]  # of what is certainly seen, linear RGBA
 
     @property
     def seen(self) -> Candidate | None:
@@ -97,7 +95,7 @@ class Derivation:
         return next((t.candidate for t in self.tests if t.candidate.name == name), None)
 
     def title_of(self, name: Name) -> str:
-        """Return what a reader calls what has this name."""
+        """Return the words for the candidate of a name."""
         found = self.named(name)
         return found.title if found else "nothing"
 
@@ -133,7 +131,7 @@ def derive_pixel(pixel: Pixel) -> Derivation:
 
 
 def _quantities(columns: Columns, formulas: Mapping[str, Formula]) -> tuple[Quantity, ...]:
-    def values(kind: Arithmetic, key: str) -> tuple[Number, ...]:
+    def values(kind: Arithmetic, key: str) -> tuple[Any, ...]:
         value = columns[kind].get(key, ())
         return (value,) if np.ndim(value) == 0 else tuple(value)
 
@@ -153,7 +151,7 @@ def _test(pixel: Pixel, ray: Columns, candidate: Candidate) -> Test:
     return Test(
         candidate,
         _quantities(columns, formulas),
-        {kind: textbook.verdict(found, pixel.camera) for kind, found in columns.items()},
+        {kind: textbook.judge(found, pixel.camera) for kind, found in columns.items()},
     )
 
 
@@ -162,7 +160,7 @@ def _nearest(tests: tuple[Test, ...], kind: Arithmetic) -> int | None:
     accepted = [
         (test.number("t", kind), test.candidate.name, k)
         for k, test in enumerate(tests)
-        if test.verdicts[kind].accepted
+        if test.judgements[kind].accepted
     ]
     return min(accepted)[2] if accepted else None
 

@@ -1,4 +1,4 @@
-"""Numbers as text: whole, so that they can be read back, and with the digits that are wrong marked.
+"""Writes numbers so that they can be read back, and marks the digits that are wrong.
 
 A float is written with the fewest digits that mean it and no other. An exact number is written with
 EXACT_DIGITS digits, and "…" where it has more.
@@ -33,7 +33,7 @@ class Parts(NamedTuple):
         return f"{self.right}{self.wrong and form.format(self.wrong)}{self.exponent}"
 
 
-def digits_text(value: Number) -> str:
+def digits_text(value: Number | float) -> str:
     """Return a number as text that means it: reading it gives the same float, to the bit."""
     if isinstance(value, Fraction):
         return exact_text(value)

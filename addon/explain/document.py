@@ -1,7 +1,6 @@
-"""A derivation as a lecture: headings, sentences and tables, for Markdown and HTML alike.
+"""Turns a derivation into a lecture: headings, sentences and tables, for Markdown and HTML alike.
 
-In comes a `Derivation`; out goes a list of blocks, which hold text and no markup. The sentences are
-in `document.toml`.
+The blocks hold text and no markup. The sentences are in `document.toml`.
 """
 
 from __future__ import annotations
@@ -9,6 +8,8 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ..certainty import Certainty
 from ..images import to_display
@@ -116,7 +117,7 @@ def _candidates(derivation: Derivation) -> list[Block]:
 
 def _summary(number: int, test: Test) -> tuple[str, ...]:
     values = {q.key: digits_text(q.values[Arithmetic.FLOAT64][0]) for q in test.quantities}
-    said = [test.verdicts[kind].accepted for kind in Arithmetic]
+    said = [test.judgements[kind].accepted for kind in Arithmetic]
     cells = (values.get(key, "") for key in ("t", "s1", "s2", "s3"))
     return f"2.{number}", test.candidate.title, *cells, *("hit" if s else "no" for s in said)
 
@@ -124,26 +125,26 @@ def _summary(number: int, test: Test) -> tuple[str, ...]:
 def _test(number: int, test: Test, is_seen: bool) -> list[Block]:
     c = test.candidate
     mesh = "" if c.is_plane else f" (mesh “{c.mesh}”, instance {c.instance}, slot {c.slot})"
-    rows = tuple(_verdict(kind, test.verdicts[kind]) for kind in Arithmetic)
+    rows = tuple(_judgement(kind, test.judgements[kind]) for kind in Arithmetic)
     out: list[Block] = [
         Heading(3, f"2.{number} {c.title}{mesh}", f"2-{number}", not is_seen),
         numbers(test.quantities),
         Table(("", "verdict", "why", "as printed"), rows),
     ]
-    truth = test.verdicts[Arithmetic.EXACT].accepted
+    truth = test.judgements[Arithmetic.EXACT].accepted
     for kind in FLOATS:
-        said = test.verdicts[kind].accepted
+        said = test.judgements[kind].accepted
         if said != truth:
             out.append(_said("accepts" if said else "rejects", "warning", kind=kind.capitalize()))
     return out
 
 
-def _verdict(kind: Arithmetic, verdict: Judgement) -> tuple[str, ...]:
-    why = "; ".join(r.sentence for r in verdict.reasons) or "all conditions hold"
-    printed = {None: "–", True: "hit", False: "no"}[verdict.literal]
-    if verdict.accepted and verdict.literal is False:
+def _judgement(kind: Arithmetic, said: Judgement) -> tuple[str, ...]:
+    why = "; ".join(r.sentence for r in said.reasons) or "all conditions hold"
+    printed = {None: "–", True: "hit", False: "no"}[said.literal]
+    if said.accepted and said.literal is False:
         printed = "lost: the sum is not 1"
-    return kind.value, "accepted" if verdict.accepted else "rejected", why, printed
+    return kind.value, "accepted" if said.accepted else "rejected", why, printed
 
 
 def _nearest(derivation: Derivation) -> list[Block]:
@@ -183,9 +184,10 @@ def _color(derivation: Derivation) -> list[Block]:
         why = "color_of_plane" if seen.is_plane else "color_of_slot"
     steps: list[Block] = [numbers(derivation.shading)] if derivation.shading else []
     rgba = ", ".join(digits_text(v) for v in derivation.color)
-    srgb = "#" + "".join(f"{v:02x}" for v in to_display([[derivation.color]])[0, 0, :3])
-    shown = Paragraph(_text("rgba", rgba=rgba, srgb=srgb), "", srgb)
-    return [Heading(2, "4. Its colour", "4"), _said(why, seen=seen), *steps, shown]
+    shown = to_display(np.array([[derivation.color]]))[0, 0, :3]
+    srgb = "#" + "".join(f"{v:02x}" for v in shown)
+    value = Paragraph(_text("rgba", rgba=rgba, srgb=srgb), "", srgb)
+    return [Heading(2, "4. Its colour", "4"), _said(why, seen=seen), *steps, value]
 
 
 def _certain(derivation: Derivation) -> list[Block]:

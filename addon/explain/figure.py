@@ -1,16 +1,17 @@
-"""A derivation as shapes in space: the ray, what it was tested with, the hit, the three weights.
+"""Shows a derivation as shapes in space: the ray, what it was tested with, the hit, the weights.
 
-In comes a `Derivation`; out go meshes, which Blender draws. Float64 and world space, metres: these
-are pictures of the numbers, not the numbers.
+Blender draws these meshes. They are in float64, world space and metres: pictures of the numbers,
+not the numbers.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..tracer.vector import Floats
 from .derivation import Derivation, Test
 from .textbook import Arithmetic
 
@@ -29,8 +30,9 @@ REJECTED: Rgba = (0.6, 0.6, 0.6, 1.0)
 _THIN, _DOT, _SMALL_DOT = 0.0012, 0.004, 0.0025
 _OF_TRIANGLE = 0.05
 _LIFT = 5e-4  # how far the weights lie before their triangle, for both to be seen
-_MARGIN = 0.15  # around what a piece of a plane has to hold
-_SIDES = 8
+_MARGIN = 0.15  # of a pane, around what it has to hold, in shares of its size
+_SIDES = 8  # of the ray's cone
+_OUTLINE = [(0, 1), (1, 2), (2, 0)]  # of a triangle
 _LENGTH = 20.0  # metres at most, of a ray that meets nothing
 
 
@@ -38,34 +40,40 @@ class Shape(NamedTuple):
     """A mesh by itself; without faces it is drawn by its edges."""
 
     name: str
-    vertices: NDArray[np.float64]  # (n, 3)
-    edges: list[tuple[int, int]]
-    faces: list[tuple[int, ...]]
+    vertices: Floats  # (n, 3)
+    edges: Sequence[tuple[int, int]]
+    faces: Sequence[tuple[int, ...]]
     color: Rgba
     in_front: bool = False  # seen through what is before it
 
 
 def shapes(derivation: Derivation) -> list[Shape]:
     """Return everything that there is to draw, the ray first."""
-    pixel = derivation.pixel
-    o, d = pixel.origin, pixel.direction
+    pixel, seen = derivation.pixel, derivation.seen
     end = _end(derivation)
     size = max(abs(end), 1e-30)
-    seen = derivation.seen
-    extent = np.ptp(seen.points, axis=0).max() if seen and not seen.is_plane else np.inf
+    extent = np.max(np.ptp(seen.points, axis=0)) if seen and not seen.is_plane else np.inf
     largest = _OF_TRIANGLE * float(extent)
-    out = [_cone("Ray", o, d, end, min(_THIN * size, largest / 2), RAY)]
+    radius = min(_THIN * size, largest / 2)
+    out = [_cone(pixel.origin, pixel.direction, end, radius)]
     for number, test in enumerate(derivation.tests, 1):
+        name, candidate, color = f"2.{number}", test.candidate, _color(test)
+        if not candidate.is_plane:
+            title = f"{name} {candidate.object}"
+            out.append(Shape(title, candidate.points, _OUTLINE, [], color, True))
         t = _t(test)
-        is_seen = test.candidate is seen
-        near = t is not None and abs(t) <= 3 * size
-        if near and is_seen:
-            out.append(_dot("Hit", o + t * d, min(_DOT * abs(t), largest), HIT))
+        if t is None or abs(t) > 3 * size:
+            continue
+        x = pixel.origin + t * pixel.direction
+        pane, title = _pane(test, x, 0.25 * size), f"{name} plane of {candidate.object}"
+        if candidate is seen:
+            out.append(_dot("Hit", x, min(_DOT * abs(t), largest), HIT))
             out += _weights(derivation, test, t)
-        elif near:
-            out.append(_dot(f"2.{number} x", o + t * d, _SMALL_DOT * abs(t), _color(test)))
-        x = o + t * d if near else None
-        out += _surface(test, f"2.{number}", x, 0.25 * size, -_LIFT / 2 * d if is_seen else None)
+            lifted = pane - _LIFT / 2 * t * pixel.direction
+            out.append(Shape(title, lifted, [], [(0, 1, 2, 3)], GLASS))
+        else:
+            out.append(_dot(f"{name} x", x, _SMALL_DOT * abs(t), color))
+            out.append(Shape(title, pane, [(0, 1), (1, 2), (2, 3), (3, 0)], [], color))
     return out
 
 
@@ -81,25 +89,25 @@ def _end(derivation: Derivation) -> float:
 def _t(test: Test) -> float | None:
     """Return t, None where there is none that float64 holds."""
     t = float(test.number("t", Arithmetic.FLOAT64))
-    return t if np.isfinite(t) and any(_normal(test)) else None
+    return t if np.isfinite(t) and _normal(test).any() else None
 
 
-def _normal(test: Test) -> tuple[float, ...]:
+def _normal(test: Test) -> Floats:
     n = next(q for q in test.quantities if q.key == "n")
-    return tuple(map(float, n.values[Arithmetic.FLOAT64]))
+    return np.array(n.values[Arithmetic.FLOAT64], np.float64)
 
 
 def _color(test: Test) -> Rgba:
-    return ACCEPTED if test.verdicts[Arithmetic.EXACT].accepted else REJECTED
+    return ACCEPTED if test.judgements[Arithmetic.EXACT].accepted else REJECTED
 
 
 def _weights(derivation: Derivation, test: Test, t: float) -> list[Shape]:
     """Return the triangles that x makes with each edge: sᵢ is the share of the one beyond pᵢ."""
     if test.candidate.is_plane:
         return []
-    d = derivation.pixel.direction
-    corners = test.candidate.points - _LIFT * t * d
-    x = derivation.pixel.origin + (1 - _LIFT) * t * d
+    direction = derivation.pixel.direction
+    corners = test.candidate.points - _LIFT * t * direction
+    x = derivation.pixel.origin + (1 - _LIFT) * t * direction
     out = []
     for k, (color, s) in enumerate(zip(WEIGHTS, derivation.certified.s, strict=True)):
         points = np.stack((x, corners[(k + 1) % 3], corners[(k + 2) % 3]))
@@ -107,56 +115,31 @@ def _weights(derivation: Derivation, test: Test, t: float) -> list[Shape]:
     return out
 
 
-def _surface(
-    test: Test, name: str, x: NDArray | None, size: float, lift: NDArray | None
-) -> list[Shape]:
-    """Return a triangle's outline, and a piece of its plane that holds it and x.
-
-    That of what is seen, which has a lift, is a pane of glass; all others are their edges.
-    """
-    candidate, color = test.candidate, _color(test)
-    points = candidate.points[:1] if candidate.is_plane else candidate.points
-    out = []
-    if not candidate.is_plane:
-        edges = [(0, 1), (1, 2), (2, 0)]
-        out.append(Shape(f"{name} {candidate.object}", points, edges, [], color, True))
-    if x is not None:
-        around = x[None] if candidate.is_plane else np.concatenate((points, x[None]))
-        least = size if candidate.is_plane else 0.0
-        corners = _piece(np.array(_normal(test)), around, least)
-        edges = [(0, 1), (1, 2), (2, 3), (3, 0)]
-        title = f"{name} plane of {candidate.object}"
-        if lift is None:
-            out.append(Shape(title, corners, edges, [], color))
-        else:
-            out.append(Shape(title, corners + (_t(test) or 0) * lift, [], [(0, 1, 2, 3)], GLASS))
-    return out
-
-
-def _piece(normal: NDArray, points: NDArray, least: float) -> NDArray[np.float64]:
-    """Return the corners (4, 3) of a rectangle in a plane around points (n, 3) that lie in it."""
-    u, v = _across(normal)
+def _pane(test: Test, x: Floats, least: float) -> Floats:
+    """Return the corners (4, 3) of a rectangle in a candidate's plane that holds it and x."""
+    points = x[None]
+    if not test.candidate.is_plane:
+        points, least = np.concatenate((test.candidate.points, points)), 0.0
     center = points.mean(axis=0)
-    a, b = (points - center) @ u, (points - center) @ v
-    pad = max(_MARGIN * max(np.ptp(a), np.ptp(b)), least)
-    low, high = (a.min() - pad, b.min() - pad), (a.max() + pad, b.max() + pad)
-    return np.array(
-        [center + i * u + j * v for i, j in (low, (high[0], low[1]), high, (low[0], high[1]))]
-    )
+    axes = np.stack(_across(_normal(test)))
+    places = (points - center) @ axes.T
+    low, high = places.min(axis=0), places.max(axis=0)
+    pad = max(_MARGIN * np.max(high - low), least)
+    (left, bottom), (right, top) = low - pad, high + pad
+    rectangle = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    return np.asarray(center + np.array(rectangle) @ axes)
 
 
-def _across(direction: NDArray) -> tuple[NDArray, NDArray]:
+def _across(direction: Floats) -> tuple[Floats, Floats]:
     """Return two unit vectors at right angles to a direction and to one another."""
-    direction = direction / np.abs(direction).max()
-    least = np.eye(3)[np.abs(direction).argmin()]
+    direction = direction / np.max(np.abs(direction))
+    least = np.eye(3)[np.argmin(np.abs(direction))]
     u = np.cross(direction, least)
     v = np.cross(direction, u)
     return u / np.linalg.norm(u), v / np.linalg.norm(v)
 
 
-def _cone(
-    name: str, start: NDArray, along: NDArray, length: float, radius: float, color: Rgba
-) -> Shape:
+def _cone(start: Floats, along: Floats, length: float, radius: float) -> Shape:
     u, v = _across(along)  # not end - start: at t = 0, or far away, that is zero
     end = start + length * along
     angles = 2 * np.pi * np.arange(_SIDES) / _SIDES
@@ -164,10 +147,10 @@ def _cone(
     middle = _SIDES + 1  # a line by itself is drawn however thin the cone is
     faces: list[tuple[int, ...]] = [(0, 1 + k, 1 + (k + 1) % _SIDES) for k in range(_SIDES)]
     faces.append(tuple(range(_SIDES, 0, -1)))
-    return Shape(name, np.array([start, *ring, end]), [(0, middle)], faces, color, True)
+    return Shape("Ray", np.array([start, *ring, end]), [(0, middle)], faces, RAY, True)
 
 
-def _dot(name: str, center: NDArray, radius: float, color: Rgba) -> Shape:
+def _dot(name: str, center: Floats, radius: float, color: Rgba) -> Shape:
     """Return an octahedron."""
     points = center + radius * np.concatenate((np.eye(3), -np.eye(3)))
     faces = [

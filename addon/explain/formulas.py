@@ -1,9 +1,8 @@
-"""The textbook's formulas, what each number is called, and why a surface is rejected.
+"""Reads the textbook's formulas, and the sentences on why a surface is rejected.
 
 `formulas.toml` lists them: every formula of the project but the tracer's own code is taken from
-there. A formula is plain text: `textbook.py` evaluates it, Markdown shows it as it is, `html.py`
-sets it as MathML, and the documents' tables are made of it. Vectors are the letters of `VECTORS`;
-all else is a number.
+there. A formula is plain text: `textbook.py` and the page evaluate it, and all documents show it.
+The letters of `VECTORS` are vectors; all else is a number.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
-"""A derivation as HTML: a fragment for a page of the caller's, or a page by itself.
+"""Writes a derivation as HTML: a fragment for a page of the caller's, or a page by itself.
 
-No script and no network: formulas are MathML, of what `formulas.py` writes: letters and words with
-indices (p₁, nₛ₁, u_min, x.y for a component), ² and operators, and one fraction, "/" between
-spaces, at the top of a right side. The fragment's classes begin with `derivation-`; its colours are
-the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page once.
+There is no script and no network in it. The fragment's classes begin with `derivation-`; its
+colours are the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page
+once.
 """
 
 from __future__ import annotations
@@ -17,7 +16,9 @@ from string import Template
 from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Table
 from .derivation import Derivation
 from .document import lecture
-from .formulas import VECTORS, Formula
+from .formulas import VECTORS
+
+Part = tuple[Heading, list[Block]]  # a heading and what is below it
 
 _HERE = Path(__file__).parent
 STYLE, _PAGE_STYLE = (
@@ -27,41 +28,44 @@ STYLE, _PAGE_STYLE = (
 
 def fragment(derivation: Derivation) -> str:
     """Return a <section> for a page that has STYLE in it."""
-    parts = _parts(lecture(derivation))
-    inner = "\n".join([_part(parts[0]), _contents(parts), *map(_part, parts[1:])])
+    first, *others = parts = _parts(lecture(derivation))
+    inner = "\n".join([_part(first), _contents(parts), *map(_part, others)])
     return f'<section class="derivation">\n{inner}\n</section>\n'
 
 
 def page(derivation: Derivation) -> str:
     """Return a page by itself, readable in light and dark."""
-    title, style = escape(lecture(derivation)[0].text), _PAGE_STYLE + STYLE
-    page = Template((_HERE / "document.html").read_text(encoding="utf-8"))
-    return page.substitute(title=title, style=style, body=fragment(derivation))
+    [(heading, _), *_] = _parts(lecture(derivation))
+    template = Template((_HERE / "document.html").read_text(encoding="utf-8"))
+    return template.substitute(
+        title=escape(heading.text), style=_PAGE_STYLE + STYLE, body=fragment(derivation)
+    )
 
 
-def _parts(flat: list[Block]) -> list[list[Block]]:
-    """Return a heading and what is below it, each."""
-    parts: list[list[Block]] = []
+def _parts(flat: list[Block]) -> list[Part]:
+    parts: list[Part] = []
     for block in flat:
         if isinstance(block, Heading):
-            parts.append([])
-        parts[-1].append(block)
+            parts.append((block, []))
+        else:
+            parts[-1][1].append(block)
     return parts
 
 
-def _part(part: list[Block]) -> str:
-    """Return a part; of a candidate's what is below its name can be folded."""
-    head, *below = map(_block, part)
-    if part[0].level == 3:
-        opened = "" if part[0].folded else " open"
+def _part(part: Part) -> str:
+    """Return a part; below a candidate's name it can be folded."""
+    heading, blocks = part
+    head, below = _block(heading), list(map(_block, blocks))
+    if heading.level == 3:
+        opened = "" if heading.folded else " open"
         head = f"<details{opened}><summary>{head}</summary>"
         below.append("</details>")
     return "\n".join([head, *below])
 
 
-def _contents(parts: list[list[Block]]) -> str:
+def _contents(parts: list[Part]) -> str:
     """Return links to the parts, and to the one candidate that is not folded."""
-    heads = [head for head, *_ in parts if head.name and not head.folded]
+    heads = [head for head, _ in parts if head.name and not head.folded]
     links = (f'<li><a href="#derivation-{h.name}">{escape(h.text)}</a></li>' for h in heads)
     return f'<nav class="derivation-contents" aria-label="Contents"><ol>{"".join(links)}</ol></nav>'
 
@@ -99,76 +103,25 @@ def _number(row: BlockRow) -> str:
     first, shown = "", ""
     if row.formula:
         first = ' class="derivation-first"'
-        shown = math(row.formula)
+        shown = formula(str(row.formula._replace(remark="")))
         if row.formula.remark:
             shown += f'<span class="derivation-remark">{escape(row.formula.remark)}</span>'
     marked = '<td class="derivation-number">{}</td><td class="derivation-off">{}</td>'
     wrong = '<mark class="derivation-wrong">{}</mark>'
     cells = "".join(marked.format(parts.with_wrong(wrong), off) for parts, off in row.floats)
     return (
-        f"<tr{first}><th>{shown}</th><td>{math(Formula(row.label))}</td>{cells}"
+        f"<tr{first}><th>{shown}</th><td>{formula(row.label)}</td>{cells}"
         f'<td class="derivation-number">{row.exact}</td></tr>'
     )
 
 
-_TOKEN = re.compile(r"([A-Za-z]+)([ₛᵢ₁₂₃]+)?(?:_([a-z]+)|\.([xyz]))?|(½|\d+)|(²)|(‖)|(\S)")
-_BARS = '<mo stretchy="false">‖</mo>'
-_SIGNS = re.compile(r"\d|[a-z]+")
-_AROUND = re.compile(r"^\((.*)\)$")
-_INDEX = str.maketrans("ₛᵢ₁₂₃", "si123")
+def formula(text: str) -> str:
+    """Return a formula with its letters slanted, and those of vectors upright and bold."""
+    return re.sub("[A-Za-z]+|[<>&]", _letter, text)
 
 
-def math(formula: Formula) -> str:
-    """Return `label = right side`, or the label alone where a number is given."""
-    inner = inline(formula.label)
-    if formula.right:
-        inner += f"<mo>=</mo>{_right(formula.right)}"
-    return f'<math displaystyle="true">{inner}</math>'
-
-
-def _right(text: str) -> str:
-    """Return a right side; what is to the left of its slash goes above a bar."""
-    above, slash, below = text.partition(" / ")
-    if not slash:
-        return inline(text)
-    minus = "<mo>−</mo>" if above.startswith("−") else ""
-    # Without the brackets around all of it, which a bar makes needless.
-    parts = (inline(_AROUND.sub(r"\1", part.removeprefix("−"))) for part in (above, below))
-    return f"{minus}<mfrac>{''.join(f'<mrow>{p}</mrow>' for p in parts)}</mfrac>"
-
-
-def inline(text: str) -> str:
-    """Return the MathML of text without fractions."""
-    out: list[str] = []
-    for token in _TOKEN.finditer(text):
-        word, small, index, component, number, square, bars, operator = token.groups()
-        if word:
-            out.append(_word(word, [(small or "").translate(_INDEX), index or component]))
-        elif number:
-            out.append(f"<mn>{number}</mn>")
-        elif square:
-            out.append(f"<msup>{_last_group(out)}<mn>2</mn></msup>")
-        elif bars:
-            out.append(_BARS)
-        else:
-            still = ' stretchy="false"' if operator in "()" else ""
-            out.append(f"<mo{still}>{escape(operator)}</mo>")
-    return "".join(out)
-
-
-def _word(word: str, indices: list[str | None]) -> str:
-    kind = ' class="derivation-vector"' if word in VECTORS else ""
-    letter = f"<mi{kind}>{word}</mi>"
-    signs = _SIGNS.findall(" ".join(index for index in indices if index))
-    below = "".join(f"<mn>{s}</mn>" if s.isdigit() else f"<mi>{s}</mi>" for s in signs)
-    return f"<msub>{letter}<mrow>{below}</mrow></msub>" if below else letter
-
-
-def _last_group(out: list[str]) -> str:
-    """Take ‖…‖, or the last sign alone, off the end of what is there."""
-    first = len(out) - 1
-    if out[first] == _BARS:
-        first = max(k for k in range(first) if out[k] == _BARS)
-    group = "".join(out[first:])
-    del out[first:]
-    return f"<mrow>{group}</mrow>"
+def _letter(found: re.Match[str]) -> str:
+    if not found[0].isalpha():
+        return escape(found[0])
+    kind = ' class="derivation-vector"' if found[0] in VECTORS else ""
+    return f"<var{kind}>{found[0]}</var>"

@@ -1,8 +1,8 @@
-"""What one pixel's ray may meet, and what the tracer says of it.
+"""Holds what one pixel's ray may meet, and asks the tracer what it sees of that.
 
 A `Pixel` has all that its derivation needs of a scene, and stands alone: `reproducer.py` writes it
-to a file, and what is derived from that is the same. An `Answer` is that of a plain method in one
-precision, or the proof, by the tracer's own functions, not by the steps that the derivation shows.
+to a file, and what is derived from that is the same. An `Answer` is found by the tracer's own
+functions, not by the steps that the derivation shows.
 """
 
 from __future__ import annotations
@@ -11,22 +11,16 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors
 from ..certainty import Certainty
-from ..certified.arithmetic import broken_assumptions
-from ..certified.ladder import Ladder
-from ..certified.surfaces import Surfaces
 from ..methods import Method
-from ..scene import Camera, SceneError
-from ..tracer import plane
-from ..tracer.camera import Rays, camera_rays, corner_rays
-from ..tracer.candidates import Pairs
-from ..tracer.hits import NOTHING, NOWHERE, Hits, Name, Statistics
-from ..tracer.nearest import within_clip
-from ..tracer.progress import result_of
+from ..rendering import trace
+from ..scene import Camera, Instance, Mesh, Plane, Scene, SceneError
+from ..tracer.camera import Rays, camera_rays
+from ..tracer.hits import NOTHING, NOWHERE, Name
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
-from ..tracer.triangle import TESTS
+from ..tracer.vector import Floats
 from ..tracer.world import WorldTriangles
 
 
@@ -38,10 +32,10 @@ class Candidate:
     instance: int  # as in a `Frame`: a plane has a number after all instances,
     triangle: int  # and no triangle (NOTHING)
     # World space, metres: (3, 3) the corners, a row each; of a plane (2, 3), its point and normal.
-    points: NDArray[np.float64]
-    colors: NDArray[np.float32]  # linear RGBA: (1, 4), or (3, 4) with one at each corner
+    points: Floats
+    colors: Colors  # linear RGBA: (1, 4), or (3, 4) with one at each corner
     mesh: str = ""
-    slot: int = 0  # of the material whose colour it is
+    slot: int = 0  # of the material that gives the colour
 
     @property
     def is_plane(self) -> bool:
@@ -75,7 +69,7 @@ class Pixel:
     x: int  # of the traced picture, the camera's region: (0, 0) is its lower left pixel
     y: int
     candidates: tuple[Candidate, ...]  # what is nearest first
-    background: NDArray[np.float32]  # (4,) linear RGBA
+    background: Colors  # (4,) linear RGBA
     first_plane: int = 0  # the number of the scene's first infinite plane: that of its instances
     triangles: int = 0  # in the whole scene
     left_out: int = 0  # candidates beyond the limit: none of them is nearer than what is seen
@@ -87,19 +81,18 @@ class Pixel:
 
     @property
     def column(self) -> int:
-        """Of the whole picture, of which the region is a part."""
+        """The pixel's column in the whole picture."""
         return self.camera.region.x0 + self.x
 
     @property
     def row(self) -> int:
-        """Of the whole picture, from the bottom."""
+        """The pixel's row in the whole picture, from the bottom."""
         return self.camera.region.y0 + self.y
 
-    def rays(self, dtype: np.dtype | type = np.float64) -> Rays:
+    def rays(self, precision: Precision = Precision.FLOAT64) -> Rays:
         """Return its ray as the tracer has it, one of one."""
-        return camera_rays(
-            self.camera, np.array([self.column + 0.5]), np.array([self.row + 0.5]), dtype
-        )
+        film = np.array([self.column + 0.5]), np.array([self.row + 0.5])
+        return camera_rays(self.camera, *film, precision.dtype)
 
     @property
     def planes(self) -> list[Candidate]:
@@ -108,22 +101,22 @@ class Pixel:
 
     def world_triangles(self) -> WorldTriangles:
         """Return the candidates that are triangles, as the tracer takes them."""
-        kept = [c for c in self.candidates if not c.is_plane]
-        if not kept:
+        found = [c for c in self.candidates if not c.is_plane]
+        if not found:
             return WorldTriangles.none()
         return WorldTriangles(
-            np.stack([c.points for c in kept], axis=2),
-            np.array([c.instance for c in kept], np.int32),
-            np.array([c.triangle for c in kept], np.int32),
+            np.stack([c.points for c in found], axis=2),
+            np.array([c.instance for c in found], np.int32),
+            np.array([c.triangle for c in found], np.int32),
         )
 
     @cached_property
-    def origin(self) -> NDArray[np.float64]:
+    def origin(self) -> Floats:
         """Where the ray begins, (3,) metres."""
         return self.rays().origins[:, 0]
 
     @cached_property
-    def direction(self) -> NDArray[np.float64]:
+    def direction(self) -> Floats:
         """Where it goes, (3,); its length is that at which the depth is 1."""
         return self.rays().directions[:, 0]
 
@@ -149,7 +142,7 @@ class Answer:
     precision: Precision
     seen: Name
     t: float
-    s: NDArray[np.float64]  # (3,) barycentrics of the corners; zeros of a plane and of nothing
+    s: Floats  # (3,) barycentrics of the corners; zeros of a plane and of nothing
     certainty: Certainty = Certainty.NOT_CERTIFIED
     ties: frozenset[Name] = frozenset()  # all that an ambiguous ray may be said to see
 
@@ -157,56 +150,46 @@ class Answer:
 def plain_answers(pixel: Pixel) -> list[Answer]:
     """Return the answers of the plain methods, in the tracer's order.
 
-    They are the pictures' own, except where float32 rounds a triangle so far that its box on the
-    film, which float64 keeps away from the pixel, holds it: that triangle is no candidate.
+    They are the picture's own but for one case: float32 may round a triangle so far that its box on
+    the film holds the pixel, while float64 keeps it away. That triangle is no candidate.
     """
     triangles = pixel.world_triangles()
-    return [plain_answer(pixel, triangles, settings) for settings in PLAIN_SETTINGS]
-
-
-def plain_answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings) -> Answer:
-    """Return what a plain method sees of these triangles and the pixel's planes."""
-    method, precision = settings.method, settings.precision
-    rays = pixel.rays(precision.dtype)
-    with np.errstate(over="ignore"):  # what float32 cannot hold is inf, and is not hit
-        corners = triangles.corners.astype(precision.dtype)
-        planes = [(c.name, *c.points.astype(precision.dtype)) for c in pixel.planes]
-    met = [(np.inf, NOWHERE, np.zeros(3))]
-    if len(triangles.instance):
-        hit, t, s = TESTS[method](rays, *corners)
-        for k in np.flatnonzero(hit & within_clip(pixel.camera, t)):
-            name = int(triangles.instance[k]), int(triangles.triangle[k])
-            met.append((float(t[k]), name, s[:, k].astype(float)))
-    for name, point, normal in planes:
-        t = plane.intersect(rays, point[:, None], normal[:, None])
-        if within_clip(pixel.camera, t)[0]:
-            met.append((float(t[0]), name, np.zeros(3)))
-    t, seen, s = min(met, key=lambda m: m[:2])
-    return Answer(method, precision, seen, t, s)
-
-
-def certified_hits(pixel: Pixel, triangles: WorldTriangles) -> Hits:
-    """Return the certified `Hits` of the pixel's one ray among these triangles and its planes."""
-    planes = [(c.points[0], c.points[1]) for c in pixel.planes]
-    clip = pixel.camera.clip_start, pixel.camera.clip_end
-    around = corner_rays(pixel.camera)  # the bounds are those for all of the picture's rays
-    ladder = Ladder(pixel.rays(), Surfaces(planes, pixel.first_plane), clip, around)
-    every = np.arange(len(triangles.instance))
-    if len(every):
-        ladder.test(Pairs(np.zeros_like(every), every, triangles))
-    return result_of(ladder.hits(Statistics()))
+    return [answer(pixel, triangles, settings) for settings in PLAIN_SETTINGS]
 
 
 def certified_answer(pixel: Pixel) -> Answer:
     """Return the answer that is proven; NOT_CERTIFIED where this process can prove nothing."""
-    hits = certified_hits(pixel, pixel.world_triangles())
-    certainty = Certainty(int(hits.certainty[0]))
+    return answer(pixel, pixel.world_triangles())
+
+
+def answer(pixel: Pixel, triangles: WorldTriangles, settings: Settings | None = None) -> Answer:
+    """Return what is seen of these triangles and the pixel's planes, each tested with the ray.
+
+    By default what is proven, as far as this process can prove anything.
+    """
+    # Sorted, as of equals the tracer takes the first.
+    order = np.lexsort((triangles.triangle, triangles.instance))
+    corners = triangles.corners[..., order].transpose(2, 0, 1).reshape(-1, 3)
+    numbers = np.arange(len(corners), dtype=np.int32).reshape(-1, 3)
+    scene = Scene(
+        pixel.camera,
+        (Mesh(corners, numbers),),
+        (Instance(0, 0, np.eye(4)),),
+        tuple(Plane(0, *c.points) for c in pixel.planes),
+        objects=("",),
+    )
+    names = {NOWHERE: NOWHERE}
+    for number, k in enumerate(order):
+        names[0, number] = int(triangles.instance[k]), int(triangles.triangle[k])
+    names |= {(k, NOTHING): c.name for k, c in enumerate(pixel.planes, 1)}
+    precision = settings.precision if settings else Precision.FLOAT64
+    hits = trace(scene, settings or Settings(), rays=pixel.rays(precision))
     return Answer(
-        Method.CERTIFIED,
-        Precision.FLOAT64,
-        (int(hits.instance[0]), int(hits.triangle[0])),
+        settings.method if settings else Method.CERTIFIED,
+        precision,
+        names[int(hits.instance[0]), int(hits.triangle[0])],
         float(hits.t[0]),
-        hits.s[:, 0],
-        Certainty.NOT_CERTIFIED if broken_assumptions() else certainty,
-        hits.ties.get(0, frozenset()),
+        hits.s[:, 0].astype(np.float64),
+        Certainty(int(hits.certainty[0])),
+        frozenset(names[name] for name in hits.ties.get(0, ())),
     )

@@ -1,7 +1,7 @@
-"""One pixel as a small file that stands alone: `reftrace explain pixel.json` derives it again.
+"""Writes and reads a pixel as a small file: `reftrace explain pixel.json` derives it again.
 
-It is JSON: camera, ray, candidates, every number such that reading gives it back to the bit. It
-holds nothing that runs, and is checked when it is read, as it may come from anywhere.
+It is JSON: camera, ray and candidates. Reading gives every number back to the bit. The file holds
+nothing that runs, and is checked when it is read, as it may come from anywhere.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Colors, Floats
 from ..checked_json import ENDLESS, camera_of, numbers, part, whole
 from ..scene import SceneError
 from ..scene_files import check_is_file
@@ -52,7 +52,7 @@ def read(path: str | Path) -> Pixel:
     Raises
     ------
     SceneError
-        If there is no such file, it is none of ours, or something in it is wrong, which is named.
+        If there is no such file, it is no pixel's, or something in it is wrong, which is named.
     """
     path = Path(path)
     check_is_file(path)
@@ -95,7 +95,7 @@ def _pixel(content: Any) -> Pixel:
     return pixel
 
 
-def _check_ray(pixel: Pixel, ray: dict) -> None:
+def _check_ray(pixel: Pixel, ray: dict[str, Any]) -> None:
     """Raise a SceneError if the file's ray is not its camera's: one of them was changed."""
     for name, own in (("origin", pixel.origin), ("direction", pixel.direction)):
         if not np.array_equal(numbers(ray, name, "ray.", (3,)), own):
@@ -128,7 +128,7 @@ def _candidate(c: Any, where: str) -> Candidate:
     )
 
 
-def _colors(values: NDArray[np.float64], where: str) -> NDArray[np.float32]:
+def _colors(values: Floats, where: str) -> Colors:
     if np.abs(values).max() > np.finfo(np.float32).max:
         raise SceneError(f"{where} is beyond what a float32 holds")
     return values.astype(np.float32)

@@ -1,9 +1,8 @@
-"""The textbook's steps and conditions, in three arithmetics: float32, float64, and exactly.
+"""Computes the textbook's steps and conditions in float32, in float64 and exactly.
 
-In come numbers in one arithmetic; out go all that the formulas of `formulas.py` make of them, by
-name and in order, and a `Judgement` with every condition that fails. The formulas are evaluated as
-they are printed, one operation after the other: in float32 and float64 these numbers are those of
-`tracer/camera.py`, `plane.py` and `triangle.py`, to the last bit, and a test holds them to it.
+The formulas of `formulas.py` are evaluated as they are printed, one operation after the other. So
+in float32 and float64 these numbers are those of `tracer/camera.py`, `plane.py` and `triangle.py`,
+to the last bit, and a test holds them to it. A `Judgement` names every condition that fails.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import re
 from collections.abc import Iterable, Mapping
 from enum import StrEnum
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +26,8 @@ from ..tracer.vector import cross, dot
 from .formulas import CAMERA, Formula, Rejection, ray_formulas
 
 Number = np.float32 | np.float64 | Fraction
-Vector = NDArray  # (3,), float32 or float64, which round after every operation, or of fractions
-Values = dict[str, Number | Vector]
+Vector = NDArray[Any]  # (3,), float32 or float64, which round after every operation, or fractions
+Values = dict[str, Any]  # numbers and vectors of one arithmetic, by their keys or labels
 
 
 class Arithmetic(StrEnum):
@@ -66,21 +65,25 @@ _SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
 _UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
 
 
-def _sine(angle: Number | Vector, quarters: int) -> Number | Vector:
+def _sine(angle: Any, quarters: int) -> Any:
     """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
     if not isinstance(angle, Fraction):
         return sine(angle, quarters)
-    size, k = abs(angle.numerator) * _UNIT // angle.denominator, 2 - quarters
-    term, total = _UNIT if quarters else size, 0
+    size = abs(angle.numerator) * _UNIT // angle.denominator
+    term = _UNIT if quarters else size
     sign = -1 if angle < 0 and not quarters else 1
+    total = 0
+    k = 2 - quarters
     while term:
-        total, sign = total + sign * term, -sign
-        term, k = term * size * size // (_UNIT * _UNIT * k * (k + 1)), k + 2
+        total += sign * term
+        term = term * size * size // (_UNIT * _UNIT * k * (k + 1))
+        sign = -sign
+        k += 2
     return Fraction(total, _UNIT)
 
 
-def evaluate(text: str, names: Mapping[str, Number | Vector]) -> Number | Vector:
-    """Return what a formula comes to; `names` has the value of each letter in it.
+def evaluate(text: str, names: Values) -> Any:
+    """Return the number or vector that a formula gives; `names` has the value of each letter.
 
     Raises
     ------
@@ -90,9 +93,7 @@ def evaluate(text: str, names: Mapping[str, Number | Vector]) -> Number | Vector
     return _evaluate([*reversed(_TOKEN.findall(text))], names)
 
 
-def _evaluate(
-    tokens: list[str], names: Mapping[str, Number | Vector], binding: int = 0
-) -> Number | Vector:
+def _evaluate(tokens: list[str], names: Values, binding: int = 0) -> Any:
     """Take tokens off the end of the list, as far as operators bind more strongly."""
     value = _operand(tokens, names)
     while tokens and tokens[-1] != ")":
@@ -107,7 +108,7 @@ def _evaluate(
     return value
 
 
-def _operand(tokens: list[str], names: Mapping[str, Number | Vector]) -> Number | Vector:
+def _operand(tokens: list[str], names: Values) -> Any:
     token = tokens.pop()
     if token == "−":
         return -_operand(tokens, names)
@@ -121,15 +122,15 @@ def _operand(tokens: list[str], names: Mapping[str, Number | Vector]) -> Number 
 
 
 @np.errstate(all="ignore")
-def evaluate_all(formulas: Mapping[str, Formula], given: Mapping[str, Number | Vector]) -> Values:
+def evaluate_all(formulas: Mapping[str, Formula], given: Values) -> Values:
     """Return the values of formulas by their keys, exact ones up to where one would divide by 0.
 
     Parameters
     ----------
     formulas : mapping of str to Formula
         In order: each is made of what is given and of those before it.
-    given : mapping
-        Values by their labels; a formula whose label is among them is not computed.
+    given : dict
+        Values by their labels; a formula with one of these labels is not computed.
     """
     names, out = dict(given), {}
     for key, formula in formulas.items():
@@ -143,7 +144,7 @@ def evaluate_all(formulas: Mapping[str, Formula], given: Mapping[str, Number | V
 
 
 def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
-    """Return how the ray through the centre of a pixel comes about.
+    """Return the steps from a pixel to the ray through its centre.
 
     Parameters
     ----------
@@ -159,21 +160,21 @@ def camera_steps(kind: Arithmetic, camera: Camera, x: int, y: int) -> Values:
         numbers |= zip("wh", pixel_size(camera), strict=True)
     vectors = {"right": camera.right, "up": camera.up, "forward": camera.forward}
     vectors["e"] = camera.origin
-    given = {label: kind.number(value) for label, value in numbers.items()}
+    given: Values = {label: kind.number(value) for label, value in numbers.items()}
     given |= {label: kind.vector(value) for label, value in vectors.items()}
     return evaluate_all(CAMERA | ray_formulas(camera.projection), given)
 
 
 def surface_steps(formulas: Mapping[str, Formula], o: Vector, d: Vector, *points: Vector) -> Values:
-    """Return how a ray meets a triangle of three corners, or a plane of a point and a normal."""
+    """Return the steps of a ray with a triangle (three corners) or a plane (point and normal)."""
     labels = [formula.label for formula in formulas.values()]
     return evaluate_all(formulas, {"o": o, "d": d, **dict(zip(labels, points, strict=False))})
 
 
 class Judgement(NamedTuple):
-    """What one arithmetic says of a surface.
+    """Whether one arithmetic accepts a surface, and why not.
 
-    `literal` is whether the test as printed, sum = 1 included, accepts it, too; None of a plane.
+    `literal` is whether the test as printed, with sum = 1, accepts it, too; None for a plane.
     """
 
     accepted: bool
@@ -181,8 +182,8 @@ class Judgement(NamedTuple):
     literal: bool | None = None
 
 
-def verdict(found: Values, camera: Camera) -> Judgement:
-    """Hold the steps of a plane or a triangle against the textbook's conditions and the clip."""
+def judge(found: Values, camera: Camera) -> Judgement:
+    """Judge the steps of a plane or a triangle by the textbook's conditions and the clip range."""
     undefined = _undefined(found)
     if undefined:
         return Judgement(False, (undefined,), False if "p1" in found else None)
@@ -192,7 +193,7 @@ def verdict(found: Values, camera: Camera) -> Judgement:
 
 
 def _undefined(found: Values) -> Rejection | None:
-    """Return why there is no t; floats have one by the rules for inf, but it means nothing."""
+    """Return why t means nothing, where it does; floats have one by the rules for inf."""
     if not any(found["n"]):
         return Rejection.DEGENERATE
     if found["towards"] == 0:

@@ -1,7 +1,7 @@
-"""A derivation as a file, by its ending: Markdown, HTML, or JSON.
+"""Writes a derivation as Markdown, HTML or JSON, by the file's ending.
 
-In JSON every number is whole, exact ones as a fraction, too. A float is a JSON number that means it
-to the bit; inf and NaN, which JSON lacks, are strings. What is exact is
+In JSON no number is cut short. A float is a JSON number that means it to the bit; inf and NaN,
+which JSON lacks, are strings. An exact number is
 {"decimal": "…", "rational": "numerator/denominator"}.
 """
 
@@ -112,7 +112,7 @@ def _test(test: Test) -> dict[str, Any]:
                 "as_printed": j.literal,
                 "reasons": [{"code": r.value, "sentence": r.sentence} for r in j.reasons],
             }
-            for kind, j in test.verdicts.items()
+            for kind, j in test.judgements.items()
         },
     }
 

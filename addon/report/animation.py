@@ -1,4 +1,4 @@
-"""The frames of an animation -> a table, its JSON and its page; and which of them are whole."""
+"""Writes the table, the JSON and the page of an animation, and says which frames are whole."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from string import Template
 from typing import Any
 
 from ..compare.animation import FrameRow, worst_first
-from . import comparison, page
+from . import comparison, page, plots
 from .folders import replacing, write_json, write_text
 from .tables import columns
 
@@ -19,7 +19,7 @@ JSON, PAGE = "animation.json", "animation.html"
 _MADE_BY = "made_by.json"  # in the folder of a frame that is whole
 _HEAD = "frame", "agree", "explained", "unexplained", "verdict"
 _LISTED = 10  # of the worst frames, on a terminal
-_WIDTH, _HEIGHT = 1000, 240  # of the page's curve
+_CURVES = {"explained": "#0072b2", "unexplained": "#d55e00"}  # colours of the page's two curves
 
 
 def folder_of(directory: str | Path, frame: int) -> Path:
@@ -28,7 +28,7 @@ def folder_of(directory: str | Path, frame: int) -> Path:
 
 
 def mark_whole(directory: Path, frame: int, made_by: Any) -> None:
-    """Say what a frame was made by, whose files are whole now."""
+    """Note what a frame was made by, once its files are complete."""
     folder = folder_of(directory, frame)
     text = json.dumps({"made_by": made_by, "bytes": _sizes(folder)}, indent=2)
     write_text(folder / _MADE_BY, text + "\n")
@@ -92,14 +92,13 @@ def lines(frames: range, rows: Sequence[FrameRow]) -> list[str]:
 
 
 def _cells(row: FrameRow) -> list[str]:
+    if row.error:
+        return [str(row.frame), "-", "-", "-", f"{row.verdict}: {row.error}"]
     counts = row.agree, row.explained, row.unexplained
-    counts = ("-" if row.error else f"{n:,}" for n in counts)
-    return [str(row.frame), *counts, f"{row.verdict}: {row.error}" if row.error else row.verdict]
+    return [str(row.frame), *(f"{n:,}" for n in counts), row.verdict]
 
 
 def _page(title: str, frames: range, rows: Sequence[FrameRow]) -> str:
-    compared = sorted((r for r in rows if not r.error), key=lambda r: r.frame)
-    most = max((max(r.explained, r.unexplained) for r in compared), default=0)
     table = ["".join(f"<th>{name}</th>" for name in _HEAD)]
     for row in worst_first(rows):
         frame, *cells = map(escape, _cells(row))
@@ -107,12 +106,7 @@ def _page(title: str, frames: range, rows: Sequence[FrameRow]) -> str:
     return Template(page.template("animation.html")).substitute(
         title=escape(title),
         summary=", ".join(lines(frames, rows)[-2:]),
-        first=frames[0],
-        last=frames[-1],
-        most=f"{most:,}",
-        curves="\n".join(
-            _curve(frames, compared, kind, most) for kind in ("explained", "unexplained")
-        ),
+        curves=_curves(frames, [r for r in rows if not r.error]),
         table="\n".join(f"<tr>{cells}</tr>" for cells in table),
     )
 
@@ -122,16 +116,21 @@ def _linked(row: FrameRow, content: str) -> str:
     return f'<a href="{folder_of("", row.frame).as_posix()}/{name}">{content}</a>'
 
 
-def _curve(frames: range, rows: Sequence[FrameRow], kind: str, most: int) -> str:
-    """Draw how many pixels there are of a kind, each frame's point a link to its page."""
-    places = [
-        f"{_WIDTH * (row.frame - frames[0]) / max(frames[-1] - frames[0], 1):.1f} "
-        f"{_HEIGHT * (1 - getattr(row, kind) / max(most, 1)):.1f}"
-        for row in rows
-    ]
-    dots = (
-        _linked(r, f'<circle r="4" transform="translate({p})"><title>{line(r)}</title></circle>')
-        for r, p in zip(rows, places, strict=True)
-    )
-    path = f'<path d="M{"L".join(places)}" />' if rows else ""
-    return f'<g class="{kind}">{path}{"".join(dots)}</g>'
+def _curves(frames: range, rows: Sequence[FrameRow]) -> str:
+    """Draw how many pixels of each frame differ; a point says its frame's numbers."""
+    most = max((max(r.explained, r.unexplained) for r in rows), default=0)
+    x = plots.linear(frames[0], max(frames[-1], frames[0] + 1))
+    axes = plots.Axes(200, 70, 1680, 330, x, plots.linear(0, max(most, 1)))
+    series = {
+        kind: plots.Series(
+            color,
+            [(r.frame, getattr(r, kind), line(r)) for r in sorted(rows)],
+            kind == "unexplained",
+            width=3,
+        )
+        for kind, color in _CURVES.items()
+    }
+    title = "Pixels that differ, by frame"
+    drawn = axes.drawn(title, "frame", "pixels") + plots.chart(axes, series.values())
+    drawn += plots.legend({kind: s.sample for kind, s in series.items()}, 520)
+    return plots.picture(plots.WIDTH, 550, title, f"{len(rows)} frames", drawn)

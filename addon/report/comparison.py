@@ -1,16 +1,16 @@
-"""A `Comparison` -> a folder of three pictures, all arrays, the page, and the JSON."""
+"""Writes a comparison as a folder: three pictures, all arrays, the page, and the JSON."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import images
+from ..arrays import Array, Colors
 from ..compare.comparison import SCHEMA, Comparison
 from ..compare.maps import cause_map
 from . import page
@@ -33,12 +33,12 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
     """
     colors = comparison.frame.color, comparison.picture, difference_picture(comparison)
     causes, owners = comparison.causes, comparison.identity
-    # Whose surface each side shows, as numbers of the JSON's names, where it is known.
-    whose = {"owner_traced": owners.traced, "owner_shown": owners.shown} if owners else {}
+    # The object that each side shows, as a number among the JSON's names, where it is known.
+    names = {"owner_traced": owners.traced, "owner_shown": owners.shown} if owners else {}
     with replacing(Path(directory), NAMES) as new:
         for name, color in zip(PICTURES, colors, strict=True):
             images.save_png(new / f"{name}.png", images.to_display(color))
-        arrays = comparison.frame.passes() | whose
+        arrays = comparison.frame.passes() | names
         arrays |= {"blender": comparison.picture, "cause": causes.cause, "blind": causes.blind}
         arrays |= {"cause_figure": causes.figure, "cause_allowed": causes.allowed}
         _write_arrays(new / ARRAYS, arrays)
@@ -46,7 +46,7 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
         write_json(new / JSON, comparison.to_dict())
 
 
-def _write_arrays(path: Path, arrays: dict[str, NDArray]) -> None:
+def _write_arrays(path: Path, arrays: Mapping[str, Array]) -> None:
     """Write what `numpy.savez_compressed` does, a few per cent larger in less time."""
     with ZipFile(path, "w", ZIP_DEFLATED, compresslevel=1) as stored:
         for name, values in arrays.items():
@@ -54,7 +54,7 @@ def _write_arrays(path: Path, arrays: dict[str, NDArray]) -> None:
                 np.lib.format.write_array(file, values, allow_pickle=False)
 
 
-def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
+def difference_picture(comparison: Comparison) -> Colors:
     """Return the map of causes over the dimmed traced picture, (h, w, 4) linear RGBA."""
     return cause_map(comparison.frame.color, comparison.causes.cause)
 
@@ -63,8 +63,8 @@ def difference_picture(comparison: Comparison) -> NDArray[np.float32]:
 def failure_written(directory: str | Path) -> Iterator[None]:
     """Write a `comparison.json` that says why there is no comparison, if what is done here fails.
 
-    The results of an earlier run are removed: they would pass for this run's. What has no
-    `comparison.json` beside it is none, and stays.
+    The results of an earlier run are removed, as they would pass for this run's. Files of the same
+    names without a `comparison.json` beside them are no results, and stay.
     """
     try:
         yield

@@ -1,4 +1,4 @@
-"""Several engines against one certified picture -> a table, and `engines.json`."""
+"""Writes the table and `engines.json` of several engines against one certified picture."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def write(directory: str | Path, rows: Sequence[EngineRow]) -> None:
 
 
 def lines(rows: Sequence[EngineRow]) -> list[str]:
-    """Return the table of the engines; and of each the first pixels that differ, and its checks."""
+    """Return the table of the engines, the first pixels of each that differ, and its checks."""
     out = columns([_HEAD, *map(_cells, rows)], left=(0, 6), gap=" ", least=_WIDTHS)
     for row in rows:
         for w in row.wrong[:_NAMED]:

@@ -1,8 +1,9 @@
-"""The pictures of numerical stability: where methods break, sweeps, and maps of two scales."""
+"""Draws numerical stability: where methods break, sweeps, and maps of two scales."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 
@@ -11,10 +12,21 @@ from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, writte
 from ..study.scenarios.sweeps import BY_NAME, Map
 from ..tracer.settings import Precision
 from . import plots
-from .tables import STUDIES, percent
+from .tables import percent
 
-_SAID = STUDIES["extremes"]["pictures"]
-# Of the sweeps: without the literal textbook, which loses half of all rays and hides the others.
+BREAKING = "Where each method breaks: the first scale at which a ray is missed or wrong"
+_EARLY = "the first scale at which rays are lost: dark where it is early"
+_HOLDS = "at no scale is a ray lost. (ulp: the distance from one float64 number to the next.)"
+_DOUBLED = (
+    "no ray is lost, but at some scale a ray crosses more triangles than there are. "
+    "A + in other cells: that, too"
+)
+_LOST = "Rays that are missed or see the wrong surface"
+_NESTED = (
+    "Lines that cover one another are drawn one inside the other. The literal textbook is left "
+    "out: it loses rays from the first scale of nearly all."
+)
+# The methods of the sweeps: the literal textbook loses half of all rays and would hide the others.
 SWEPT = tuple(m for m in MEASURED if m is not Method.TEXTBOOK_LITERAL)
 ACROSS = 4  # sweeps beside one another
 NEVER = "#d9eedd"  # of a cell or a map where nothing goes wrong
@@ -23,7 +35,9 @@ UNSEEN = "#dddddd"  # where rounding has left nothing to see
 _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 _RAMP = (255, 248, 190), (253, 190, 84), (226, 48, 34), (126, 0, 38)  # from few to all, in sRGB
 # Of lines that cover one another, each shows inside the one before: width, radius of its marks.
-_NESTED = {method: (10 * 0.6**k, 9 * 0.75**k) for k, method in enumerate(SWEPT)}
+_THIN: dict[Method, tuple[float, float]] = {
+    method: (10 * 0.6**k, 9 * 0.75**k) for k, method in enumerate(SWEPT)
+}
 
 
 def breaking_picture(rows: Sequence[ExtremesRow]) -> str:
@@ -35,7 +49,7 @@ def breaking_picture(rows: Sequence[ExtremesRow]) -> str:
     columns = list(dict.fromkeys((p.method, p.precision) for p in points))
     left, top, high = 660, 150, 50
     wide, below = (plots.WIDTH - left - 10) / len(columns), top + high * len(sweeps)
-    out = plots.text((20, 32), _SAID["breaking"], 30)
+    out = plots.text((20, 32), BREAKING, 30)
     for k, (method, precision) in enumerate(columns):
         x, words = left + (k + 0.5) * wide, Method(method).record.words
         words = words.replace(" ", "\n").replace("–", "–\n")
@@ -48,11 +62,11 @@ def breaking_picture(rows: Sequence[ExtremesRow]) -> str:
             x = left + wide * columns.index((p.method, p.precision))
             said = _point(p, list(dict.fromkeys(r.scale for r in sweep)))
             out += _cell((x + 3, y + 2, wide - 6, high - 4), *said)
-    key = ("1e5", _color(0.3), "early"), ("never", NEVER, "holds"), ("never +", DOUBLED, "doubled")
+    key = ("1e5", _color(0.3), _EARLY), ("never", NEVER, _HOLDS), ("never +", DOUBLED, _DOUBLED)
     for y, (words, color, meaning) in zip(range(below + 20, below + 130, 34), key, strict=False):
         out += _cell((15, y, 100, 29), words, color, _INKS.get(color, plots.INK), 19)
-        out += plots.text((130, y + 14.5), _SAID[meaning], 19, plots.GREY)
-    return plots.picture(plots.WIDTH, below + 130, _SAID["breaking"], _SAID["early"], out)
+        out += plots.text((130, y + 14.5), meaning, 19, plots.GREY)
+    return plots.picture(plots.WIDTH, below + 130, BREAKING, _EARLY, out)
 
 
 def _point(point: BreakingPoint, sweep: list[float]) -> tuple[str, str, str]:
@@ -66,7 +80,7 @@ def _point(point: BreakingPoint, sweep: list[float]) -> tuple[str, str, str]:
     return words + " +" * (point.doubled is not None), color, ink
 
 
-def _cell(box: tuple[float, ...], words: str, color: str, ink: str, size: float = 22) -> str:
+def _cell(box: plots.Box, words: str, color: str, ink: str, size: float = 22) -> str:
     x, y, width, height = box
     middle = x + width / 2, y + height / 2
     return plots.cell(*box, color) + plots.text(middle, words, size, ink, "middle")
@@ -101,20 +115,24 @@ def sweeps_picture(sweeps: Sequence[Sequence[ExtremesRow]], page: str = "") -> s
     """Return small multiples: of each scenario the share of lost rays over the scale."""
     wide, high = plots.WIDTH / ACROSS, 360
     height = 170 + high * -(-len(sweeps) // ACROSS)
-    title = f"{_SAID['lost']}{page and f' ({page})'}"
-    out = plots.text((20, 28), title, 27) + plots.text((20, 66), _SAID["nested"], 19, plots.GREY)
+    title = f"{_LOST}{page and f' ({page})'}"
+    out = plots.text((20, 28), title, 27) + plots.text((20, 66), _NESTED, 19, plots.GREY)
     for k, rows in enumerate(sweeps):
         left, top = wide * (k % ACROSS) + 85, high * (k // ACROSS) + 155
         out += _sweep((left, top, wide - 115, high - 160), rows)
-    entries = {m.record.words: _sample(m.record.color, *sizes) for m, sizes in _NESTED.items()}
-    entries |= {p: _sample(plots.GREY, 4, 6, p == "float32") for p in Precision}
+    entries = {m.record.words: _series(m, Precision.FLOAT64).sample for m in SWEPT}
+    entries |= {
+        p: plots.Series(plots.GREY, (), p is Precision.FLOAT32, 6, 4).sample for p in Precision
+    }
     out += plots.legend(entries, height - 30)
-    return plots.picture(plots.WIDTH, height, title, _SAID["nested"], out)
+    return plots.picture(plots.WIDTH, height, title, _NESTED, out)
 
 
-def _sample(color: str, width: float, radius: float, hollow: bool = False) -> str:
-    drawn = plots.line([(-20, 0), (20, 0)], color, width, hollow)
-    return drawn + plots.mark((0, 0), radius, color, hollow)
+def _series(
+    method: Method, precision: Precision, points: Sequence[tuple[float, float, str]] = ()
+) -> plots.Series:
+    width, radius = _THIN[method]
+    return plots.Series(method.record.color, points, precision is Precision.FLOAT32, radius, width)
 
 
 def _steps(scales: Sequence[float]) -> plots.Scale:
@@ -122,21 +140,25 @@ def _steps(scales: Sequence[float]) -> plots.Scale:
     return plots.Scale(-0.5, len(scales) - 0.5, {k: written(s) for k, s in enumerate(scales)})
 
 
-def _sweep(box: tuple[float, ...], rows: Sequence[ExtremesRow]) -> str:
+def _sweep(box: plots.Box, rows: Sequence[ExtremesRow]) -> str:
     """Draw one scenario."""
     name, scales = rows[0].scenario, list(dict.fromkeys(r.scale for r in rows))
     shown = [r for r in rows if r.method in SWEPT]
     percents = plots.Scale(0, 100, {v: f"{v} %" for v in (0, 50, 100)})
     axes = plots.Axes(*box, _steps(scales), percents)
     out = axes.drawn(_title(name), scale_of(name), small=True)
-    for method, (width, radius) in _NESTED.items():
-        for p in Precision:
-            some = [r for r in shown if (r.method, r.precision) == (method, p)]
-            at = [axes.at(scales.index(r.scale), 100 * r.share) for r in some]
-            out += plots.line(at, method.record.color, width, p == "float32")
-            for r, place in zip(some, at, strict=True):
-                title = f"{method.record.words}, {p}, {written(r.scale)}: {percent(r.share)} %"
-                out += plots.mark(place, radius, method.record.color, p == "float32", title)
+    for method, p in product(SWEPT, Precision):
+        said = f"{method.record.words}, {p}, "
+        points = [
+            (
+                scales.index(r.scale),
+                100 * r.share,
+                f"{said}{written(r.scale)}: {percent(r.share)} %",
+            )
+            for r in shown
+            if (r.method, r.precision) == (method, p)
+        ]
+        out += plots.chart(axes, [_series(method, p, points)])
     if not any(r.lost for r in shown):
         most = max(r.doubled / r.rays for r in shown)
         note = "no ray is lost"
@@ -171,7 +193,7 @@ def _is_grey(row: ExtremesRow) -> bool:
     return not (row.seen or row.lost)
 
 
-def _heat(box: tuple[float, ...], rows: Sequence[ExtremesRow]) -> str:
+def _heat(box: plots.Box, rows: Sequence[ExtremesRow]) -> str:
     """Draw the map of one method."""
     scales, others = (
         list(dict.fromkeys(getattr(r, of) for r in rows)) for of in ("scale", "across")

@@ -1,4 +1,4 @@
-"""Rows of numerical stability -> tables, `extremes.json` and pictures."""
+"""Shows the study of numerical stability: as tables, as `extremes.json` and as pictures."""
 
 from __future__ import annotations
 
@@ -14,13 +14,28 @@ from ..study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS, Map, Scenario
 from . import extreme_plots
 from .extreme_plots import by_scenario, scale_of
 from .folders import finite, replacing, write_json
-from .tables import STUDIES, columns, percent
+from .tables import columns, percent
 
 SCHEMA = "reference_tracer.extremes/1"
 TABLE, JSON = "extremes.txt", "extremes.json"
 PANELS = 12  # sweeps of one picture
 
-_SAID = STUDIES["extremes"]
+_LOST = "Rays missed or wrong, in percent; + rays that cross more triangles than there are"
+_FIRST = "First scale at which a ray is missed or wrong; + at which one crosses too many; . never"
+_LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
+_UNITS = {  # what the numbers of a row are, for the reader of the JSON
+    "rays": "rays of the scene; the counts below are of rays",
+    "seen": "rays whose certified ray sees a surface",
+    "missed": "the certified ray sees a surface, the method none",
+    "wrong": "the method sees another surface, or one where there is none",
+    "order": "those of the wrong that see what is truly crossed, but is not the nearest",
+    "doubled": "the method crosses more triangles than the certified ray does",
+    "refused": "triangles and rays that are not finite in this precision",
+    "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
+    "exact": "share of the pairs of a ray and a triangle that integer arithmetic decided",
+    "judged": "rays that an independent oracle in integers decided, with every triangle",
+    "across": "the second scale, of a row of a map",
+}
 _SHORT = {m.value: m.record.short for m in MEASURED}
 _WIDTH = 12  # of a column of the tables
 
@@ -39,7 +54,7 @@ def table(rows: Sequence[ExtremesRow]) -> str:
         by = {(r.scale, r.method, r.precision): r for r in sweep}
         for scale in dict.fromkeys(r.scale for r in sweep):
             lines.append([written(scale), *(_lost(by.get((scale, *m))) for m in methods)])
-    return _text(_SAID["lost"], methods, lines, (_WIDTH,))
+    return _text(_LOST, methods, lines, (_WIDTH,))
 
 
 def _shown(rows: Sequence[ExtremesRow] | Sequence[BreakingPoint]) -> list[tuple[str, str]]:
@@ -55,12 +70,12 @@ def _text(
     least: Sequence[int],
     left: Sequence[int] = (),
 ) -> str:
-    """Return a table whose last columns are the methods'; `least` and `left` are of the others."""
+    """Return a table that ends with the methods' columns; `least`, `left` are for the others."""
     empty = [""] * len(least)
     names = [*empty, *(_SHORT.get(method, method) for method, _ in methods)]
     head = names, [*empty, *(precision for _, precision in methods)]
     widths = [*least, *[_WIDTH] * len(methods)]
-    return "\n".join([title, _SAID["literal"], "", *columns([*head, *lines], left, least=widths)])
+    return "\n".join([title, _LITERAL, "", *columns([*head, *lines], left, least=widths)])
 
 
 def _lost(row: ExtremesRow | None) -> str:
@@ -84,7 +99,7 @@ def breaking_table(rows: Sequence[ExtremesRow]) -> str:
         cells = (_first_scale(by.get((name, *m))) for m in methods)
         lines.append([name, scales.get(name, ""), *cells])
     least = 18, 2 + max(map(len, scales.values()))
-    return _text(_SAID["first"], methods, lines, least, left=(0, 1))
+    return _text(_FIRST, methods, lines, least, left=(0, 1))
 
 
 def _first_scale(point: BreakingPoint | None) -> str:
@@ -97,7 +112,7 @@ def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
     """Return what `extremes.json` holds."""
     return {
         "schema": SCHEMA,
-        "units": _SAID["units"],
+        "units": _UNITS,
         "scenarios": [_about(s) | {"scale": s.scale_name, "unit": s.unit} for s in SCENARIOS],
         "maps": [
             _about(m) | {"scale": m.rows[0].scale_name, "across": m.across_name} for m in MAPS

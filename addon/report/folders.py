@@ -1,4 +1,4 @@
-"""Files that are complete or absent: an interruption leaves no half result, and no mixed one.
+"""Writes files that are complete or absent: an interruption leaves no half or mixed result.
 
 Results are written in a temporary folder, and moved to their names at the end.
 """
@@ -19,9 +19,9 @@ _PREFIX = ".reftrace-"  # of the folder beside the results in which they are wri
 
 
 def make(directory: Path) -> list[Path]:
-    """Make a folder before the work whose results it takes, and test that it can be written.
+    """Make the folder for results before the work begins, and test that it can be written.
 
-    Return the folders that were not there, the innermost first.
+    Returns the folders that were not there, the innermost first.
 
     Raises
     ------

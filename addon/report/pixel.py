@@ -1,4 +1,4 @@
-"""The derivation of a pixel, as a file or to be printed: what `explain` gives."""
+"""Writes the derivation of a pixel to a file, or returns it to be printed: for `explain`."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from . import folders
 
 
 def write(pixel: Pixel, out: Path | None = None, again: Path | None = None) -> str:
-    """Derive a pixel, and write it to `out` by that file's ending; return what is to be printed.
+    """Derive a pixel, and write it to `out` by that file's ending; return the text to print.
 
-    That is the derivation as Markdown, without `out`. To `again` goes the pixel's own JSON, from
-    which it can be derived without the scene.
+    Without `out` that text is the derivation as Markdown. `again` is where the pixel's own JSON
+    goes, from which it can be derived without the scene.
     """
     derivation = derive_pixel(pixel)
     if again:

@@ -1,7 +1,7 @@
-"""What all plots share: elements of SVG, scales with round numbers, axes, marks and words.
+"""Draws plots as SVG: scales with round numbers, axes, marks, lines and words.
 
-A plot is text that every browser draws, without a library. What draws returns elements of it, in
-pixels, y down. No font is known here: the widths of words are estimated.
+A plot is text that every browser draws, without a library. Each function returns elements of it, in
+pixels, y down. No font is known here, so the widths of words are estimated.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ LARGE, SMALL = (32.0, 27.0, 23.0), (22.0, 19.0, 17.0)
 INK, GREY, FAINT = "#222222", "#707070", "#c8c8c8"
 
 _LETTER, _WIDE = 0.64, 1.0  # widths in sizes of the font, with room: of a letter; of an ideograph
-_SHARP = {"shape_rendering": "crispEdges"}  # no seam between cells that touch
 _LINE = 1.25  # from one line of words to the next, in sizes of the font
 _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 Place = tuple[float, float]
+Box = tuple[float, float, float, float]  # left, top, width, height
 
 
 def element(name: str, *inside: str, **attributes: str | float) -> str:
@@ -43,8 +43,17 @@ def picture(width: float, height: float, title: str, about: str, inside: str) ->
     """Return a whole white picture; its title and what it is about are for those who hear it."""
     head = said("title", title), said("desc", about)
     paper = element("rect", width=width, height=height, fill="white")
-    style = {"viewBox": f"0 0 {width:g} {height:g}", "role": "img", "font_family": "sans-serif"}
-    return element("svg", *head, paper, inside, xmlns="http://www.w3.org/2000/svg", **style) + "\n"
+    drawn = element(
+        "svg",
+        *head,
+        paper,
+        inside,
+        xmlns="http://www.w3.org/2000/svg",
+        viewBox=f"0 0 {width:g} {height:g}",
+        role="img",
+        font_family="sans-serif",
+    )
+    return drawn + "\n"
 
 
 def width_of(words: str, size: float) -> float:
@@ -56,50 +65,77 @@ def width_of(words: str, size: float) -> float:
 def text(
     at: Place, words: str, size: float, color: str = INK, anchor: str = "start", **more: str
 ) -> str:
-    """Return lines of words whose middle is where `at` says, and which start there (or end)."""
+    """Return lines of words with their middle at a place, where they start (or end)."""
     lines = words.split("\n")
-    style = {"font_size": size, "fill": color, "text_anchor": anchor, **more}
-    x, y = (
-        at[0],
-        at[1] + size * (0.35 - _LINE * (len(lines) - 1) / 2),
-    )  # 0.35: down to a letter's foot
+    x, middle = at
+    foot = middle + size * (0.35 - _LINE * (len(lines) - 1) / 2)  # of the first line's letters
     return "".join(
-        said("text", words, x=x, y=y + _LINE * size * k, **style)
+        said(
+            "text",
+            words,
+            x=x,
+            y=foot + _LINE * size * k,
+            font_size=size,
+            fill=color,
+            text_anchor=anchor,
+            **more,
+        )
         for k, words in enumerate(lines)
         if words
     )
 
 
 def turned(at: Place, words: str, size: float, degrees: float, anchor: str) -> str:
-    """Return a line of words that is turned about where it is."""
-    return text(
-        at, words, size, INK, anchor, transform="rotate({:g} {:.2f} {:.2f})".format(degrees, *at)
-    )
+    """Return a line of words that is turned about its place."""
+    turn = "rotate({:g} {:.2f} {:.2f})".format(degrees, *at)
+    return text(at, words, size, INK, anchor, transform=turn)
 
 
 def mark(
-    at: Place, radius: float, color: str, hollow: bool = False, title: str = "", **more: float
+    at: Place, radius: float, color: str, hollow: bool = False, title: str = "", opacity: float = 1
 ) -> str:
     """Return a round mark, which says its title where it is pointed at."""
-    place = {"cx": at[0], "cy": at[1], "r": radius}
-    style = {"fill": "white" if hollow else color, "stroke": color, "stroke_width": 0.3 * radius}
-    return element("circle", said("title", title) if title else "", **place, **style | more)
+    x, y = at
+    return element(
+        "circle",
+        said("title", title) if title else "",
+        cx=x,
+        cy=y,
+        r=radius,
+        fill="white" if hollow else color,
+        stroke=color,
+        stroke_width=0.3 * radius,
+        opacity=opacity,
+    )
 
 
 def line(
     places: Sequence[Place], color: str, width: float, dotted: bool = False, opacity: float = 1
 ) -> str:
     """Return a line through places."""
-    points = " ".join(f"{x:.2f},{y:.2f}" for x, y in places)
-    style = {"stroke": color, "stroke_width": width, "fill": "none", "opacity": opacity}
-    dashes = {"stroke_dasharray": f"{1.2 * width:g}"} if dotted else {}
-    return element("polyline", points=points, **style, **dashes)
+    return element(
+        "polyline",
+        points=" ".join(f"{x:.2f},{y:.2f}" for x, y in places),
+        stroke=color,
+        stroke_width=width,
+        fill="none",
+        opacity=opacity,
+        stroke_dasharray=f"{1.2 * width:g}" if dotted else "none",
+    )
 
 
 def cell(x: float, y: float, width: float, height: float, color: str, title: str = "") -> str:
     """Return a coloured rectangle, which says its title where it is pointed at."""
-    place = {"x": x, "y": y, "width": width, "height": height}
-    return element("rect", said("title", title) if title else "", **place, fill=color, **_SHARP)
+    return element(
+        "rect",
+        said("title", title) if title else "",
+        x=x,
+        y=y,
+        width=width,
+        height=height,
+        fill=color,
+        shape_rendering="crispEdges",  # no seam between cells that touch
+    )
 
 
 class Scale(NamedTuple):
@@ -112,9 +148,9 @@ class Scale(NamedTuple):
 
     def share(self, value: float) -> float:
         """Return where a number is: 0 at the low end, 1 at the high one."""
-        at = (value, self.low, self.high)
-        value, low, high = map(math.log, at) if self.log else at
-        return (value - low) / (high - low)
+        if self.log:
+            return math.log(value / self.low) / math.log(self.high / self.low)
+        return (value - self.low) / (self.high - self.low)
 
 
 def linear(low: float, high: float) -> Scale:
@@ -181,6 +217,52 @@ class Axes(NamedTuple):
             out.append(text((left - 12, at), words, of_ticks, anchor="end"))
         sides = [(left, self.top), (left, bottom), (right, bottom)]
         return "".join(out) + line(sides, FAINT, 1.5)
+
+
+class Series(NamedTuple):
+    """Points of one colour, joined by a line if it has a width."""
+
+    color: str
+    points: Sequence[tuple[float, float, str]]  # numbers along x and y, and what a point is
+    hollow: bool = False  # hollow marks, a dotted line
+    radius: float = 9
+    width: float = 0
+    opacity: float = 1
+
+    @property
+    def sample(self) -> str:
+        """A mark on a piece of the line, about (0, 0), for the legend."""
+        drawn = line([(-20, 0), (20, 0)], self.color, self.width, self.hollow) if self.width else ""
+        return drawn + mark((0, 0), self.radius, self.color, self.hollow)
+
+
+def chart(axes: Axes, series: Iterable[Series]) -> str:
+    """Return series drawn over axes, the later ones over the earlier; a point says what it is."""
+    out = ""
+    for s in series:
+        places = [axes.at(x, y) for x, y, _ in s.points]
+        if s.width:
+            out += line(places, s.color, s.width, s.hollow)
+        for at, (*_, words) in zip(places, s.points, strict=True):
+            out += mark(at, s.radius, s.color, s.hollow, words, s.opacity)
+    return out
+
+
+def named(axes: Axes, names: Mapping[str, Place]) -> str:
+    """Return names in a column to the right of axes, each joined to its place by a thin line."""
+    if not names:
+        return ""
+    step = min(34.0, axes.height / len(names))
+    left = axes.left + axes.width + 40
+    middle = sum(y for _, y in names.values()) / len(names)
+    half = step * len(names) / 2
+    top = min(max(middle, axes.top + half), axes.top + axes.height - half) - half
+    out = ""
+    for k, (words, at) in enumerate(sorted(names.items(), key=lambda n: (n[1][1], -n[1][0]))):
+        beside = left, top + step * (k + 0.5)
+        out += line([at, (left - 6, beside[1])], GREY, 1.2, opacity=0.5)
+        out += text(beside, words, 0.72 * step)
+    return out
 
 
 def legend(entries: Mapping[str, str], y: float, size: float = LARGE[2]) -> str:

@@ -1,16 +1,9 @@
-"""Cells -> the lines of a text table, for a terminal or a file; and numbers as its cells.
-
-`studies.toml` is what is said of the studies' numbers, in their tables, JSON and pictures.
-"""
+"""Writes rows of cells as the lines of a text table, for a terminal or a file."""
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Collection, Sequence
 from itertools import zip_longest
-from pathlib import Path
-
-STUDIES = tomllib.loads(Path(__file__).with_name("studies.toml").read_text(encoding="utf-8"))
 
 
 def columns(

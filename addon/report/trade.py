@@ -1,58 +1,64 @@
-"""A `Trade` -> a table, `tradeoff.json`, and the plot of time against error.
-
-The plot shows time against wrong pixels, and time against coverage error.
-"""
+"""Shows a trade: as a table, as `tradeoff.json`, and as plots of time against error."""
 
 from __future__ import annotations
 
+import math
 import textwrap
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..methods import MEASURED, Method
-from ..study.trade import Trade, TradeRow
+from ..study.trade import COLUMNS, Column, Trade, TradeRow
 from ..tracer.settings import Precision
 from . import plots
 from .folders import finite, replacing, write_json
-from .tables import STUDIES, columns
+from .tables import columns
 
 SCHEMA = "reference_tracer.tradeoff/1"
 TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.svg"
 
-_SAID = STUDIES["tradeoff"]
-_HEAD = (
-    *("method", "precision", "seconds", "(min - max)"),
-    *("wrong pixels  ", "t error, m", "MiB", "coverage  "),
-)
-_NAME = 25.0  # size of a name's letters
-# Where a name may be, in pixels from what it names; the first that is free.
-_PLACES = [(x, y) for y in (0, 27, -27, 54, -54) for x in (27, -27)]
+_NOTE = """
+
+* no other row beats it, as far as the rounds agree on which is faster: beside wrong
+  pixels, in time and wrong pixels, of the same size; beside coverage, in time and
+  coverage, of all. Coverage is the root mean square of RGBA's difference from
+  {k} x {k} rays a pixel at the largest size.
+"""
 
 
 def table(trade: Trade) -> str:
     """Return the rows as text, a block for each size; a star marks those that no other beats."""
-    counts = [(f"{r.wrong_pixels:,}", f"({r.wrong_pixels / r.pixels:.2%})") for r in trade.rows]
     blocks: dict[str, list[list[str]]] = {}
-    for r, wrong in zip(trade.rows, columns(counts, left=(), gap=" "), strict=True):
+    for r in trade.rows:
         rays = "one ray" if r.samples == 1 else f"{r.samples} x {r.samples} rays"
         title = f"{r.width} x {r.height} pixels, {rays} each"
-        blocks.setdefault(title, []).append(_cells(r, wrong))
+        cells = (c.shown(r, wide=True) for c in COLUMNS)
+        blocks.setdefault(title, []).append([r.method, r.precision, *cells])
     lines = [line for title, rows in blocks.items() for line in ("", title, *rows)]
-    note = _SAID["note"].format(k=trade.converged)
-    return "\n".join([*columns([_HEAD, *lines], left=(0, 1, 3), gap=" "), note, trade.advice])
+    head = ["method", "precision", *(c.head + "  " * bool(c.best) for c in COLUMNS)]
+    note = _NOTE.format(k=trade.converged)
+    return "\n".join([*columns([head, *lines], left=(0, 1, 3), gap=" "), note, trade.advice])
 
 
-def _cells(r: TradeRow, wrong: str) -> list[str]:
-    pixels, coverage = (" *" if best else "  " for best in (r.best_pixels, r.best_coverage))
-    t_error = "-" if r.largest_t_error is None else f"{r.largest_t_error:.1e}"
-    return [
-        *(r.method, r.precision, f"{r.seconds:.4f}", f"({r.fastest:.4f} - {r.slowest:.4f})"),
-        *(wrong + pixels, t_error, f"{r.peak_bytes / 2**20:.1f}"),
-        f"{r.coverage_error:.4f}{coverage}",
-    ]
+def page_table(trade: Trade) -> dict[str, Any]:
+    """Return the table that the page shows: its head, and the cells of each row."""
+    return {
+        "head": ["method", "precision", "picture", *(c.head for c in COLUMNS)],
+        "rows": [
+            [
+                Method(r.method).record.words,
+                r.precision,
+                r.size,
+                *(c.shown(r, " ★") for c in COLUMNS),
+            ]
+            for r in trade.rows
+        ],
+    }
+
+
+def _page_row(r: TradeRow) -> list[str]:
+    name = Method(r.method).record.words
+    return [name, r.precision, r.size, *(c.shown(r, " ★") for c in COLUMNS)]
 
 
 def to_dict(trade: Trade) -> dict[str, Any]:
@@ -62,7 +68,7 @@ def to_dict(trade: Trade) -> dict[str, Any]:
         "scene": trade.scene,
         "advice": trade.advice,
         "converged_samples": trade.converged,
-        "units": _SAID["units"],
+        "units": {c.name: c.unit for c in COLUMNS if c.unit},
         "rows": [_row(r) for r in trade.rows],
     }
 
@@ -70,7 +76,7 @@ def to_dict(trade: Trade) -> dict[str, Any]:
 def _row(r: TradeRow) -> dict[str, Any]:
     held = vars(r) | {"fastest": r.fastest, "slowest": r.slowest, "best": r.best}
     del held["rounds"]
-    return held | {n: finite(held[n]) for n in ("largest_t_error", "coverage_error")}
+    return {name: finite(v) if isinstance(v, float) else v for name, v in held.items()}
 
 
 def write(directory: str | Path, trade: Trade) -> None:
@@ -90,122 +96,88 @@ def write(directory: str | Path, trade: Trade) -> None:
 def pictures(trade: Trade) -> dict[str, str]:
     """Return the name and the SVG of the one picture that there is.
 
-    Wrong pixels are those of the methods side by side, coverage errors those of all rows. A line
-    joins what no other row beats.
+    Above, the wrong pixels of the methods side by side; below, the coverage error of all rows. In
+    both a line joins the rows that no other beats.
     """
-    said, room = f"{trade.scene or 'Trade'}: {trade.advice}", plots.WIDTH - 40
-    headlines = ("\n".join(textwrap.wrap(said, letters)) for letters in range(104, 0, -1))
-    headline = next(lines for lines in headlines if plots.width_of(lines, 28) <= room)
-    height = 35 * (1 + headline.count("\n"))
-    top = 130 + height
+    headline = textwrap.fill(f"{trade.scene or 'Trade'}: {trade.advice}", 100)
+    size = 28 * min(1.0, (plots.WIDTH - 40) / plots.width_of(headline, 28))
+    room = 35 * (1 + headline.count("\n"))
+    high = (plots.HEIGHT - 340 - room) / 2
+    first, k = trade.whole[0], trade.converged
+    pixels, coverage = (c for c in COLUMNS if c.best)
+    inside = plots.text((20, 15 + room / 2), headline, size)
+    inside += _against(
+        f"Time against wrong pixels: {first.width} × {first.height} pixels, one ray each",
+        (190, 75 + room, 1080, high),
+        pixels,
+        {f"{_name(r)}{_found(r)}": r for r in trade.whole if r.best_pixels or not r.wrong_pixels},
+        trade.whole,
+    )
+    fastest_first = sorted(trade.rows, key=lambda r: r.seconds, reverse=True)
+    inside += _against(
+        f"Time against coverage error: RMS of RGBA, against {k} × {k} rays a pixel",
+        (190, 215 + room + high, 1080, high),
+        coverage,
+        {r.size: r for r in fastest_first if r.best_coverage},
+        [r for r in trade.rows if math.isfinite(r.coverage_error)],
+    )
     entries = {m.record.words: plots.mark((0, 0), 13, m.record.color) for m in MEASURED}
     entries |= {p: plots.mark((0, 0), 13, plots.GREY, p == "float32") for p in Precision}
     entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
-    inside = plots.text((20, 15 + height / 2), headline, 28)
-    inside += _wrong_pixels(trade, (155, top, 790, plots.HEIGHT - 155 - top))
-    inside += _coverage(trade, (1105, top, 770, plots.HEIGHT - 155 - top))
     inside += plots.legend(entries, plots.HEIGHT - 30)
     title = "Time against wrong pixels, and time against coverage error, of every method"
     return {"tradeoff": plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, inside)}
 
 
-def _wrong_pixels(trade: Trade, box: tuple[float, ...]) -> str:
-    """Draw the methods side by side; those without a wrong pixel in a band, one below the other."""
-    rows, (_, _, width, height) = trade.whole, box
-    right = sorted((r for r in rows if not r.wrong_pixels), key=lambda r: r.seconds)
-    top = max(10.0, 4.0 * max(r.wrong_pixels for r in rows))
-    share = 34 * (len(right) + 1) / height  # of the height that the band has
-    low = top ** (share / (share - 1))
-    ticks = {low**0.55: "none", **{10**k: f"{10**k:,}" for k in range(int(np.log10(top)) + 1)}}
-    places = (low ** np.linspace(0.1, 1, len(right) + 2))[1:-1].tolist()
-    points = list(zip(right, places, strict=True))
-    points += [(r, r.wrong_pixels) for r in rows if r.wrong_pixels]
-    fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
-    log = slowest > 10 * fastest
-    start, end = 0.8 * fastest if log else 0.0, 1.1 * slowest
-    named = [(r, y) for r, y in points if r.best_pixels or not r.wrong_pixels]
-    for r, _ in named:  # room for its name
-        part = 1 - min(0.8, (plots.width_of(_name(r), _NAME) + 40) / width)
-        end = max(end, start * (r.slowest / start) ** (1 / part) if log else r.slowest / part)
-    x = plots.logarithmic(start, end) if log else plots.linear(start, end)
-    axes = plots.Axes(*box, x, plots.Scale(low, top, ticks, log=True))
-    title = f"Time against wrong pixels\n{rows[0].width} × {rows[0].height} pixels, one ray each"
-    (left, edge), (_, bottom) = axes.at(start, low**0.1), axes.at(start, low)
-    out = plots.cell(left, edge, width, bottom - edge, "#e6f2e6")
-    x_label = "seconds; the bar is from the fastest round to the slowest"
-    out += axes.drawn(title, x_label, "wrong pixels")
-    for r, y in points:
-        bar = axes.at(r.fastest, y), axes.at(r.slowest, y)
-        out += plots.line(bar, Method(r.method).record.color, 4, opacity=0.4)
-    names = {_name(r): axes.at(r.slowest, y) for r, y in named}
-    return out + _points(axes, points, "best_pixels", names)
-
-
 def _name(r: TradeRow) -> str:
+    return f"{Method(r.method).record.words}, {r.precision}"
+
+
+def _found(r: TradeRow) -> str:
     count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
-    return f"{Method(r.method).record.words}, {r.precision}{count}{', proven' * (r.method == 'certified')}"
+    return f"{count}{', proven' * (r.method == Method.CERTIFIED)}"
 
 
-def _coverage(trade: Trade, box: tuple[float, ...]) -> str:
-    """Draw all rows."""
-    points = [(r, r.coverage_error) for r in trade.rows if np.isfinite(r.coverage_error)]
-    points.sort(key=lambda p: (p[0].seconds, p[1]))
-    least, most = min(y for _, y in points), max(y for _, y in points)
-    y = (
-        plots.logarithmic(0.75 * least, 1.3 * most)
-        if least
-        else plots.linear(-0.1 * most, 1.1 * most or 1)
-    )
-    x = plots.logarithmic(0.85 * points[0][0].seconds, 1.25 * points[-1][0].seconds)
-    axes, k = plots.Axes(*box, x, y), trade.converged
-    title = f"Time against coverage error\nheld against {k} × {k} rays a pixel"
-    best = [(r, y) for r, y in reversed(points) if r.best_coverage]
-    names = {_size(r): axes.at(r.seconds, y) for r, y in best}  # each beside its fastest row
-    drawn = axes.drawn(title, "seconds", "root mean square of RGBA")
-    return drawn + _points(axes, points, "best_coverage", names)
-
-
-def _size(r: TradeRow) -> str:
-    rays = f", {r.samples} × {r.samples} rays" if r.samples > 1 else ""
-    return f"{r.width} × {r.height}{rays}"
-
-
-def _points(
-    axes: plots.Axes, points: list[tuple[TradeRow, float]], best: str, names: dict[str, plots.Place]
+def _against(
+    title: str, box: plots.Box, error: Column, names: dict[str, TradeRow], rows: list[TradeRow]
 ) -> str:
-    """Draw rows, names, and the line of the rows that no other beats; `best` is their field."""
-    places = [(getattr(r, best), axes.at(r.seconds, y), r) for r, y in points]
-    front = sorted(at for is_best, at, _ in places if is_best)
-    out = plots.line(front, plots.INK, 4)
-    for is_best, at, r in sorted(places, key=lambda p: p[0]):
-        wrong = f"{r.wrong_pixels:,} wrong pixels, coverage error {r.coverage_error:.4g}"
-        title = f"{Method(r.method).record.words}, {r.precision}, {_size(r)}: {r.seconds:.4g} s, {wrong}"
-        size, alpha = (14, 1.0) if is_best else (9, 0.7)
-        color, hollow = Method(r.method).record.color, r.precision == "float32"
-        out += plots.mark(at, size, color, hollow, title, opacity=alpha)
-    on_line = np.linspace(front[:-1], front[1:], 9).reshape(-1, 2).tolist()
-    return out + _named(axes, names, [*(at for _, at, _ in places), *on_line])
+    """Draw time against an error; the rows without one stand below the others, at "none"."""
+    found = [getattr(r, error.name) for r in rows if getattr(r, error.name)]
+    least = min(found, default=1.0)
+    most = max(1.4 * max(found, default=1.0), 2 * least)
+    none = 0.6 * least
+    y, right = {}, 0
+    for r in sorted(rows, key=lambda r: r.seconds):
+        y[r] = getattr(r, error.name)
+        if not y[r]:
+            y[r] = none * (none / most) ** (0.08 * right)  # beside one another they would overlap
+            right += 1
+    low = 0.8 * min(y.values())
+    ticks = dict(plots.logarithmic(least, most).ticks) if found else {}
+    if right:
+        ticks[math.sqrt(none * min(y.values()))] = "none"
+    fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
+    x = plots.logarithmic(0.9 * fastest, 1.1 * slowest)
+    axes = plots.Axes(*box, x, plots.Scale(low, most, ticks, log=True))
+    out = axes.drawn(title, "seconds; a bar is from the fastest round to the slowest", error.head)
+    for r in rows:
+        bar = axes.at(r.fastest, y[r]), axes.at(r.slowest, y[r])
+        out += plots.line(bar, Method(r.method).record.color, 4, opacity=0.4)
+    best = [r for r in rows if getattr(r, error.best)]
+    out += plots.line(sorted(axes.at(r.seconds, y[r]) for r in best), plots.INK, 4)
+    others = [r for r in rows if r not in best]
+    out += plots.chart(axes, [_mark(r, y[r], r in best) for r in others + best])
+    return out + plots.named(
+        axes, {n: axes.at(r.seconds, y[r]) for n, r in names.items() if r in y}
+    )
 
 
-def _named(axes: plots.Axes, names: dict[str, plots.Place], points: list[plots.Place]) -> str:
-    """Write names beside their points; leave out a name that would cover another."""
-    right, bottom = axes.left + axes.width, axes.top + axes.height
-    out, taken, half = "", [], 0.6 * _NAME
-    for words, (x, y) in names.items():
-        wide = plots.width_of(words, _NAME)
-        starts = [(x + dx - wide * (dx < 0), y + dy) for dx, dy in _PLACES]
-        boxes = [(left, y - half, left + wide, y + half) for left, y in starts]
-        boxes = [b for b in boxes if axes.left < b[0] and b[2] < right and b[3] < bottom]
-        free = [b for b in boxes if not _over(b, taken)]
-        if free:
-            box = min(free, key=lambda box: _over(box, [(*p, *p) for p in points]))
-            taken.append(box)
-            at, anchor = (box[0], "start") if box[0] > x else (box[2], "end")
-            out += plots.text((at, box[1] + half), words, _NAME, anchor=anchor)
-    return out
-
-
-def _over(box: Sequence[float], others: list[tuple[float, ...]]) -> int:
-    """Return how many others a box covers."""
-    left, top, right, bottom = box
-    return sum(left < o[2] and o[0] < right and top < o[3] and o[1] < bottom for o in others)
+def _mark(r: TradeRow, y: float, best: bool) -> plots.Series:
+    said = ", ".join(f"{c.head} {c.shown(r)}" for c in COLUMNS)
+    return plots.Series(
+        Method(r.method).record.color,
+        [(r.seconds, y, f"{_name(r)}, {r.size}: {said}")],
+        hollow=r.precision == Precision.FLOAT32,
+        radius=14 if best else 9,
+        opacity=1 if best else 0.7,
+    )

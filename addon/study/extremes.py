@@ -1,40 +1,39 @@
-"""Numerical stability: what each method makes of each scenario, against exact arithmetic.
+"""Finds what each method makes of each scenario, and the scale at which it breaks.
 
-In come scenarios; out go rows, one for each scale, method and precision, and the breaking points in
-them. The plain methods are held against the certified picture. What is certified is itself held
-against what it has no part in: the oracle, on a sample of the rays with every triangle; and, where
-it is known how often a ray must cross the scene's surfaces, even or odd, on all rays.
+The plain methods are held against the certified picture. The certified picture is held against what
+has no part in it: the oracle, on a sample of the rays with every triangle; and, where it is known
+whether a ray must cross the scene's surfaces an even or an odd number of times, all rays.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools
 from ..rendering import render
 from ..tracer.camera import Rays
-from ..tracer.candidates import Pairs
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.nearest import within_clip
 from ..tracer.progress import Work, result_of, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.triangle import TESTS
+from ..tracer.world import Pairs
 from .oracle import scene_sights
 from .scenarios.sweeps import ALL, Scenario
-from .truth import CERTIFIED, Truth, crossings, keys, pixel_rays, sample, truth_of
+from .truth import CERTIFIED, Truth, crossings, keys, largest_t_error, pixel_rays, sample, truth_of
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 
 
 @dataclass(frozen=True)
 class ExtremesRow:
-    """What a method in a precision makes of a scenario at a scale; counts are of rays."""
+    """What a method in a precision makes of a scenario at a scale; the counts are of rays."""
 
     scenario: str
     scale: float
@@ -43,11 +42,11 @@ class ExtremesRow:
     rays: int
     missed: int  # the certified ray sees a surface, the method nothing
     doubled: int  # the method says to cross more triangles than the certified ray does
-    # The method sees another surface than the certified one (and than its ties, where a ray meets
-    # an edge), or one where there is none.
+    # The method sees another surface than the certified one, or one where there is none. Where a
+    # ray meets an edge, all that the certified ray may be said to see is right.
     wrong: int
     refused: int  # triangles and rays that are not finite in this precision, and so are left out
-    order: int = 0  # of the wrong, those that see what is truly crossed, but is not the nearest
+    order: int = 0  # those of the wrong that see what is truly crossed, but is not the nearest
     # In ulp of the certified t (float64), over rays that see the same surface; None without one.
     # For the certified row, against the oracle's exact t: at most 1/2.
     largest_t_error: float | None = None
@@ -98,10 +97,14 @@ def breaking_points(rows: Sequence[ExtremesRow]) -> list[BreakingPoint]:
     for row in rows:
         if row.across is None:
             sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
-    ways = "missed", "wrong", "doubled", "lost"
+
+    def first(rows: list[ExtremesRow], count: str) -> float | None:
+        return next((r.scale for r in rows if getattr(r, count)), None)
+
+    counts = "missed", "wrong", "doubled", "lost"
     return [
-        BreakingPoint(*k, *(next((r.scale for r in rows if getattr(r, w)), None) for w in ways))
-        for k, rows in sweeps.items()
+        BreakingPoint(*name, *(first(some, count) for count in counts))
+        for name, some in sweeps.items()
     ]
 
 
@@ -172,7 +175,7 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     scene, camera = truth.frame.scene, truth.frame.scene.camera
     frame = render(scene, settings)
 
-    def test(rays: Rays, pairs: Pairs) -> NDArray[np.bool_]:
+    def test(rays: Rays, pairs: Pairs) -> Bools:
         hit, t, _ = TESTS[settings.method](rays, *pairs.corners)
         return hit & within_clip(camera, t)
 
@@ -181,45 +184,36 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
     found = frame.triangle_index.ravel() != NOTHING
     wrong = np.flatnonzero(off & found)
     names = frame.instance_index.flat[wrong], frame.triangle_index.flat[wrong]
-    return _row(
-        *(scenario, scale, settings, truth, frame),
+    return replace(
+        _row(scenario, scale, truth, frame, settings),
         missed=int((off & ~found).sum()),
         doubled=int((count > truth.count).sum()),
         wrong=len(wrong),
         order=int(np.isin(keys(scene, wrong, *names), truth.crossed).sum()),
-        largest_t_error=_largest_t_error(frame, truth.frame),
+        largest_t_error=largest_t_error(frame, truth.frame, in_ulp=True),
     )
 
 
 def _row(
-    scenario: Scenario, scale: float, settings: Settings, truth: Truth, frame: Frame, **found: Any
+    scenario: Scenario, scale: float, truth: Truth, frame: Frame, settings: Settings
 ) -> ExtremesRow:
-    """Return a row with what was found of a frame, and what all rows say alike."""
-    rays = pixel_rays(frame.scene.camera, settings.precision)
+    """Return a row with what all rows say alike, and no errors yet."""
+    precision = settings.precision
+    rays = pixel_rays(frame.scene.camera, precision)
     finite = np.isfinite(rays.origins).all(axis=0) & np.isfinite(rays.directions).all(axis=0)
     return ExtremesRow(
-        *(scenario.name, scale, settings.method.value, settings.precision.value),
+        scenario.name,
+        scale,
+        settings.method.value,
+        precision.value,
         rays=truth.count.size,
+        missed=0,
+        doubled=0,
+        wrong=0,
         refused=frame.statistics.refused + int((~finite).sum()),
         across=scenario.across,
         seen=int((truth.frame.instance_index != NOTHING).sum()),
-        **found,
     )
-
-
-def _largest_t_error(frame: Frame, certified: Frame) -> float | None:
-    same = (
-        (frame.instance_index == certified.instance_index)
-        & (frame.triangle_index == certified.triangle_index)
-        & np.isfinite(certified.t)
-    )
-    if not same.any():
-        return None
-    t, exact = frame.t[same], certified.t[same]
-    ulp = np.spacing(exact)
-    with np.errstate(over="ignore"):  # a plain t may be off by more ulp than there are doubles
-        errors = np.abs(t / ulp - exact / ulp)  # divided first: a difference may overflow, too
-    return float(errors.max())
 
 
 def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) -> ExtremesRow:
@@ -228,9 +222,9 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
     # That the nearest is one of all, and that none of all is missed, holds for every ray.
     missed, wrong = ~sees & (count > 0), sees & (count == 0)
     doubled = np.zeros(count.size, bool)
-    if scenario.odd is not None:  # which of the two it is can't be told
+    if scenario.odd is not None:  # nobody can tell whether such a ray missed or doubled a surface
         missed |= count % 2 != scenario.odd
-    worst = None
+    errors = []
     pixels = sample(frame, judged)
     for pixel, sight in zip(pixels.tolist(), scene_sights(frame.scene, pixels), strict=True):
         given = int(frame.instance_index.flat[pixel]), int(frame.triangle_index.flat[pixel])
@@ -240,15 +234,14 @@ def _certified_row(scenario: Scenario, scale: float, truth: Truth, judged: int) 
         doubled[pixel] = count[pixel] > sight.crossings
         if right and sight.t is not None:
             t = float(frame.t.flat[pixel])
-            error = abs(Fraction(t) - sight.t) / Fraction(float(np.spacing(t)))
-            worst = max(worst or 0.0, float(error))
+            errors.append(float(abs(Fraction(t) - sight.t) / Fraction(float(np.spacing(t)))))
     statistics = frame.statistics
-    return _row(
-        *(scenario, scale, CERTIFIED, truth, frame),
+    return replace(
+        _row(scenario, scale, truth, frame, CERTIFIED),
         missed=int(missed.sum()),
         doubled=int(doubled.sum()),
         wrong=int(wrong.sum()),
-        largest_t_error=worst,
+        largest_t_error=max(errors, default=None),
         exact=statistics.pairs_exact / statistics.pairs_tested if statistics.pairs_tested else 0.0,
         judged=len(pixels),
     )

@@ -1,14 +1,21 @@
-"""A ray that is really moved by less than anything can tell, in Python's integers.
+"""Moves a ray by less than anything can tell, in Python's integers.
 
 Where a stored ray meets an edge or two surfaces at once, the tracer's rule speaks of a ray that is
 moved infinitesimally, from d to d + (x, x^2, x^3). Here x is a power of two, 2^-k, with k above the
-digits of anything that occurs: a genuine ray, and what was not zero keeps its sign. What a ray
-begins on is zero however the ray turns, so the origin is moved alike, by a y that is as small
-beside all that. For triangles, with e1 = p2 - p1, e2 = p3 - p1, q = o - p1, P = d x e2, Q = q x e1,
+number of digits of all numbers that occur. So it is a real ray, and whatever was not zero keeps its
+sign. Where a ray begins on a surface, something stays zero however the ray turns, so the origin is
+moved alike, by a y that is as small beside all that.
+
+For triangles, with e1 = p2 - p1, e2 = p3 - p1, q = o - p1, P = d x e2, Q = q x e1,
 
     o + t d = p1 + u e1 + v e2:   det = e1 . P,  u det = q . P,  v det = d . Q,  t det = e2 . Q
 
-(Cramer's rule: Möller and Trumbore, 1997, before its division.)
+(Cramer's rule.)
+
+References
+----------
+T. Möller and B. Trumbore, "Fast, minimum storage ray-triangle intersection", 1997: the same before
+its division.
 """
 
 from __future__ import annotations
@@ -17,9 +24,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+from numpy.typing import NDArray
+
 from ..tracer.hits import NOWHERE, Name
 
-Vector = Sequence[Any]  # three integers, or three arrays of them
+Vector = Sequence[Any] | NDArray[Any]  # three integers, or three arrays of them
 THE_RULE: tuple[Vector, ...] = ((1, 0, 0), (0, 1, 0), (0, 0, 1))  # d + (x, x^2, x^3)
 
 
@@ -71,8 +80,7 @@ def moved(
 ) -> tuple[Vector, Vector, list[Surface]]:
     """Return o, d and the surfaces with the ray moved, all lengths times one power of two.
 
-    Unless the ray begins on one of them, to move o as well would change nothing but the time that
-    this takes.
+    o is moved only if the ray begins on one of them: otherwise it would change nothing.
     """
     beside = [v for s in surfaces for v in (*s.points, s.own_normal) if v is not None]
     begins = any(dot(sub(s.points[0], o), s.normal) == 0 for s in surfaces)
@@ -120,7 +128,7 @@ def _common(vectors: Sequence[Vector]) -> list[list[int]]:
     return [[int(x * scale) for x in v] for v in exact]
 
 
-def sub(a: Vector, b: Vector) -> list:
+def sub(a: Vector, b: Vector) -> list[Any]:
     """Return a - b."""
     return [x - y for x, y in zip(a, b, strict=True)]
 
@@ -130,6 +138,6 @@ def dot(a: Vector, b: Vector) -> Any:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def cross(a: Vector, b: Vector) -> list:
+def cross(a: Vector, b: Vector) -> list[Any]:
     """Return a x b."""
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]

@@ -1,10 +1,10 @@
-"""The exact oracle: what a ray sees, decided with Python's integers alone, without any rounding.
+"""Decides what a ray sees with Python's integers alone, without any rounding: the exact oracle.
 
-It is written apart from the tracer's own exact arithmetic: Cramer's rule in place of edge
-functions, every triangle with every ray in place of candidates, and a ray that is really moved (see
+It shares nothing with the tracer's own exact arithmetic: it uses Cramer's rule in place of edge
+functions, tests every triangle with every ray in place of candidates, and really moves a ray (see
 `moved_rays.py`) in place of a rule for signs that are zero. It takes the stored rays and the world
-vertices as they are: they are the scene. Every float is an integer times a power of two, so that
-all that is computed from them is an integer, too. A pair takes some ten microseconds.
+vertices as they are: they are the scene. Every float is an integer times a power of two, so all
+that is computed from them is an integer, too. A pair takes some ten microseconds.
 """
 
 from __future__ import annotations
@@ -17,11 +17,22 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Bools, Index
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
-from ..tracer.vector import transform_points
-from .moved_rays import THE_RULE, Surface, crosses, dot, in_integers, meet, moved, nearest_of_moved
+from ..tracer.vector import Vectors, transform_points
+from .moved_rays import (
+    THE_RULE,
+    Surface,
+    Vector,
+    crosses,
+    dot,
+    in_integers,
+    meet,
+    moved,
+    nearest_of_moved,
+)
 
 OUTSIDE, EDGE, INSIDE = -1, 0, 1
 AT_ONCE = 1 << 16  # pairs: some hundred MiB of integers
@@ -34,16 +45,16 @@ class Intersections:
     # Where the stored line passes: INSIDE, at the EDGE, or OUTSIDE, which is also a line that is
     # parallel to the triangle or lies in its plane.
     side: NDArray[np.int8]
-    hit: NDArray[np.bool_]  # whether the moved line meets the triangle
+    hit: Bools  # whether the moved line meets the triangle
     numerator: NDArray[np.object_]  # integers: t = numerator / denominator * 2^shift
     denominator: NDArray[np.object_]
-    shift: NDArray[np.int64]
+    shift: Index
 
-    def t(self, k: int) -> Fraction:
+    def t(self, k: int | np.integer) -> Fraction:
         """Return the t of a pair that is not OUTSIDE."""
         return Fraction(self.numerator[k], self.denominator[k]) * Fraction(2) ** int(self.shift[k])
 
-    def within(self, start: float = 0.0, end: float = np.inf) -> NDArray[np.bool_]:
+    def within(self, start: float = 0.0, end: float = np.inf) -> Bools:
         """Return which pairs meet at start <= t <= end; not at t = 0 where the ray begins there."""
         if start == 0 and end == np.inf:  # the sign says it
             return (self.side != OUTSIDE) & (self.numerator * self.denominator > 0)
@@ -57,17 +68,15 @@ def _within(t: Fraction, start: float, end: float) -> bool:
     return start <= t <= end and not t == start == 0
 
 
-def intersect_pairs(
-    origins: NDArray[np.float64], directions: NDArray[np.float64], corners: NDArray[np.float64]
-) -> Intersections:
+def intersect_pairs(origins: Vectors, directions: Vectors, corners: Vectors) -> Intersections:
     """Intersect n rays (3, n) and n triangles (3 corners, 3, n), pair by pair."""
     parts = []
     for at in range(0, corners.shape[2], AT_ONCE):
         part = slice(at, at + AT_ONCE)
         lengths, scale = scaled_integers(np.concatenate((origins[:, part], *corners[:, :, part])))
         d, direction_scale = scaled_integers(directions[:, part])
-        o, *points = lengths.reshape(4, 3, -1)
-        det, u, v, numerator = meet(o, d, *points)
+        o, p1, p2, p3 = lengths.reshape(4, 3, -1)
+        det, u, v, numerator = meet(o, d, p1, p2, p3)
         rest = det - u - v
         front = det > 0
         weights = [np.where(front, w, -w) for w in (u, v, rest)]
@@ -75,15 +84,15 @@ def intersect_pairs(
         inside = closed & np.all([w > 0 for w in weights], axis=0)
         hit = inside.copy()
         for k in np.flatnonzero(closed & ~inside):
-            origin, along, *own = ([int(x) for x in w[:, k]] for w in (o, d, *points))
-            origin, along, [surface] = moved(origin, along, [Surface(NOWHERE, own)], THE_RULE)
-            hit[k] = crosses(origin, along, surface)
+            origin, along, *own = ([int(x) for x in w[:, k]] for w in (o, d, p1, p2, p3))
+            o_moved, d_moved, [surface] = moved(origin, along, [Surface(NOWHERE, own)], THE_RULE)
+            hit[k] = crosses(o_moved, d_moved, surface)
         side = np.where(inside, INSIDE, np.where(closed, EDGE, OUTSIDE)).astype(np.int8)
         parts.append((side, hit, numerator, det, scale - direction_scale))
     return Intersections(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def scaled_integers(values: NDArray[np.float64]) -> tuple[NDArray[np.object_], NDArray[np.int64]]:
+def scaled_integers(values: Vectors) -> tuple[NDArray[np.object_], Index]:
     """Return floats (k, n) as integers and the exponent of each column: float = integer * 2^e."""
     mantissa, exponent = np.frexp(values)
     exponent = np.where(mantissa == 0, 5000, exponent.astype(np.int64))  # zero has none
@@ -107,18 +116,18 @@ class Crossing(NamedTuple):
 class Sight:
     """What one ray sees."""
 
-    origin: NDArray[np.float64]  # (3,)
-    direction: NDArray[np.float64]  # (3,)
+    origin: Vectors  # (3,)
+    direction: Vectors  # (3,)
     seen: Name  # what the ray that the rule moves sees first, NOWHERE for nothing
     t: Fraction | None  # where the stored ray meets it
     crossings: int  # how many surfaces the moved ray crosses within the clip range
-    # All that the textbook leaves open: what the closed triangles have nearest, and what they have
-    # at their edges before that.
+    # All surfaces that the textbook leaves open: the nearest that the closed triangles have, and
+    # those that the ray meets at an edge before it.
     front: tuple[Surface, ...]
     covered: bool  # whether something is seen however the ray is moved
 
 
-def scene_sights(scene: Scene, pixels: NDArray[np.integer] | None = None) -> list[Sight]:
+def scene_sights(scene: Scene, pixels: Index | None = None) -> list[Sight]:
     """Return what the rays through the pixels' centres see, row by row from the lowest.
 
     Parameters
@@ -134,7 +143,8 @@ def scene_sights(scene: Scene, pixels: NDArray[np.integer] | None = None) -> lis
     o, d = (np.broadcast_to(v, (3, len(x))) for v in (rays.origins, rays.directions))
     if pixels is not None:
         o, d = o[:, pixels], d[:, pixels]
-    names, corners = [], [np.zeros((3, 3, 0))]
+    names: list[Name] = []
+    corners: list[Vectors] = [np.zeros((3, 3, 0))]
     for i, instance in enumerate(scene.instances):
         mesh = scene.meshes[instance.mesh]
         with np.errstate(over="ignore", invalid="ignore"):
@@ -146,17 +156,16 @@ def scene_sights(scene: Scene, pixels: NDArray[np.integer] | None = None) -> lis
     numbered = enumerate(scene.planes, len(scene.instances))
     planes = [((k, NOTHING), plane.point, plane.normal) for k, plane in numbered]
     clip = camera.clip_start, camera.clip_end
-    return sights(o, d, np.concatenate(corners, axis=2), names, planes, *clip)
+    return sights(o, d, np.concatenate(corners, axis=2), names, planes, clip)
 
 
 def sights(
-    origins: NDArray[np.float64],
-    directions: NDArray[np.float64],
-    corners: NDArray[np.float64],
+    origins: Vectors,
+    directions: Vectors,
+    corners: Vectors,
     names: Sequence[Name] | None = None,
-    planes: Sequence[tuple[Name, Sequence[float], Sequence[float]]] = (),
-    start: float = 0.0,
-    end: float = np.inf,
+    planes: Sequence[tuple[Name, Vector, Vector]] = (),
+    clip: tuple[float, float] = (0.0, np.inf),
 ) -> list[Sight]:
     """Return what n rays see of m triangles and of infinite planes, all with all.
 
@@ -168,8 +177,8 @@ def sights(
         Of the triangles; without them (0, index).
     planes : sequence
         The name, a point and the normal of each.
-    start, end : float
-        The clip range, both inclusive: as t, so in lengths of the direction.
+    clip : (2,) float
+        The least and the largest t, both inclusive, in lengths of the direction.
     """
     count, n = corners.shape[2], origins.shape[1]
     names = names or [(0, k) for k in range(count)]
@@ -179,20 +188,20 @@ def sights(
         ray = np.repeat(np.arange(at, min(at + step, n)), count)
         triangle = np.tile(np.arange(count), len(ray) // count)
         result = intersect_pairs(origins[:, ray], directions[:, ray], corners[:, :, triangle])
-        for k in np.flatnonzero(result.within(start, end)):
-            surface = Surface(names[triangle[k]], corners[:, :, triangle[k]])
+        for k in np.flatnonzero(result.within(*clip)).tolist():
+            surface = Surface(names[triangle[k]], list(corners[:, :, triangle[k]]))
             crossing = Crossing(result.t(k), result.side[k] == EDGE, bool(result.hit[k]), surface)
             found[ray[k]].append(crossing)
-    for k, crossings in enumerate(found):
-        o, d = ([Fraction(float(x)) for x in v[:, k]] for v in (origins, directions))
+    for ray_number, crossings in enumerate(found):
+        o, d = ([Fraction(float(x)) for x in v[:, ray_number]] for v in (origins, directions))
         for name, point, normal in planes:
             p, w = ([Fraction(float(x)) for x in v] for v in (point, normal))
-            if dot(d, w) and _within(t := (dot(p, w) - dot(o, w)) / dot(d, w), start, end):
+            if dot(d, w) and _within(t := (dot(p, w) - dot(o, w)) / dot(d, w), *clip):
                 crossings.append(Crossing(t, False, True, Surface(name, [p], w)))
     return [_sight(origins[:, k], directions[:, k], m) for k, m in enumerate(found)]
 
 
-def _sight(o: NDArray[np.float64], d: NDArray[np.float64], crossings: list[Crossing]) -> Sight:
+def _sight(o: Vectors, d: Vectors, crossings: list[Crossing]) -> Sight:
     sure = min((m.t for m in crossings if not m.at_edge), default=None)
     front = [m for m in crossings if sure is None or m.t == sure or (m.at_edge and m.t < sure)]
     surfaces = tuple(m.surface for m in front)

@@ -1,11 +1,9 @@
-"""What was measured of a trade: its rows, which of them no other beats, and the advice.
-
-In come rows; out go the same rows, marked, and one sentence. `tradeoff.py` measures them.
-"""
+"""The rows of a trade, the columns that they have, and the advice that follows from them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
 from statistics import median
 
 from ..methods import Method
@@ -20,7 +18,7 @@ FORGIVEN = 7  # of so many rounds, one may have been disturbed
 
 @dataclass(frozen=True)
 class TradeRow:
-    """One choice, what it takes and what it gets wrong."""
+    """One choice of method, precision, samples and size; then what was measured of it."""
 
     method: str
     precision: str
@@ -28,7 +26,7 @@ class TradeRow:
     width: int
     height: int
     seconds: float  # the median of `rounds`
-    wrong_pixels: int  # whose surface, seen through the centre, is not one of the certified ones
+    wrong_pixels: int  # those that see another surface than the certified picture does
     largest_t_error: float | None  # metres along the view axis; None: nowhere a surface in common
     peak_bytes: int  # of the working arrays and the picture, beside the scene
     coverage_error: float  # root mean square of RGBA against the converged picture
@@ -38,8 +36,14 @@ class TradeRow:
 
     @property
     def pixels(self) -> int:
-        """Of the picture."""
+        """The number of pixels in the picture."""
         return self.width * self.height
+
+    @property
+    def size(self) -> str:
+        """The picture's size and its rays a pixel, as words."""
+        rays = f", {self.samples} × {self.samples} rays" if self.samples > 1 else ""
+        return f"{self.width} × {self.height}{rays}"
 
     @property
     def fastest(self) -> float:
@@ -58,6 +62,93 @@ class TradeRow:
 
 
 @dataclass(frozen=True)
+class Column:
+    """One thing that is measured of each row, and how it is shown.
+
+    The tables, the page, the panel, the plot, the JSON and the cluster's check read it from here;
+    `tradeoff.py` measures it.
+
+    Raises
+    ------
+    ValueError
+        If a row has no such field.
+    """
+
+    name: str  # the field of `TradeRow`
+    head: str  # above it in a table
+    timed: bool  # whether it is another number in every run and on every machine
+    show: Callable[[TradeRow], str]
+    unit: str = ""  # what its number is, for the reader of the JSON; empty: the JSON leaves it out
+    short: str = ""  # the head where there is little room
+    share: Callable[[TradeRow], str] | None = None  # what stands behind it in a wide table
+    best: str = ""  # the field that says that no other row beats this one here
+
+    def __post_init__(self) -> None:
+        names = {f.name for f in fields(TradeRow)}
+        if not {self.name, self.best or self.name} <= names:
+            raise ValueError(f"a column is of {self.name} and {self.best}; rows have {names}")
+
+    def shown(self, row: TradeRow, star: str = " *", wide: bool = False) -> str:
+        """Return its number in a row as text, with a star if no other row beats this one."""
+        more = f" {self.share(row):>8}" if wide and self.share else ""
+        room = " " * len(star) * wide  # so that the numbers stay below one another
+        marked = star if self.best and getattr(row, self.best) else room if self.best else ""
+        return f"{self.show(row)}{more}{marked}"
+
+
+def _t_error(row: TradeRow) -> str:
+    return "-" if row.largest_t_error is None else f"{row.largest_t_error:.1e}"
+
+
+COLUMNS = (
+    Column(
+        "seconds",
+        "seconds",
+        True,
+        lambda r: f"{r.seconds:.4f}",
+        unit="seconds, the median of the rounds",
+        short="s",
+    ),
+    Column("rounds", "(min - max)", True, lambda r: f"({r.fastest:.4f} - {r.slowest:.4f})"),
+    Column(
+        "wrong_pixels",
+        "wrong pixels",
+        False,
+        lambda r: f"{r.wrong_pixels:,}",
+        unit="pixels that see another surface than the certified picture does",
+        short="Wrong",
+        share=lambda r: f"({r.wrong_pixels / r.pixels:.2%})",
+        best="best_pixels",
+    ),
+    Column(
+        "largest_t_error",
+        "t error, m",
+        False,
+        _t_error,
+        unit="metres along the view axis, where both see the same; null: nowhere",
+    ),
+    Column(
+        "peak_bytes",
+        "MiB",
+        True,
+        lambda r: f"{r.peak_bytes / 2**20:.1f}",
+        unit="bytes of the working arrays and the picture",
+        short="MiB",
+    ),
+    Column(
+        "coverage_error",
+        "coverage",
+        False,
+        lambda r: f"{r.coverage_error:.4f}",
+        unit="root mean square of linear RGBA against the converged picture",
+        short="RMS",
+        best="best_coverage",
+    ),
+)
+TIMED = frozenset(c.name for c in COLUMNS if c.timed)
+
+
+@dataclass(frozen=True)
 class Trade:
     """What was measured on a scene, and the advice that follows from it."""
 
@@ -72,19 +163,19 @@ class Trade:
         return whole(self.rows)
 
 
-def whole(rows: list[TradeRow]) -> list[TradeRow]:
+def whole(rows: Sequence[TradeRow]) -> list[TradeRow]:
     """Return those of the largest picture with one sample."""
     width = max(r.width for r in rows)
     return [r for r in rows if r.width == width and r.samples == 1]
 
 
-def mark(rows: list[TradeRow]) -> list[TradeRow]:
-    """Return the rows with those marked that no other beats.
+def mark(rows: Sequence[TradeRow]) -> list[TradeRow]:
+    """Return the rows, with those marked that no other beats.
 
     One beats another if its error is smaller and the other is not measurably faster; or if the
-    error is the same and it is faster. Wrong pixels are compared within a resolution: fewer pixels
-    can't have as many wrong. Coverage is compared over all, as every picture is held against the
-    same one.
+    error is the same and it is faster. Wrong pixels are compared within a resolution, because fewer
+    pixels cannot have as many wrong. Coverage is compared over all, as every picture is held
+    against the same one.
     """
     sizes: dict[tuple[int, int], list[TradeRow]] = {}
     for r in rows:
@@ -92,28 +183,30 @@ def mark(rows: list[TradeRow]) -> list[TradeRow]:
     return [
         replace(
             r,
-            best_pixels=not any(
-                _beats(o, r, "wrong_pixels") for o in sizes[r.width, r.height] if o is not r
-            ),
-            best_coverage=not any(_beats(o, r, "coverage_error") for o in rows if o is not r),
+            best_pixels=_unbeaten(r, sizes[r.width, r.height], "wrong_pixels"),
+            best_coverage=_unbeaten(r, rows, "coverage_error"),
         )
         for r in rows
     ]
 
 
+def _unbeaten(row: TradeRow, others: Sequence[TradeRow], error: str) -> bool:
+    return not any(_beats(o, row, error) for o in others if o is not row)
+
+
 def _beats(one: TradeRow, other: TradeRow, error: str) -> bool:
-    mine, others = getattr(one, error), getattr(other, error)
-    if mine == others:
+    mine, theirs = getattr(one, error), getattr(other, error)
+    if mine == theirs:
         return one.seconds < other.seconds
-    return mine < others and gain(other, one) <= 0
+    return bool(mine < theirs) and gain(other, one) <= 0
 
 
 def gain(fast: TradeRow, slow: TradeRow) -> float:
-    """Return which part of `slow`'s time `fast` saves, 0 where the measurement does not tell.
+    """Return which part of `slow`'s time `fast` saves, 0 where the measurement cannot tell.
 
-    It does where the rounds agree on which is faster, all but one of seven: they were measured in
-    turn, so that a time in which the machine was slow is shared by both. Negative where `fast` is
-    slower.
+    It can tell where the rounds agree on which is faster, all but one of seven. The rows were
+    measured in turn, so that a time in which the machine was slow is shared by both. The result is
+    negative where `fast` is slower.
     """
     pairs = list(zip(fast.rounds, slow.rounds, strict=False))
     enough = len(pairs) - len(pairs) // FORGIVEN
@@ -121,19 +214,16 @@ def gain(fast: TradeRow, slow: TradeRow) -> float:
     return 1 - median(f / s for f, s in pairs) if pairs and agree >= enough else 0.0
 
 
-def advice(rows: list[TradeRow]) -> str:
+def advice(rows: Sequence[TradeRow]) -> str:
     """Return, in one sentence, what float32 buys and costs here, and what the proof does."""
     if all(r.largest_t_error is None for r in whole(rows)):
         return NOTHING_SEEN
     by = {(r.method, r.precision): r for r in whole(rows)}
     float32, float64 = (by[Method.TEXTBOOK.value, p.value] for p in Precision)
     certified = by[Method.CERTIFIED.value, Precision.FLOAT64.value]
-    rivals = [
-        r
-        for r in by.values()
-        if r is not certified and r.method != Method.TEXTBOOK_LITERAL.value  # it is to be looked at
-    ]
-    fastest = _fastest(rivals)
+    # Nobody would choose the literal textbook: it is there to be looked at.
+    unfit = Method.CERTIFIED.value, Method.TEXTBOOK_LITERAL.value
+    fastest = _fastest([r for r in by.values() if r.method not in unfit])
     return (
         f"With the textbook's formulas, float32 {_buys(gain(float32, float64))} here and "
         f"{_costs(float32, float64)}; certified, proven to have none, "
@@ -164,10 +254,10 @@ def _costs(one: TradeRow, other: TradeRow) -> str:
     return f"costs {more:,} {further}wrong pixel{'s' * (more > 1)} of {one.pixels:,}"
 
 
-def _takes(share: float, rival: TradeRow) -> str:
-    count = f"{rival.wrong_pixels:,}" if rival.wrong_pixels else "no"
-    wrong = f"{count} wrong pixel{'s' * (rival.wrong_pixels != 1)}"
-    name = f"{Method(rival.method).record.words} in {rival.precision} ({wrong})"
+def _takes(share: float, fastest: TradeRow) -> str:
+    count = f"{fastest.wrong_pixels:,}" if fastest.wrong_pixels else "no"
+    wrong = f"{count} wrong pixel{'s' * (fastest.wrong_pixels != 1)}"
+    name = f"{Method(fastest.method).record.words} in {fastest.precision} ({wrong})"
     if share < 0:
         return f"is faster than {name}, the next that loses no hits on purpose"
     first = "the fastest that loses no hits on purpose"  # without the literal textbook

@@ -1,8 +1,8 @@
-"""Speed against accuracy, measured on a scene through its own camera.
+"""Measures speed against accuracy on a scene through its own camera.
 
-In comes a Scene; out goes a `Trade`: a row for each choice of method, precision, samples and
-resolution, with what it takes (seconds, bytes) and what it gets wrong: pixels and t, against the
-certified picture; coverage, against a converged one.
+Each choice of method, precision, samples and resolution is a row: what it takes (seconds, bytes),
+and what it gets wrong. Pixels and t are held against the certified picture, coverage against a
+converged one.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from dataclasses import dataclass, field, replace
 from statistics import median
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Region, Scene
 from ..tracer.frame import Frame
-from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
 from .trade import Trade, TradeRow, advice, mark
+from .truth import largest_t_error
 
 WIDTH, SAMPLES = 160, 4  # by default: half a minute for a scene of 20,000 triangles
 SMALLER = (1, 2, 4)  # the widths measured: the largest, a half and a quarter of it
@@ -49,12 +49,14 @@ BAND = 1 << 18  # rays of it that are held at a time: some 40 MiB
 
 @dataclass(eq=False)
 class Choice:
-    """A row on its way."""
+    """A row on its way: what is chosen, and what was measured so far."""
 
     settings: Settings
     scene: Scene  # of the row's resolution
+    wrong_pixels: int = 0
+    largest_t_error: float | None = None
     peak_bytes: int = 0
-    errors: tuple[int, float | None, float] = 0, None, 0.0  # wrong pixels, in t, of the coverage
+    coverage_error: float = 0.0
     rounds: list[float] = field(default_factory=list)
 
     @property
@@ -65,15 +67,24 @@ class Choice:
 
     def row(self) -> TradeRow:
         """Return the row."""
-        s, camera, (wrong, t_error, coverage) = self.settings, self.scene.camera, self.errors
+        settings, camera = self.settings, self.scene.camera
         return TradeRow(
-            *(s.method.value, s.precision.value, s.samples, camera.width, camera.height),
-            *(median(self.rounds), wrong, t_error, self.peak_bytes, coverage, tuple(self.rounds)),
+            method=settings.method.value,
+            precision=settings.precision.value,
+            samples=settings.samples,
+            width=camera.width,
+            height=camera.height,
+            seconds=median(self.rounds),
+            wrong_pixels=self.wrong_pixels,
+            largest_t_error=self.largest_t_error,
+            peak_bytes=self.peak_bytes,
+            coverage_error=self.coverage_error,
+            rounds=tuple(self.rounds),
         )
 
 
 # Measures choices against the converged colour of the largest picture: a row each.
-Every = Callable[[list[Choice], NDArray[np.float64]], Work[list[TradeRow]]]
+Every = Callable[[list[Choice], Floats], Work[list[TradeRow]]]
 
 
 def measure(
@@ -117,7 +128,7 @@ def measure(
     return Trade(name, rows, advice(rows), k)
 
 
-def rows_of(choices: list[Choice], truth: NDArray[np.float64]) -> Work[list[TradeRow]]:
+def rows_of(choices: list[Choice], truth: Floats) -> Work[list[TradeRow]]:
     """Measure choices; of a width the certified ones are what the others are held against."""
     yield from scaled(_look_at_all(choices, truth), 0.0, 1 / 3)
     yield from scaled(_time_all(choices), 1 / 3, 2 / 3)
@@ -138,7 +149,8 @@ def at_width(scene: Scene, width: int) -> Scene:
     """Return the scene through the whole of its camera, so many pixels wide."""
     camera = scene.camera
     height = max(1, round(camera.height * width / camera.width))
-    return replace(scene, camera=replace(camera, width=width, height=height, region=None))
+    whole = Region(0, 0, width, height)
+    return replace(scene, camera=replace(camera, width=width, height=height, region=whole))
 
 
 def levels(samples: int) -> list[int]:
@@ -147,19 +159,19 @@ def levels(samples: int) -> list[int]:
     return sorted({1 << k for k in range(samples.bit_length())} | {samples})
 
 
-def converged(scene: Scene, samples: int) -> Work[NDArray[np.float64]]:
+def converged(scene: Scene, samples: int) -> Work[Floats]:
     """Return the colour of a scene with `samples` x `samples` a pixel, (h, w, 4) linear RGBA.
 
     That of a picture so many times as large, `watertight` in float64, averaged: the same rays as
     with `Settings.samples`, in a fraction of the time.
     """
     width, height = scene.camera.width, scene.camera.height
-    large = replace(scene.camera, width=samples * width, height=samples * height, region=None)
     out = np.empty((height, width, 4))
     rows = max(1, BAND // (samples * samples * width))
     for y in range(0, height, rows):
         end = min(y + rows, height)
-        band = replace(large, region=Region(0, samples * y, large.width, samples * end))
+        region = Region(0, samples * y, samples * width, samples * end)
+        band = replace(scene.camera, width=samples * width, height=samples * height, region=region)
         part = replace(scene, camera=band)
         frame = Frame.empty(part)
         for share in steps(part, Settings(Method.WATERTIGHT), frame):
@@ -169,7 +181,7 @@ def converged(scene: Scene, samples: int) -> Work[NDArray[np.float64]]:
     return out
 
 
-def coverage_error(color: NDArray[np.floating], truth: NDArray[np.float64]) -> float:
+def coverage_error(color: Floats, truth: Floats) -> float:
     """Return the root mean square, over pixels and RGBA, of a picture's difference from `truth`.
 
     A smaller picture (h, w, 4) is enlarged to the size of `truth` first, each pixel as it is.
@@ -180,29 +192,17 @@ def coverage_error(color: NDArray[np.floating], truth: NDArray[np.float64]) -> f
     return float(np.sqrt(np.mean((color[np.ix_(y, x)] - truth) ** 2)))
 
 
-def largest_t_error(frame: Frame, certified: Frame) -> float | None:
-    """Return by how much t is off at most, in metres, where both frames see the same surface.
-
-    None where they nowhere do.
-    """
-    same = (
-        (frame.instance_index == certified.instance_index)
-        & (frame.triangle_index == certified.triangle_index)
-        & (certified.instance_index != NOTHING)
-    )
-    return float(np.abs(frame.t[same] - certified.t[same]).max()) if same.any() else None
-
-
-def _look_at_all(choices: list[Choice], truth: NDArray[np.float64]) -> Work[None]:
-    """Render each once, untimed, for its memory and its errors; only certified frames are kept."""
-    total, done, certified = sum(c.cost for c in choices), 0.0, {}
-    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):  # certified first
+def _look_at_all(choices: list[Choice], truth: Floats) -> Work[None]:
+    """Render each once, untimed, for its memory and its errors, the certified ones first."""
+    total, done = sum(c.cost for c in choices), 0.0
+    certified: dict[int, Frame] = {}  # by the picture's width
+    for choice in sorted(choices, key=lambda c: c.settings.method.is_plain):
         frame = yield from scaled(_look(choice), done / total, choice.cost / total)
         done += choice.cost
         proven = certified.setdefault(choice.scene.camera.width, frame)
-        wrong = int(frame.wrong_against(proven).sum())
-        errors = largest_t_error(frame, proven), coverage_error(frame.color, truth)
-        choice.errors = wrong, *errors
+        choice.wrong_pixels = int(frame.wrong_against(proven).sum())
+        choice.largest_t_error = largest_t_error(frame, proven)
+        choice.coverage_error = coverage_error(frame.color, truth)
 
 
 def _look(choice: Choice) -> Work[Frame]:

@@ -1,4 +1,4 @@
-"""The truth of a scene: its certified picture, and all that each certified ray crosses.
+"""Finds a scene's certified picture, and every triangle that each certified ray crosses.
 
 The oracle, which has no part in either, is asked about a sample of the rays.
 """
@@ -9,19 +9,21 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Places
 from ..certainty import Certainty
 from ..certified.any_rays import decide
 from ..methods import Method
 from ..rendering import steps
 from ..scene import Camera, Scene
-from ..tracer.camera import Rays, camera_rays
-from ..tracer.candidates import Pairs
+from ..tracer.camera import Rays, camera_rays, film_positions
+from ..tracer.candidates import candidates
 from ..tracer.frame import Frame
-from ..tracer.nearest import candidates, film_positions, plan
+from ..tracer.nearest import plan
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Precision, Settings
+from ..tracer.vector import Index
+from ..tracer.world import Pairs
 
 CERTIFIED = Settings(Method.CERTIFIED)
 
@@ -31,8 +33,8 @@ class Truth:
     """A scene's certified picture, and every triangle that a certified ray crosses."""
 
     frame: Frame
-    crossed: NDArray[np.int64]  # (k,) the `keys` of the pairs
-    count: NDArray[np.int64]  # (n,) of each ray
+    crossed: Index  # (k,) the `keys` of the pairs
+    count: Index  # (n,) of each ray
 
 
 def truth_of(scene: Scene) -> Work[Truth]:
@@ -41,13 +43,17 @@ def truth_of(scene: Scene) -> Work[Truth]:
     for share in steps(scene, CERTIFIED, frame):
         yield 0.5 * share
     clip = scene.camera.clip_start, scene.camera.clip_end
-    counting = crossings(scene, CERTIFIED, lambda rays, p: decide(rays, p.corners, *clip).hit)
+    counting = crossings(
+        scene,
+        CERTIFIED,
+        lambda rays, p: decide(rays, p.corners.astype(float, copy=False), *clip).hit,
+    )
     return Truth(frame, *(yield from scaled(counting, 0.5, 0.5)))
 
 
 def crossings(
-    scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], NDArray[np.bool_]]
-) -> Work[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], Bools]
+) -> Work[tuple[Index, Index]]:
     """Find all that the camera's n rays cross, whether it is the nearest or not.
 
     `test` takes p rays and p pairs, and returns which are crossed within the clip range, (p,) bool.
@@ -55,7 +61,8 @@ def crossings(
     """
     region = scene.camera.region
     rays = pixel_rays(scene.camera, settings.precision)
-    pixel, found = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    pixel: list[Index] = [np.zeros(0, np.int64)]
+    found: list[Index] = [np.zeros(0, np.int64)]
     made = yield from plan(scene, settings, reach=0.0)
     for share, some in candidates(made, region):
         yield share
@@ -72,14 +79,33 @@ def pixel_rays(camera: Camera, precision: Precision) -> Rays:
     return camera_rays(camera, *film_positions(camera.region, 0.0, 0.0), precision.dtype)
 
 
-def keys(scene: Scene, pixel: NDArray, instance: NDArray, triangle: NDArray) -> NDArray[np.int64]:
+def keys(scene: Scene, pixel: Index, instance: Index, triangle: Index) -> Index:
     """Return one number for each pair of a pixel and a triangle of an instance."""
     counts = [len(scene.meshes[i.mesh].triangles) for i in scene.instances]
     first = np.concatenate(([0], np.cumsum(counts)))[instance]
     return pixel.astype(np.int64) * max(1, scene.triangle_count) + first + triangle
 
 
-def sample(frame: Frame, count: int) -> NDArray[np.intp]:
+def largest_t_error(frame: Frame, certified: Frame, in_ulp: bool = False) -> float | None:
+    """Return the largest error of t where both frames see the same surface; None where none do.
+
+    In metres along the view axis; or, with `in_ulp`, in units in the last place of the certified t
+    as a float64.
+    """
+    same = (
+        (frame.instance_index == certified.instance_index)
+        & (frame.triangle_index == certified.triangle_index)
+        & np.isfinite(certified.t)
+    )
+    if not same.any():
+        return None
+    t, exact = frame.t[same], certified.t[same]
+    unit = np.spacing(exact) if in_ulp else 1.0
+    with np.errstate(over="ignore"):  # a plain t may be off by more ulp than there are doubles
+        return float(np.abs(t / unit - exact / unit).max())  # a difference of t may overflow, too
+
+
+def sample(frame: Frame, count: int) -> Places:
     """Return pixels to ask about: half of them anywhere, half where integers had to decide."""
     rng = np.random.default_rng(count)
     anywhere = rng.permutation(frame.certainty.size)

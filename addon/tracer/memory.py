@@ -78,7 +78,9 @@ def _free_of_process() -> list[int]:
 
 
 def _free_on_windows() -> int | None:
+    if sys.platform != "win32":  # the type checker then knows that there is a `windll`
+        return None
     # A MEMORYSTATUSEX: its length and the load in 32 bits each, the total, what is free, ...
     status = (ctypes.c_uint64 * 8)(64)
-    kernel32: ctypes.CDLL = vars(ctypes)["windll"].kernel32  # only Windows' ctypes has it
-    return status[2] if kernel32.GlobalMemoryStatusEx(ctypes.byref(status)) else None
+    done = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))
+    return status[2] if done else None

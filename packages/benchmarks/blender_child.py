@@ -16,7 +16,7 @@ from typing import Any
 import bpy
 import numpy as np
 from mathutils.bvhtree import BVHTree
-from reference_tracer.blender.drawing.scenario_scene import add_camera
+from reference_tracer.blender.drawing.camera_object import add_camera
 from reference_tracer.scene import Mesh, Scene
 
 from . import scenes

@@ -1,7 +1,7 @@
-"""The rows of the trade and of the extremes, found by workers: each row, or scene, by one of them.
+"""Has workers find the rows of the trade, or of the extremes: each row, or scene, by one of them.
 
-Seconds and bytes are the worker's own. With a share to verify, so much is found twice, and must be
-the same but for these.
+The columns that are timed, as the record of each says, are the worker's own. With a share to
+verify, that share is found twice, and must be the same in all other columns.
 """
 
 from __future__ import annotations
@@ -9,18 +9,17 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import asdict, fields, replace
+from dataclasses import asdict, replace
 from math import ceil
 from random import SystemRandom
-from types import NoneType
-from typing import Any
+from typing import Any, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
 from reference_tracer.errors import words
 from reference_tracer.study import extremes, tradeoff
 from reference_tracer.study.extremes import ExtremesRow
-from reference_tracer.study.trade import TradeRow
+from reference_tracer.study.trade import TIMED, TradeRow
 from reference_tracer.tracer.progress import Work, scaled
 
 from . import tasks
@@ -28,8 +27,7 @@ from .claims import packed, unpacked
 from .cluster import Cluster, ClusterError, NobodyError
 from .pictures import camera_json, scene_name
 
-_KINDS: dict[str, Any] = {"int": int, "float": (int, float), "str": str, "bool": bool}
-_KINDS |= {"float | None": (int, float, NoneType), "tuple[float, ...]": tuple}
+_NUMBERS = {float: int | float, float | None: int | float | None}  # JSON writes 1.0 as it likes
 Own = Callable[[int], Work[list]]  # finds here what the task of this number finds
 
 
@@ -106,13 +104,14 @@ def _every(
 def _row(kind: type, told: dict[str, Any]) -> Any:
     """Return a row of JSON, if each of its values is of the kind that it should be."""
     row = kind(**{k: tuple(map(float, v)) if isinstance(v, list) else v for k, v in told.items()})
-    for f in fields(kind):
-        if not isinstance(getattr(row, f.name), _KINDS[f.type]):
-            raise ValueError(f"{f.name} is {getattr(row, f.name)!r}")
+    for name, hint in get_type_hints(kind).items():
+        value = getattr(row, name)
+        wanted = tuple if get_origin(hint) is tuple else _NUMBERS.get(hint, hint)
+        if not isinstance(value, wanted):
+            raise ValueError(f"{name} is {value!r}")
     return row
 
 
 def _facts(rows: list) -> str:
-    """Return what is the same wherever rows are found."""
-    measured = {"seconds": 0.0, "rounds": (), "peak_bytes": 0}
-    return repr([asdict(row) | (measured if isinstance(row, TradeRow) else {}) for row in rows])
+    """Return what is the same wherever rows are found: all but what was timed."""
+    return repr([{k: v for k, v in asdict(row).items() if k not in TIMED} for row in rows])

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 import pytest
-from reference_tracer.blender.live.kept import KeptScene
-from reference_tracer.blender.reading import visible
+from reference_tracer.blender.live.scene import ViewScene
+from reference_tracer.blender.reading import meshes
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.reading.export import export as export_depsgraph
 
@@ -18,7 +18,7 @@ def space():
     return next(area.spaces[0] for area in areas if area.type == "VIEW_3D")
 
 
-class Counted(KeptScene):
+class Counted(ViewScene):
     """Counts the meshes that its last update has read, and those of all."""
 
     meshes_read, reads = 0, 0
@@ -31,21 +31,21 @@ class Counted(KeptScene):
 
 @pytest.fixture
 def kept(monkeypatch):
-    """Give a KeptScene that hears of every update, and what its last updates have read."""
+    """Give a ViewScene that hears of every update, and what its last updates have read."""
     scene = Counted()
     for name in dir(space()):  # Blender keeps a view while it opens an empty file
         if name.startswith("show_object_viewport_"):
             setattr(space(), name, True)
 
     def read_mesh(*arguments):
-        found = visible.read_mesh(*arguments)
+        found = meshes.read_mesh(*arguments)
         scene.meshes_read += found is not None
         return found
 
     def update(_, depsgraph):
         scene.update(depsgraph, space())
 
-    monkeypatch.setattr("reference_tracer.blender.live.kept.read_mesh", read_mesh)
+    monkeypatch.setattr("reference_tracer.blender.live.scene.read_mesh", read_mesh)
 
     for handlers in HANDLERS:
         handlers.append(update)

@@ -84,10 +84,10 @@ def test_3_the_sizes_do_not_match(saved, out, monkeypatch, capsys):
 
 def test_3_also_where_blender_made_another_size(saved, out, monkeypatch, capsys):
     """It is noticed where the picture is read."""
-    from reference_tracer.blender.drawing import viewport
+    from reference_tracer.blender.drawing import picture
 
-    real = viewport.read
-    monkeypatch.setattr(viewport, "read", lambda path: real(path)[:, :-1])
+    real = picture.read
+    monkeypatch.setattr(picture, "read", lambda path: real(path)[:, :-1])
     assert commands.run(["compare", "--out", str(out)]) == 3
     assert "63 x 36" in capsys.readouterr().err
     assert verdict(out)["verdict"] == "failed"

@@ -302,7 +302,9 @@ class CancelledEngine:
         pass
 
     end_result = report = update_stats
+    _fill = ReferenceTracerEngine._fill
     _show = ReferenceTracerEngine._show
+    _tell = ReferenceTracerEngine._tell
 
 
 def test_a_cancelled_render_keeps_the_rows_that_are_done(solids, capsys, monkeypatch):

@@ -176,7 +176,7 @@ reference_tracer.unregister()
         ("", None),
         ("scene.camera.data.type = 'PANO'", "is of type pano"),
         ("scene.camera = None", "no camera"),
-        ("from reference_tracer.blender import export; export.export = None", "TypeError"),
+        ("from reference_tracer.blender.reading import export; export.export = None", "TypeError"),
     ],
     ids=["none", "panoramic", "no camera", "exporter"],
 )

@@ -16,7 +16,7 @@ import pytest
 from reference_tracer.blender.against import gather_against
 from reference_tracer.blender.compare import gather_case
 from reference_tracer.blender.drawing.judges import judge_named
-from reference_tracer.blender.drawing.viewport import picture, prepare_scene
+from reference_tracer.blender.drawing.picture import picture, prepare_scene
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.stepping import bake_bodies
 from reference_tracer.compare.causes import NOT_MODELLED, UNEXPLAINED

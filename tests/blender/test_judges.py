@@ -8,7 +8,10 @@ import sys
 
 import bpy
 import pytest
+from reference_tracer.blender.drawing import rasteriser
+from reference_tracer.blender.drawing.judge import Judge
 from reference_tracer.blender.drawing.judges import JUDGES, judge_named
+from reference_tracer.compare.bounds import SNAPPING
 from reference_tracer.scene import SceneError
 
 # A Blender of its own, in which the records have one more before anything else reads them.
@@ -16,18 +19,18 @@ ADDED = """
 import sys
 from contextlib import contextmanager
 from pathlib import Path
-from reference_tracer.blender import judges
+from reference_tracer.blender.drawing import judges
 
 drawn = []
 
 @contextmanager
-def set_up(judge, scene, layer):
-    drawn.append((judge.name, layer))
+def set_up(scene, layer):
+    drawn.append(layer)
     yield
 
 judges.JUDGES["draft"] = judges.Judge(
-    "draft", "Draft", "A quick picture", 7, "BLENDER_WORKBENCH", frozenset(), set_up,
-    sample_radius=0.25,
+    name="draft", label="Draft", description="A quick picture", number=7,
+    engine="BLENDER_WORKBENCH", set_up=set_up, sample_radius=0.25,
 )
 
 import bpy
@@ -84,3 +87,29 @@ def test_a_record_is_found_by_its_name():
         assert judge_named(name.upper(), background=True) is judge
     assert judge_named("AUTO", background=True) is JUDGES["workbench"]
     assert judge_named("AUTO", background=False).needs_window
+
+
+@pytest.mark.parametrize(
+    ("own", "problem"),
+    [
+        ({"sample_radius": 0.5}, "within their pixel"),
+        ({"number": 9, "engine": "X"}, "needs a description"),
+        ({"traces_rays": True}, "traces no rays"),
+    ],
+    ids=["samples beside the pixel", "nothing to choose it by", "rays in a viewport"],
+)
+def test_a_record_that_contradicts_itself_is_refused(own, problem):
+    with pytest.raises(ValueError, match=rf"'draft'.*{problem}"):
+        Judge("draft", "Draft", **own)
+
+
+def test_only_a_ray_tracer_is_taken_to_leave_corners_where_they_are(monkeypatch):
+    """A rasteriser with materials rounds them too: here to a sixteenth of a pixel."""
+
+    def coarse(judge, moved):
+        return moved > 1 / 32
+
+    monkeypatch.setattr(rasteriser, "_covered", coarse)
+    with_materials = Judge("draft", "Draft", engine="EEVEE", solid=False)
+    assert rasteriser.snapping_of(with_materials) >= 1 / 16 > SNAPPING
+    assert rasteriser.snapping_of(JUDGES["cycles"]) == SNAPPING

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.live import like_for_like, shows, view
-from reference_tracer.blender.live.kept import KeptScene
+from reference_tracer.blender.live.scene import ViewScene
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.scene import Region, SceneError
 from reference_tracer.tracer.settings import Settings
@@ -35,7 +35,7 @@ def difference(build, monkeypatch):
     def make():
         drawn.clear()
         bpy.context.view_layer.update()
-        kept = KeptScene()
+        kept = ViewScene()
         kept.update(bpy.context.evaluated_depsgraph_get(), space())
         camera = export_camera(bpy.context.scene)
         camera = replace(camera, width=64, height=48, region=Region(0, 0, 64, 48))

@@ -237,7 +237,7 @@ def test_all_is_read_after_a_failure(build, kept, monkeypatch):
     assert_as_a_whole_export(kept)
     square.display_type = "WIRE"
     with monkeypatch.context() as context:
-        context.setattr("reference_tracer.blender.live.kept.visible", lambda *_: 1 / 0)
+        context.setattr("reference_tracer.blender.live.scene.visible", lambda *_: 1 / 0)
         bpy.context.view_layer.update()  # Blender prints what a handler raises
     cube.location.x = 1
     assert_as_a_whole_export(kept)

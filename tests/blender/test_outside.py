@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.reading import export as export_module
-from reference_tracer.blender.reading.planes import outside
+from reference_tracer.blender.reading.view_volume import outside
 from reference_tracer.methods import Method
 from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
 from reference_tracer.rendering import render

@@ -5,18 +5,8 @@ from __future__ import annotations
 import bpy
 import pytest
 from reference_tracer.blender.live.shows import SHOWS
-from reference_tracer.blender.ui.properties import (
-    COLORS,
-    JUDGE_ITEMS,
-    MAPS,
-    METHOD_ITEMS,
-    PASS_ITEMS,
-    PRECISIONS,
-    SAID,
-    SHADINGS,
-    SHOW_ITEMS,
-    SWEEPS,
-)
+from reference_tracer.blender.ui import choices
+from reference_tracer.blender.ui.explain import LIMIT as SHOWN
 from reference_tracer.explain.candidates import LIMIT
 from reference_tracer.explain.writers import WRITERS
 from reference_tracer.methods import Method
@@ -50,12 +40,12 @@ CASES = [(name, value) for name, values in STORED.items() for value in values]
 
 def test_numbers_are_those_that_were_released():
     items = {
-        "method": METHOD_ITEMS,
-        "precision": PRECISIONS,
-        "judge": JUDGE_ITEMS,
-        "shading": SHADINGS,
-        "color": COLORS,
-        "show": SHOW_ITEMS,
+        "method": choices.METHODS,
+        "precision": choices.PRECISIONS,
+        "judge": choices.JUDGES,
+        "shading": choices.SHADINGS,
+        "color": choices.COLORS,
+        "show": choices.SHOWS,
     }
     assert items.keys() == STORED.keys()
     for name, released in STORED.items():
@@ -64,18 +54,21 @@ def test_numbers_are_those_that_were_released():
 
 def test_what_is_offered_is_what_there_is():
     """The texts stand where reading them needs no numpy; what they are of stands elsewhere."""
-    assert {i[0] for i in METHOD_ITEMS} == {m.value for m in Method}
-    assert {i[0] for i in PRECISIONS} == {p.value for p in Precision}
-    assert [i[0] for i in COLORS] == [c.value for c in Color]
-    assert [i[0] for i in SHOW_ITEMS] == list(SHOWS)
+    assert {i[0] for i in choices.METHODS} == {m.value for m in Method}
+    assert {i[0] for i in choices.PRECISIONS} == {p.value for p in Precision}
+    assert [i[0] for i in choices.COLORS] == [c.value for c in Color]
+    assert [i[0] for i in choices.SHOWS] == list(SHOWS)
     bits = {p.label: 2**k for k, p in enumerate(PASSES) if p.label and p.label != "Combined"}
-    assert {i[0]: i[-1] for i in PASS_ITEMS} == bits
-    assert [i[0] for i in SWEEPS] == [s.name for s in sweeps.SCENARIOS]
-    assert [i[0] for i in MAPS] == [m.name for m in sweeps.MAPS]
-    width, samples = (SAID["trade"][name]["default"] for name in ("width", "samples"))
-    assert (width, samples) == (tradeoff.WIDTH, tradeoff.SAMPLES)
-    assert SAID["explain"]["limit"]["default"] == LIMIT
-    assert all(SAID["explain"]["filepath"]["description"].count(e) for e in WRITERS)
+    assert {i[0]: i[-1] for i in choices.PASSES} == bits
+    assert [i[0] for i in choices.SWEEPS] == [s.name for s in sweeps.SCENARIOS]
+    names = [m.name for m in (*sweeps.SCENARIOS, *sweeps.MAPS)]
+    assert [i[0] for i in choices.STUDIES] == [choices.EVERY, *names]
+    trade = bpy.ops.reference_tracer.trade.get_rna_type().properties
+    defaults = trade["width"].default, trade["samples"].default
+    assert defaults == (tradeoff.WIDTH, tradeoff.SAMPLES)
+    assert SHOWN == LIMIT
+    explain = bpy.ops.reference_tracer.explain.get_rna_type().properties
+    assert all(explain["filepath"].description.count(e) for e in WRITERS)
 
 
 @pytest.mark.parametrize(("name", "value"), CASES)

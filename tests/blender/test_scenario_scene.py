@@ -6,9 +6,9 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender.drawing.camera_object import add_camera
-from reference_tracer.blender.drawing.scenario_scene import CHANGED
 from reference_tracer.blender.engine import ENGINE
 from reference_tracer.blender.reading.camera import window_of
+from reference_tracer.blender.ui.scenario_scene import CHANGED
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, ViewWindow
 from reference_tracer.study.scenarios.sweeps import SCENARIOS

@@ -8,10 +8,11 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from reference_tracer.blender.drawing import viewport
+from reference_tracer.blender.drawing import picture as picture_module
+from reference_tracer.blender.drawing import shading, viewport
 from reference_tracer.blender.drawing.judges import JUDGES, judge_named
-from reference_tracer.blender.drawing.temporary import temporary_scene
 from reference_tracer.blender.reading.camera import export_camera
+from reference_tracer.blender.temporary import temporary_scene
 from reference_tracer.compare.picture import SizeError
 from reference_tracer.scene import SceneError
 
@@ -30,8 +31,8 @@ def pictured(scene, judge="workbench", like_for_like=True):
     camera = export_camera(scene)
     layer = bpy.context.view_layer.name
     with temporary_scene(scene) as copy:
-        viewport.prepare_scene(copy, like_for_like)
-        return viewport.picture(copy, layer, JUDGES[judge], camera, like_for_like)
+        picture_module.prepare_scene(copy, like_for_like)
+        return picture_module.picture(copy, layer, JUDGES[judge], camera, like_for_like)
 
 
 @pytest.mark.parametrize(
@@ -137,10 +138,12 @@ def test_compositor_and_sequencer_are_not_in_the_picture(extra, scene, build):
 def test_a_picture_of_another_size_is_an_error(scene):
     camera = export_camera(scene)
     with temporary_scene(scene) as copy:
-        viewport.prepare_scene(copy, True)
+        picture_module.prepare_scene(copy, True)
         copy.render.resolution_x = 64
         with pytest.raises(SizeError, match="64 x 54 pixels, the camera's region 96 x 54"):
-            viewport.picture(copy, bpy.context.view_layer.name, JUDGES["workbench"], camera, True)
+            picture_module.picture(
+                copy, bpy.context.view_layer.name, JUDGES["workbench"], camera, True
+            )
 
 
 def test_the_viewport_needs_a_window_and_says_so(scene):
@@ -157,7 +160,7 @@ def test_the_viewport_needs_a_window_and_says_so(scene):
 def test_the_preference_is_set_and_put_back(dirty):
     preferences = bpy.context.preferences
     preferences.system.viewport_aa, preferences.is_dirty = "8", dirty
-    with pytest.raises(KeyError), viewport._viewport_aa("OFF"):
+    with pytest.raises(KeyError), viewport._without_anti_aliasing(None, ""):
         assert preferences.system.viewport_aa == "OFF"
         raise KeyError
     assert (preferences.system.viewport_aa, preferences.is_dirty) == ("8", dirty)
@@ -175,7 +178,7 @@ def test_the_shading_of_a_view_is_copied(scene):
     source.light, source.color_type, source.single_color = "FLAT", "SINGLE", (0.1, 0.2, 0.3)
     source.background_type, source.show_cavity = "VIEWPORT", True
     with temporary_scene(scene) as copy:
-        viewport.use_view_shading(copy, source)
+        shading.use_view_shading(copy, source)
         own = copy.display.shading
         assert (own.light, own.color_type, own.background_type, own.show_cavity) == (
             "FLAT",

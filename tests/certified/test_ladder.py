@@ -81,7 +81,7 @@ def check(rays, corners, start=0.0, end=np.inf) -> Hits:
     origins, directions = (
         np.broadcast_to(v, (3, len(hits.t))) for v in (rays.origins, rays.directions)
     )
-    for k, truth in enumerate(sights(origins, directions, corners, start=start, end=end)):
+    for k, truth in enumerate(sights(origins, directions, corners, clip=(start, end))):
         name = int(hits.instance[k]), int(hits.triangle[k])
         assert name == truth.seen
         column = origins[:, k], directions[:, k], corners[..., name[1]]

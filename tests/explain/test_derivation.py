@@ -12,7 +12,7 @@ from reference_tracer.certainty import Certainty
 from reference_tracer.explain import document, html, writers
 from reference_tracer.explain.derivation import derive
 from reference_tracer.explain.formulas import Rejection
-from reference_tracer.explain.textbook import Arithmetic
+from reference_tracer.explain.textbook import FLOATS, Arithmetic
 from reference_tracer.methods import Method
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
@@ -31,7 +31,7 @@ def reasons(scene, index=0):
     found = derive(scene, 1, 1)
     assert render(scene).instance_index[1, 1] == -1
     [test] = [t for t in found.tests if t.candidate.instance == index]
-    said = {test.verdicts[kind].reasons for kind in Arithmetic}
+    said = {test.judgements[kind].reasons for kind in Arithmetic}
     assert len(said) == 1 and found.seen is None
     assert found.color == pytest.approx((0.2, 0.3, 0.4, 0.5))
     for text in (document.document_markdown(found), html.page(found), writers.json_text(found)):
@@ -75,7 +75,7 @@ def test_a_hit(one_triangle):
     assert found.seen.object == "Thing 0" and found.certified.t == 4
     assert found.nearest == dict.fromkeys(Arithmetic, 0)
     assert found.certified.certainty == Certainty.BOUND
-    assert all(j.accepted and j.literal for j in test.verdicts.values())
+    assert all(j.accepted and j.literal for j in test.judgements.values())
     assert found.color == pytest.approx((0.1, 0.5, 0.25, 1))
 
 
@@ -113,7 +113,7 @@ def test_an_edge_is_ambiguous(one_triangle):
     found = derive(one_triangle(left, right), 1, 1)
     assert found.certified.certainty == Certainty.AMBIGUOUS
     assert found.certified.ties == {(0, 0), (1, 0)}
-    assert [t.verdicts[Arithmetic.EXACT].accepted for t in found.tests] == [True, True]
+    assert [t.judgements[Arithmetic.EXACT].accepted for t in found.tests] == [True, True]
     assert "may be said to see" in document.document_markdown(found)
     assert len(writers.to_dict(found)["certified"]["may_be_seen"]) == 2
 
@@ -199,7 +199,7 @@ def test_from_inside_what_is_behind_is_told(make):
     front, back = make.quad(-9, 9, -9, 9, -5, "Front"), make.quad(-9, 9, -9, 9, 5, "Back")
     across = Mesh(np.array([(-1, -1, 3), (1, -1, -9), (0, 2, -9.0)]), [[0, 1, 2]], name="Across")
     found = derive(make.scene(make.camera(9, 9), front, back, across), 4, 5)
-    said = [(t.candidate.object, t.verdicts[Arithmetic.EXACT]) for t in found.tests]
+    said = [(t.candidate.object, t.judgements[Arithmetic.EXACT]) for t in found.tests]
     assert ("Front", True) in [(name, j.accepted) for name, j in said]
     assert ("Back", (Rejection.BEHIND,)) in [(name, j.reasons) for name, j in said]
     assert "Across" in [name for name, _ in said]
@@ -211,7 +211,7 @@ def test_at_the_ends_of_floats(one_triangle, scale):
     scene = one_triangle((np.array(FACING) * (scale, scale, 1)).tolist())
     found = derive(scene, 1, 1)
     assert found.certified.t == 4
-    assert not found.tests[0].verdicts[Arithmetic.FLOAT32].accepted
+    assert not found.tests[0].judgements[Arithmetic.FLOAT32].accepted
     content = json.loads(writers.json_text(found))
     assert content["certified"]["t"] == 4
     assert "rejects what is truly hit" in document.document_markdown(found)
@@ -235,8 +235,21 @@ def test_a_miss_of_float32_is_said(make):
     from .conftest import ball
 
     scene = ball(make, far=1e6)
-    told = [document.document_markdown(derive(scene, x, 9)) for x in range(8, 16)]
-    assert any("Float32 rejects what is truly hit" in t or "Float32 accepts" in t for t in told)
+    told = {"accepts": 0, "rejects": 0}
+    for x in range(8, 16):
+        found = derive(scene, x, 9)
+        text = document.document_markdown(found)
+        for kind in FLOATS:
+            wrong = {
+                "accepts" if test.judgements[kind].accepted else "rejects"
+                for test in found.tests
+                if test.judgements[kind].accepted != test.judgements[Arithmetic.EXACT].accepted
+            }
+            for word, truly in (("accepts", "missed"), ("rejects", "hit")):
+                said = f"{kind.capitalize()} {word} what is truly {truly}." in text
+                assert said == (word in wrong), (x, kind)
+                told[word] += said
+    assert told["rejects"] > 0  # or the test has seen nothing
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])

@@ -12,8 +12,8 @@ from reference_tracer.explain.textbook import (
     Arithmetic,
     camera_steps,
     evaluate,
+    judge,
     surface_steps,
-    verdict,
 )
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.tracer import plane
@@ -53,7 +53,7 @@ def test_triangles_are_the_tracers(make, rng, kind):
         found = surface_steps(TRIANGLE, o, d, *p)
         shown = np.array([found["t"], found["s1"], found["s2"], found["s3"]], dtype)
         np.testing.assert_array_equal(shown, [t[k], *s[:, k]])
-        said = verdict(found, camera)
+        said = judge(found, camera)
         assert said.accepted == (hit & seen)[k], said
         assert said.literal == (literal & seen)[k]
         assert said.accepted != bool(said.reasons)
@@ -73,7 +73,7 @@ def test_planes_are_the_tracers(make, rng, kind):
             assert found["towards"] == 0
         else:
             np.testing.assert_array_equal(dtype.type(found["t"]), t[0])
-        assert verdict(found, camera).accepted == within_clip(camera, t)[0]
+        assert judge(found, camera).accepted == within_clip(camera, t)[0]
 
 
 @pytest.mark.parametrize("kind", FLOATS)

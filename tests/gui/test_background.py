@@ -21,7 +21,7 @@ FAULTS = {
     "no_camera": ("C.scene.camera = None", "camera"),
     "clip": ("C.scene.camera.data.clip_start = 50; C.scene.camera.data.clip_end = 1", "clip"),
     "broken_exporter": (
-        "from bl_ext.user_default.reference_tracer.addon.blender import export as e; "
+        "from bl_ext.user_default.reference_tracer.addon.blender.reading import export as e; "
         "e.export = None",
         "failed",
     ),

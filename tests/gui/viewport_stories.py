@@ -115,7 +115,7 @@ def viewport_events():
         found["same"] = int((np.abs(screen("after") - before) > 1).any(axis=-1).sum())
     yield from in_mode("SOLID")
     gc.collect()
-    noted["left"] = [alive("view.LiveView"), alive("view.Job"), alive("drawing.Textures")]
+    noted["left"] = [alive("view.LiveView"), alive("view.Job"), alive("layers.Textures")]
 
 
 def moved(found):
@@ -179,7 +179,7 @@ def in_words(found):
     found["said"] = live()[0].said
     found["white"] = int((screen("words") == 255).all(axis=-1).sum())
     camera.data.type = "PERSP"
-    textures = module("blender.live.drawing").Textures
+    textures = module("blender.live.layers").Textures
     upload, textures.upload = textures.upload, no_memory
     try:
         yield from settled()

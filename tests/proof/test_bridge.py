@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import numpy as np
+import prove
 import pytest
 from record_trees import RECORDED
 from recorder import coq
@@ -12,7 +13,7 @@ from recorder.arrays import Recorded, variable
 from recorder.evaluate import evaluate
 from recorder.functions import Numpy, recording
 from recorder.nodes import RefusedError
-from recorder.records import BY_HAND, RECORDS, computed, outputs, recorded
+from recorder.records import BY_HAND, FILES, RECORDS, computed, outputs, recorded
 
 ORDINARY, HOSTILE = 24, 24  # values of the variables that each function is called with
 
@@ -22,27 +23,38 @@ def found():
     return {record: outputs(record) for record in RECORDS}
 
 
-def test_the_proofs_are_about_what_is_computed(found):
+def of_file(file, found):
+    return [output for record in FILES[file] for output in found[record]]
+
+
+def test_each_result_has_a_name_of_its_own(found):
+    every = [output.name for some in found.values() for output in some]
+    assert len(set(every)) == len(every)
+    assert {path.stem for path in RECORDED.glob("*.v")} == set(FILES)
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_the_proofs_are_about_what_is_computed(file, found):
     """If not: `python tools/record_trees.py`, and prove the theorems that it names."""
-    every = [output for some in found.values() for output in some]
-    assert len({output.name for output in every}) == len(every)
-    changed = coq.differences(RECORDED.read_text(encoding="utf-8"), every)
-    assert not changed, "\n\n".join(["proofs/Recorded.v is not what the tracer computes", *changed])
+    committed = (RECORDED / f"{file}.v").read_text(encoding="utf-8")
+    changed = coq.differences(file, committed, of_file(file, found))
+    assert not changed, "\n\n".join([f"{file}.v is not what the tracer computes", *changed])
 
 
 def test_a_difference_is_told_in_words(found):
     """Which function, which result, what it was and is, and the theorem."""
-    every = [output for some in found.values() for output in some]
+    file = "RecordedBounds"
+    every = of_file(file, found)
     other = coq.text(every).replace("(Num 3 (-51))", "(Num 3 (-52))", 1)
-    [said] = coq.differences(other, every)
+    [said] = coq.differences(file, other, every)
     assert (
         "bounds.FromPoint.edges: error" in said and "theorem concerned: Forms.from_point_e" in said
     )
     assert "Num 3 (-52)" in said and "Num 3 (-51)" in said
-    assert "recorded now is" in coq.differences(other.replace("Add", "Sub"), every)[0]
-    [said] = coq.differences(coq.text(every[1:]), every)
+    assert "recorded now is" in coq.differences(file, other.replace("Add", "Sub"), every)[0]
+    [said] = coq.differences(file, coq.text(every[1:]), every)
     assert every[0].name in said and "does not have it" in said
-    [said] = coq.differences(coq.text(every), every[1:])
+    [said] = coq.differences(file, coq.text(every), every[1:])
     assert every[0].name in said and "nothing records it" in said
 
 
@@ -73,12 +85,13 @@ def test_an_expression_is_worth_what_the_function_returns(record, found, rng):
 
 
 def test_a_theorem_that_is_said_to_be_proven_is_there(found):
+    paths = {path.stem: path for path in prove.files()}
     named = {output.theorem for some in found.values() for output in some}
     for theorem in sorted(named - {"", BY_HAND}):
         file, name = theorem.split(".")
-        text = (RECORDED.parent / f"{file}.v").read_text(encoding="utf-8")
+        text = paths[file].read_text(encoding="utf-8")
         proven = re.findall(r"^ *(?:Theorem|Corollary|Lemma) ([\w']+)", text, re.M)
-        assert name in proven, f"proofs/{file}.v has no theorem {name}"
+        assert name in proven, f"{file}.v has no theorem {name}"
 
 
 def samples(record, rng):

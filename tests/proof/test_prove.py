@@ -32,19 +32,24 @@ def test_words_in_comments_are_no_holes(tmp_path):
 
 def test_the_proofs_have_none_and_all_are_read():
     assert not prove.holes()
-    listed = (prove.PROOFS / "_CoqProject").read_text().split()
-    files = {path.name for path in prove.PROOFS.glob("*.v")}
-    assert files == set(listed) - {"-Q", ".", "Reftrace"}
+    assert sorted(prove.listed()) == prove.files()
+
+
+def test_every_file_has_a_name_of_its_own():
+    """`From Reftrace Require Import Rounding` finds Rounding.v in whichever folder it is."""
+    names = [path.stem for path in prove.files()]
+    assert len(set(names)) == len(names)
 
 
 def test_every_claim_is_a_theorem_in_words():
     claims = prove.claims()
-    text = (prove.PROOFS / "Claims.v").read_text()
+    text = (prove.PROOFS / "Claims.v").read_text(encoding="utf-8")
+    paths = {path.stem: path for path in prove.files()}
     assert len(claims) == len(re.findall(r"^Check ", text, re.MULTILINE)) > 20
     for name, words in claims:
         assert words.endswith(".") and "Require" not in words, name
         file, theorem = name.split(".")
-        text = (prove.PROOFS / f"{file}.v").read_text()
+        text = paths[file].read_text(encoding="utf-8")
         assert re.search(
             rf"^(Theorem|Corollary|Lemma) {re.escape(theorem)}(?![\w'])", text, re.MULTILINE
         ), name
@@ -52,5 +57,39 @@ def test_every_claim_is_a_theorem_in_words():
 
 def test_the_document_names_every_file():
     text = (prove.PROOFS.parent / "docs" / "proof.md").read_text(encoding="utf-8")
-    for path in prove.PROOFS.glob("*.v"):
-        assert path.stem in text, f"docs/proof.md doesn't say what {path.name} is"
+    for path in prove.files():
+        link = f"(../proofs/{path.relative_to(prove.PROOFS).as_posix()})"
+        assert link in text, f"docs/proof.md doesn't say what {path.name} is"
+
+
+def test_every_folder_says_what_it_proves():
+    for folder in {path.parent for path in prove.files()}:
+        assert (folder / "README.md").is_file(), f"{folder.name}/ has no README.md"
+
+
+# What can be read for `certified_with_depth`, without the rest.
+THEOREM = "geometry floating_point rule quotient whole code theorem".split()
+
+
+def test_the_theorem_needs_its_own_folders_and_no_other():
+    needed = {path.relative_to(prove.PROOFS) for path in required("CertifiedDepth")}
+    for path in prove.files():
+        path = path.relative_to(prove.PROOFS)
+        if path.parts[0] == "recorded":
+            continue  # of these it needs some
+        assert (path in needed) == (path.parts[0] in THEOREM), path
+    recorded = {path.stem for path in needed if path.parts[0] == "recorded"}
+    assert recorded == {"RecordedBounds", "RecordedDecisions", "RecordedQuotient"}
+
+
+def required(name):
+    """Return a file of the proofs, and all that it requires: as coqdep has it."""
+    paths, found, open_ = {path.stem: path for path in prove.files()}, set(), [name]
+    while open_:
+        path = paths[open_.pop()]
+        if path not in found:
+            found.add(path)
+            text = prove.without_comments(path.read_text(encoding="utf-8"))
+            for names in re.findall(r"From Reftrace Require(?: Import| Export)? ([\w\s]+)\.", text):
+                open_ += names.split()
+    return found

@@ -91,7 +91,7 @@ LEFT_OUT = {
         "Sweep.pairs _FullError.__init__",
     },
     "sweep/tournament.py": {"by whatever order.py says, in another order": "tournament"},
-    "sweep/resolve.py": {CALLS: "Resolver.steps Resolver._enter_open Resolver._contest"},
+    "sweep/resolve.py": {CALLS: "Resolver.steps Resolver._enter_open Resolver._decide"},
 }
 
 

@@ -3,15 +3,23 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
-from itertools import pairwise
 
 import pytest
 from reference_tracer.methods import MEASURED, Method
 from reference_tracer.report import plots
-from reference_tracer.report import trade as trade_report
-from reference_tracer.report.trade import JSON, PLOT, SCHEMA, TABLE, pictures, table, write
-from reference_tracer.study.trade import Trade, TradeRow, mark
+from reference_tracer.report.trade import (
+    JSON,
+    PLOT,
+    SCHEMA,
+    TABLE,
+    page_table,
+    pictures,
+    table,
+    write,
+)
+from reference_tracer.study.trade import COLUMNS, Trade, TradeRow, mark
 from reference_tracer.tracer.settings import Precision
 
 from ..drawn import Plot, scale
@@ -64,7 +72,7 @@ def test_table(trade):
     assert "160 x 90 pixels, 4 x 4 rays each" in lines
     head, first = lines[0], lines[lines.index("160 x 90 pixels, one ray each") + 1]
     assert first.split()[:3] == ["textbook_literal", "float32", "0.0400"]
-    assert "(0.0360 - 0.0480)" in first and "3,742  (25.99%) *" in first and "11.0" in first
+    assert "(0.0360 - 0.0480)" in first and "3,742 (25.99%) *" in first and "11.0" in first
     assert head.index("precision") == first.index("float32")
     assert head.index("(min") == first.index("(0.0360")
     assert "16 x 16 rays a pixel" in text and lines[-1] == trade.advice
@@ -89,6 +97,15 @@ def test_table_keeps_its_columns_apart(trade):
         for line in found:
             assert all(line[k + 1 : k + 2] in (" ", "") for k, c in enumerate(line) if c == ")")
             assert len(line.replace(" *", "").split()) == 11
+
+
+def test_the_page_has_every_row_and_column(trade):
+    held = page_table(trade)
+    assert held["head"][3:] == [c.head for c in COLUMNS]
+    for cells, r in zip(held["rows"], trade.rows, strict=True):
+        assert cells[:3] == [Method(r.method).words, r.precision, r.size]
+        assert [c.removesuffix(" ★") for c in cells[3:]] == [c.show(r) for c in COLUMNS]
+        assert sum("★" in c for c in cells) == r.best_pixels + r.best_coverage
 
 
 @pytest.fixture
@@ -127,45 +144,40 @@ def test_json_is_strict_whatever_was_measured(tmp_path, trade):
     assert held["largest_t_error"] is None and held["coverage_error"] is None
 
 
-def sides(plot):
-    """Of the left and of the right axes: what is in them, and the two scales by their numbers.
-
-    Numbers along x are logarithmic in both, or in neither; along y they are.
-    """
-    for low, high in ((0, plot.width / 2), (plot.width / 2, plot.width)):
-        inside = [e for e in plot.elements if low <= e.x < high]
-        numbers = [e for e in inside if e.tag == "text" and e.words.replace(",", "")[0].isdigit()]
-        numbers = [e for e in numbers if "×" not in e.words and float(e.words.replace(",", "")) > 0]
+def halves(plot):
+    """Of the upper and of the lower axes: what is in them, and the two scales by their numbers."""
+    [above, below] = [t.y for t in plot.texts if t.words.startswith("Time against")]
+    for low, high in ((above, below), (below, plot.height - 60)):
+        inside = [e for e in plot.elements if low <= e.y < high and e.tag != "polyline"]
+        numbers = [e for e in inside if e.tag == "text" and re.fullmatch(r"[\d.e+-]+", e.words)]
         up = [t for t in numbers if t.attributes["text-anchor"] == "end"]
         along = [t for t in numbers if t.attributes["text-anchor"] == "middle"]
-        values = [(t.x, float(t.words)) for t in along]
         middle = 0.35 * float(up[0].attributes["font-size"])
-        heights = [(t.y - middle, float(t.words.replace(",", ""))) for t in up]
-        steps = {round(b / a, 6) for (_, a), (_, b) in pairwise(values)}
-        x = scale(values, log=max(steps) >= 2 and steps <= {2, 2.5, 5, 10})
-        yield inside, x, scale(heights, log=True)
+        x = scale([(t.x, float(t.words)) for t in along], log=True)
+        y = scale([(t.y - middle, float(t.words)) for t in up], log=True)
+        yield inside, x, y
 
 
 def test_every_row_is_a_mark_where_the_axes_say(trade):
-    """And none else; hollow is float32, large is what no other beats."""
+    """And none else; hollow is float32, large is what no other beats; no error is at "none"."""
     plot = drawn(trade)
-    (left, *of_left), (right, *of_right) = sides(plot)
-    [band] = [e for e in plot.elements if e.attributes.get("fill") == "#e6f2e6"]
+    (upper, *of_upper), (lower, *of_lower) = halves(plot)
     for inside, (x, y), rows, error, best in (
-        (left, of_left, trade.whole, "wrong_pixels", "best_pixels"),
-        (right, of_right, trade.rows, "coverage_error", "best_coverage"),
+        (upper, of_upper, trade.whole, "wrong_pixels", "best_pixels"),
+        (lower, of_lower, trade.rows, "coverage_error", "best_coverage"),
     ):
         marks = [e for e in inside if e.tag == "circle" and e.words]
         assert len(marks) == len(rows)
+        least = min(getattr(r, error) for r in rows if getattr(r, error))
         for r in rows:
-            rays = f", {r.samples} × {r.samples} rays" if r.samples > 1 else ""
-            name = f"{Method(r.method).words}, {r.precision}, {r.width} × {r.height}{rays}: "
+            name = f"{Method(r.method).words}, {r.precision}, {r.size}: "
             [m] = [m for m in marks if m.words.startswith(name)]
+            assert all(f"{c.head} {c.show(r)}" in m.words for c in COLUMNS)
             assert x(m.x) == pytest.approx(r.seconds, rel=1e-3)
             if getattr(r, error):
                 assert y(m.y) == pytest.approx(getattr(r, error), rel=1e-3)
             else:
-                assert band.y < m.y < band.y + float(band.attributes["height"])
+                assert y(m.y) < least and plot.text("none")
             color = Method(r.method).color
             assert m.attributes["stroke"] == color
             assert m.attributes["fill"] == ("white" if r.precision == "float32" else color)
@@ -181,7 +193,7 @@ def test_the_plot_says_what_it_shows(trade):
     sizes = {(r.width, r.height, r.samples) for r in trade.rows if r.best_coverage}
     assert len(sizes) > 2  # and no name is left out
     for width, height, k in sizes:
-        plot.text(f"{width} × {height}{f', {k} × {k} rays' * (k > 1)}")
+        assert f"{width} × {height}{f', {k} × {k} rays' * (k > 1)}" in said
     lines = [
         e for e in plot.elements if e.tag == "polyline" and e.attributes["stroke"] == plots.INK
     ]
@@ -216,10 +228,11 @@ def test_plots_are_legible(case, slow):
         assert len(plot.titled("circle")) == len(trade.rows) + len(trade.whole)
 
 
-def test_names_in_a_plot_are_apart_or_left_out():
+def test_names_in_a_plot_are_apart():
     """Also where all that is named is at one point."""
-    axes = plots.Axes(100, 100, 1000, 800, plots.linear(0, 1), plots.linear(0, 1))
-    names = {f"a name, number {k}": axes.at(0.5, 0.5) for k in range(20)}
-    plot = Plot(plots.picture(1200, 1000, "t", "a", trade_report._named(axes, names, [])))
-    plot.assert_legible()
-    assert 5 <= len(plot.texts) < 20
+    axes = plots.Axes(100, 100, 500, 800, plots.linear(0, 1), plots.linear(0, 1))
+    for place in ((0.5, 0.5), (0.9, 0.0), (0.1, 1.0)):
+        names = {f"a name, number {k}": axes.at(*place) for k in range(30)}
+        plot = Plot(plots.picture(1200, 1000, "t", "a", plots.named(axes, names)))
+        plot.assert_legible()
+        assert len(plot.texts) == 30

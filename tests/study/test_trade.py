@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.trade import Trade, TradeRow, advice, gain, mark
+from reference_tracer.study.trade import COLUMNS, TIMED, Column, Trade, TradeRow, advice, gain, mark
 from reference_tracer.tracer.settings import Precision
 
 
@@ -52,6 +52,20 @@ def test_marks_are_those_of_the_definition(seed):
         )
         assert m.best == (m.best_pixels or m.best_coverage)
     assert any(m.best_coverage for m in marked)
+
+
+def test_every_field_that_is_measured_has_a_column():
+    """So each says whether it is timed: workers are compared by the columns that are not."""
+    chosen = {"method", "precision", "samples", "width", "height"}
+    marks = {c.best for c in COLUMNS if c.best}
+    assert {f.name for f in fields(TradeRow)} == chosen | {c.name for c in COLUMNS} | marks
+    assert {"seconds", "rounds"} <= TIMED and not TIMED & {"wrong_pixels", "coverage_error"}
+
+
+@pytest.mark.parametrize("options", [{"name": "watts"}, {"name": "seconds", "best": "best_watts"}])
+def test_a_column_of_nothing_is_refused(options):
+    with pytest.raises(ValueError, match="watts"):
+        Column(head="W", timed=True, show=str, **options)
 
 
 def test_equals_are_both_marked():

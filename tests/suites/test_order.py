@@ -61,7 +61,7 @@ def test_the_order_of_hits(rng, kind, share, start, count):
         o, d, corners = layers(rng, kind, share, start < 0)
         hits = nearest_hits(Rays(o, d), corners, start)
         o, d = (np.broadcast_to(v, (3, 40)) for v in (o, d))
-        expected = sights(o, d, corners, start=start)
+        expected = sights(o, d, corners, clip=(start, np.inf))
         off = np.array([not begins_on(o[:, k], corners) for k in range(40)]) | (start == 0)
         given = list(zip(hits.instance.tolist(), hits.triangle.tolist(), strict=True))
         wrong = [k for k in np.flatnonzero(off) if given[k] != expected[k].seen]
@@ -97,7 +97,7 @@ def test_surfaces_through_where_the_rays_begin(rng, share, start):
         hits = nearest_hits(Rays(o, d), corners, start)
         o, d = (np.broadcast_to(v, (3, 20)) for v in (o, d))
         off = [k for k in range(20) if start == 0 or not begins_on(o[:, k], corners)]
-        expected = sights(o, d, corners, start=start)
+        expected = sights(o, d, corners, clip=(start, np.inf))
         assert [hits.triangle[k] for k in off] == [expected[k].seen[1] for k in off]
         seen += (hits.triangle >= 0).sum()
     assert seen > 300

@@ -2,8 +2,8 @@
 
 Beside the values, computed by numpy itself, a `Recorded` array holds the expression of every
 element. It isn't an ndarray: what is not written here cannot be done with it, so nothing that is
-computed goes past the recorder. What the language of `proofs/Trees.v` has no word for, above all
-sums in an order of numpy's choosing, is refused.
+computed goes past the recorder. What the language of `proofs/floating_point/Trees.v` has no word
+for, above all sums in an order of numpy's choosing, is refused.
 
 Which elements a function picks by a test (flatnonzero, `if`) is taken from the values. What was
 asked, and the answer, are `choices` of the recording: the expressions hold on that path.

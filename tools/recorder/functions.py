@@ -26,7 +26,9 @@ def call(function: Callable, *args, **options) -> Any:
     if not (holds(args) or holds(tuple(options.values()))):
         return function(*args, **options)
     if name not in _OF_RECORDED:
-        raise RefusedError(f"np.{name} of recorded numbers: proofs/Trees.v has no word for it")
+        raise RefusedError(
+            f"np.{name} of recorded numbers: proofs/floating_point/Trees.v has no word for it"
+        )
     return _OF_RECORDED[name](*args, **options)
 
 

@@ -1,4 +1,4 @@
-"""Nodes of recorded expressions: those of `proofs/Trees.v`, by the same names.
+"""Nodes of recorded expressions: those of `proofs/floating_point/Trees.v`, by the same names.
 
 Equal nodes are one object, so that what is used twice is seen to be.
 """
@@ -32,7 +32,7 @@ class Node:
 
 
 class RefusedError(TypeError):
-    """Something was computed that `proofs/Trees.v` has no word for."""
+    """Something was computed that `proofs/floating_point/Trees.v` has no word for."""
 
 
 _known: dict[tuple, Node] = {}

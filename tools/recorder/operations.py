@@ -75,5 +75,5 @@ def refused(name: str) -> RefusedError:
         ".sum": "numpy chooses the order of a sum: write it with +",
         ".mean": "numpy chooses the order of a sum: write it with +",
         ".dot": "numpy chooses the order of its sums, and may use fused operations",
-    }.get(name, "proofs/Trees.v has no word for it")
+    }.get(name, "proofs/floating_point/Trees.v has no word for it")
     return RefusedError(f"{name} of recorded numbers: {why}")

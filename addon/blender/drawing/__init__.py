@@ -1,1 +1,1 @@
-"""Blender draws for the comparison: on temporary scenes, by each of its engines."""
+"""Has Blender draw for the comparison: a file for each judge, and what all of them need."""

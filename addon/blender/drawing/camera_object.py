@@ -1,4 +1,4 @@
-"""`scene.Camera` -> a camera in Blender: the way back of `camera.py`, as far as float32 goes."""
+"""Makes a camera in Blender from a `scene.Camera`, as closely as float32 allows."""
 
 from __future__ import annotations
 
@@ -17,26 +17,31 @@ LEAST_CLIP = 1e-6  # metres: Blender's own limit
 def add_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera to a Blender scene, make it the active one, and set the picture's size.
 
-    Blender itself sets what it cannot have to the nearest that it can, such as a pixel's shape of
-    more than 200 to 1 or a clip start below `LEAST_CLIP`: `window_of` says what is shown.
+    Blender takes the nearest value that it can have, as for pixels of more than 200 to 1 or a clip
+    start below `LEAST_CLIP`: `window_of` says what is shown.
     """
-    render, (across, up) = scene.render, pixel_size(camera)
-    render.resolution_x, render.resolution_y = camera.width, camera.height
-    render.resolution_percentage = 100
+    render = scene.render
+    across, up = pixel_size(camera)
     tall = up / across
-    render.pixel_aspect_x, render.pixel_aspect_y = max(1.0, 1 / tall), max(1.0, tall)
+    render.resolution_x = camera.width
+    render.resolution_y = camera.height
+    render.resolution_percentage = 100
+    render.pixel_aspect_x = max(1.0, 1 / tall)
+    render.pixel_aspect_y = max(1.0, tall)
     return place_camera(scene, camera)
 
 
 def place_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera for the picture that a Blender scene has, and make it the active one."""
-    w, data = camera.window, bpy.data.cameras.new(camera.name)
+    w = camera.window
+    data: Any = bpy.data.cameras.new(camera.name)
     data.sensor_fit = "HORIZONTAL"
     settings = camera.projection.settings((w.left, w.right, w.bottom, w.top))
     data.type = settings.pop("type")
     for name, value in settings.items():
         setattr(lens(data), name, value)
-    data.clip_start, data.clip_end = camera.clip_start, camera.clip_end
+    data.clip_start = camera.clip_start
+    data.clip_end = camera.clip_end
     obj = bpy.data.objects.new(camera.name, data)
     scene.collection.objects.link(obj)
     obj.matrix_world = Matrix(camera.world_from_camera.tolist())

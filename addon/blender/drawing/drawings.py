@@ -1,8 +1,8 @@
-"""What Blender tells of its own picture by drawing the scene again, on temporary scenes of its own.
+"""Draws the user's scene again, to find whose surface each pixel of Blender's picture shows.
 
-Whose surface each pixel shows is found with a colour an object. What is instanced shows the colour
-of the object that instances it, and counts as that. Where hair and the like are drawn is found
-without them. The user's objects are drawn, never copies: those have no simulation.
+For that, each object has a colour of its own. What is instanced shows the colour of the object that
+instances it, and counts as that object. Where hair and the like are drawn is found by a picture
+without them. The user's objects are drawn, never copies of them: those have no simulation.
 """
 
 from __future__ import annotations
@@ -14,23 +14,27 @@ from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Integers
 from ...compare.checks.unmodelled import covered
 from ...compare.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
 from ...compare.picture import Picture, numbered
 from ...manifest import Effect, Manifest, Unmodelled
 from ...scene import Scene, SceneError
-from ..reading.planes import stand_ins
 from ..reading.unmodelled import HAIR, is_hair
-from .judges import Judge
-from .temporary import STANDS_FOR, drawn, in_colors, is_animated, leave_out, temporary_scene, untold
-from .viewport import picture, prepare_scene, use_view_shading
+from ..temporary import drawn, leave_out, temporary_scene
+from ..values import in_colors, is_animated, untold
+from .judge import Judge
+from .picture import picture, prepare_scene
+from .shading import use_view_shading
+from .stand_ins import STANDS_FOR, stand_ins
+
+_HIDING = ("hide_render", "hide_viewport")
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """How the user's scene is drawn, whenever it is: the same each time."""
+    """How the user's scene is drawn: the same each time."""
 
     scene: Any
     layer: str
@@ -42,20 +46,20 @@ class Drawing:
 
     @contextmanager
     def begun(self) -> Iterator[Any]:
-        """Give a new temporary scene, as it was for the first picture."""
+        """Give a new temporary scene, set up as for the first picture."""
         planes = self.manifest.owners[len(self.exported.instances) :]
-        with temporary_scene(self.scene, self.layer, self.judge) as tmp:
+        with temporary_scene(self.scene, self.layer, self.judge.ignores) as tmp:
             if self.view_shading:
                 use_view_shading(tmp, self.view_shading)
             prepare_scene(tmp, self.like_for_like)
             with stand_ins(tmp, self.layer, self.exported, planes):
                 yield tmp
 
-    def picture(self, tmp: Any, like_for_like: bool) -> NDArray[np.float32]:
-        """Draw a temporary scene; raises what :func:`viewport.picture` does."""
+    def picture(self, tmp: Any, like_for_like: bool) -> Colors:
+        """Draw a temporary scene; raises what :func:`.picture.picture` does."""
         return picture(tmp, self.layer, self.judge, self.exported.camera, like_for_like)
 
-    def without(self, features: Sequence[Unmodelled]) -> NDArray[np.float32]:
+    def without(self, features: Sequence[Unmodelled]) -> Colors:
         """Draw the scene without some features that draw themselves."""
         with self.begun() as tmp, left_out(tmp, self.layer, features):
             return self.picture(tmp, self.like_for_like)
@@ -65,23 +69,35 @@ class Drawing:
 def left_out(tmp: Any, layer: str, features: Sequence[Unmodelled]) -> Iterator[None]:
     """Leave hair, and objects that draw what is no triangle, out of a temporary scene, for a while.
 
-    An animation would show again what was hidden: such an object leaves the scene.
+    Where an animation would show again what was hidden, the object leaves the scene.
     """
-    of_hair = {u.object for u in features if u.feature == HAIR}
+    growing = {u.object for u in features if u.feature == HAIR}
     others = {name for u in features if u.feature != HAIR for name in (u.object, *u.by)}
-    growing = (o for o in bpy.data.objects if o.name_full in of_hair)
-    hair = {s.settings for o in growing for s in o.particle_systems if is_hair(s.settings)}
-    hiding = "hide_render", "hide_viewport"
     objects = {o for o in bpy.data.objects if o.name_full in others}
-    old = {o for o in objects if o.type == "GPENCIL"}  # 4.2 would hide it from the user, too
-    leave_out(tmp, layer, old | {o for o in objects if is_animated(o, *hiding)})
-    whole = dict.fromkeys(objects - old, np.bool_(True))
+    old: set[Any] = {o for o in objects if str(o.type) == "GPENCIL"}  # 4.2 would not show it again
+    leave_out(tmp, layer, old | {o for o in objects if is_animated(o, *_HIDING)})
+    hidden = dict.fromkeys(objects - old, np.bool_(True))
     with ExitStack() as stack:
-        for name in hiding:
-            stack.enter_context(untold(bpy.data.objects, name, whole))
+        for name in _HIDING:
+            stack.enter_context(untold(bpy.data.objects, name, hidden))
+        stack.enter_context(_without_hair(growing))
+        yield
+
+
+@contextmanager
+def _without_hair(objects: set[str]) -> Iterator[None]:
+    """Draw no hair of some objects, by their names, for a while."""
+    settings = {
+        system.settings
+        for obj in bpy.data.objects
+        if obj.name_full in objects
+        for system in obj.particle_systems
+        if is_hair(system.settings)
+    }
+    with ExitStack() as stack:
         for name in ("render_type", "display_method"):
-            none = bpy.types.ParticleSettings.bl_rna.properties[name].enum_items["NONE"].value
-            values = dict.fromkeys(hair, np.int32(none))
+            items: Any = bpy.types.ParticleSettings.bl_rna.properties[name]
+            values = dict.fromkeys(settings, np.int32(items.enum_items["NONE"].value))
             stack.enter_context(untold(bpy.data.particles, name, values))
         yield
 
@@ -95,28 +111,26 @@ def with_what_draws_itself(drawing: Drawing, shown: Picture) -> tuple[Picture, M
     features = {n: u for n, u in enumerate(manifest.unmodelled) if u.effect is Effect.DRAWN}
     if not features:
         return shown, manifest
-    apart = _apart(manifest)
-    beneath = drawing.without(apart) if apart else shown.color
+    separate = _separate(manifest)
+    beneath = drawing.without(separate) if separate else shown.color
     over = (shown.color != beneath).any(axis=-1)  # by however little
     known = np.where(over[..., None], beneath, np.float32(np.nan))
-    if len(apart) < len(features):  # what lies beneath goes with it: that is not known
+    if len(separate) < len(features):  # what lies beneath goes with it: that is not known
         over |= (beneath != drawing.without(list(features.values()))).any(axis=-1)
-    number, unseen = np.full(over.shape, NOTHING, np.int32), set()
+    number = np.full(over.shape, NOTHING, np.int32)
     number[over] = min(features)
+    unmodelled = list(manifest.unmodelled)
     for n, feature in reversed(features.items()):
         if feature.bounds is not None:
             here = over & covered(drawing.exported.camera, feature.bounds)
             number[here] = n
-            unseen |= set() if here.any() else {n}
-    told = (
-        replace(u, effect=Effect.NONE, bounds=None) if n in unseen else u
-        for n, u in enumerate(manifest.unmodelled)
-    )
+            if not here.any():
+                unmodelled[n] = replace(feature, effect=Effect.NONE, bounds=None)
     shown = replace(shown, drawn=number, beneath=known)
-    return shown, replace(manifest, unmodelled=tuple(told))
+    return shown, replace(manifest, unmodelled=tuple(unmodelled))
 
 
-def drawn_by_others(drawing: Drawing) -> NDArray[np.int32] | None:
+def drawn_by_others(drawing: Drawing) -> Integers | None:
     """Return what draws itself in each pixel, (h, w), by Blender's own drawing; None for nothing.
 
     Of a picture that Blender did not draw: nobody knows what is beneath.
@@ -131,8 +145,8 @@ def drawn_by_others(drawing: Drawing) -> NDArray[np.int32] | None:
     return with_what_draws_itself(drawing, shown)[0].drawn
 
 
-def _apart(manifest: Manifest) -> list[Unmodelled]:
-    """Return what draws itself, and can be left out without anything that is traced."""
+def _separate(manifest: Manifest) -> list[Unmodelled]:
+    """Return what draws itself and can be left out without leaving out what is traced."""
     traced = {e.name for e in manifest.objects if e.exported} | set(manifest.owners)
     drawn_itself = (u for u in manifest.unmodelled if u.effect is Effect.DRAWN)
     return [u for u in drawn_itself if u.feature == HAIR or traced.isdisjoint((u.object, *u.by))]
@@ -141,11 +155,11 @@ def _apart(manifest: Manifest) -> list[Unmodelled]:
 def with_identity(drawing: Drawing, shown: Picture) -> Picture:
     """Return a picture of Blender's with whose surface each pixel shows.
 
-    That is not known where there are more objects than colours tell apart. What draws itself is
-    left out, if it can be.
+    With more objects than colours can tell apart, the picture is returned as it is. What draws
+    itself is left out where that is possible.
     """
     manifest = drawing.manifest
-    with drawing.begun() as tmp, left_out(tmp, drawing.layer, _apart(manifest)):
+    with drawing.begun() as tmp, left_out(tmp, drawing.layer, _separate(manifest)):
         # The layer's own list has the stand-ins of planes once it is evaluated: that is too early.
         planes = [o for o in tmp.collection.objects if STANDS_FOR in o]
         objects = list(dict.fromkeys((*drawn(tmp, drawing.layer), *planes)))
@@ -156,11 +170,10 @@ def with_identity(drawing: Drawing, shown: Picture) -> Picture:
         number = {name: n for n, name in enumerate(names)}
         prepare_scene(tmp, True)
         tmp.display.shading.color_type = "OBJECT"
-        own = [o.color[:] for o in objects if is_animated(o, "color")]
-        colors = colors_of(len(names))[[number[owner] for owner in owners]]
-        with in_colors(objects, colors):
+        own_colors = [o.color[:] for o in objects if is_animated(o, "color")]
+        with in_colors(objects, colors_of(len(names))[[number[owner] for owner in owners]]):
             owner = decode(drawing.picture(tmp, True), len(names))
-    if own:  # these show their own colours again, which may be those of other objects' numbers
-        of_animated = decode(np.array([own], np.float32), len(names))
+    if own_colors:  # these objects show their own colours, which may be other objects' numbers
+        of_animated = decode(np.array([own_colors], np.float32), len(names))
         owner[np.isin(owner, of_animated[of_animated >= 0])] = UNKNOWN
     return replace(shown, owner=owner, owners=numbered(names, manifest.owners), names=names)

@@ -1,4 +1,4 @@
-"""What a 3D view shows -> `scene.Camera`, of the matrices with which Blender itself draws it.
+"""Makes a `scene.Camera` from the matrices with which Blender draws a 3D view.
 
 A point v of the world is at c = view_matrix v before the view, and appears, from -1 to 1 over the
 region, at (P00 cx + P02 cz + P03) / w and (P11 cy + P12 cz + P13) / w, where P is the window_matrix
@@ -19,10 +19,17 @@ from ..reading.camera import border_region, projection_of
 
 
 def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
-    """Return the camera of a 3D view, whose picture is as large as its region.
+    """Return the camera of a 3D view; its picture is as large as the region.
 
-    In are a `bpy.types.Region`, its `RegionView3D`, the `SpaceView3D` and the `Scene` that it
-    shows. Clip range and render border are the view's own or the camera's, as Blender has it.
+    Clip range and render border are the view's own or the camera's, as Blender has it.
+
+    Parameters
+    ----------
+    region : bpy.types.Region
+    region_3d : bpy.types.RegionView3D
+    space : bpy.types.SpaceView3D
+    scene : bpy.types.Scene
+        What the view shows.
 
     Raises
     ------
@@ -38,19 +45,22 @@ def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
             "camera's view, or render (F12)."
         )
     own = through.data if through else space
-    start, end = own.clip_start, own.clip_end
+    start = own.clip_start
+    end = own.clip_end
     p = np.array(region_3d.window_matrix, np.float64)
     projection = ORTHOGRAPHIC if p[3, 3] else PERSPECTIVE
     if projection.sees_behind and not through:  # Blender looks both ways
-        start, end = -end / 2, end / 2
+        start = -end / 2
+        end = end / 2
     # Where -1 and 1 are: P00 u - P02 = -1 or 1 at u = cx / w in perspective, as cz / w = -1 there;
     # P00 u + P03 else.
     middle = -p[:2, 3] if projection.shares_direction else p[:2, 2]
     scale = p[[0, 1], [0, 1]]
-    (left, bottom), (right, top) = (middle - 1) / scale, (middle + 1) / scale
+    left, bottom = ((middle - 1) / scale).tolist()
+    right, top = ((middle + 1) / scale).tolist()
     camera = Camera(
         world_from_camera=np.linalg.inv(np.array(region_3d.view_matrix, np.float64)),
-        window=ViewWindow(float(left), float(right), float(bottom), float(top)),
+        window=ViewWindow(left, right, bottom, top),
         width=region.width,
         height=region.height,
         projection=projection,
@@ -66,8 +76,10 @@ def coarser(camera: Camera, factor: int) -> Camera:
 
     The last ones may reach beyond the picture.
     """
-    width, height = -(-camera.width // factor), -(-camera.height // factor)
-    w, r = camera.window, camera.region
+    width = -(-camera.width // factor)
+    height = -(-camera.height // factor)
+    w = camera.window
+    r = camera.region
     across = (w.right - w.left) * (width * factor / camera.width)
     up = (w.top - w.bottom) * (height * factor / camera.height)
     return replace(
@@ -89,7 +101,8 @@ def _within_border(camera: Camera, through: Any, space: Any, scene: Any) -> Came
         corners = np.array(through.data.view_frame(scene=scene), np.float64).T
         axes = camera.world_from_camera
         film = np.array(film_of(camera, axes[:3, :3] @ corners + axes[:3, 3:])[:2])
-        low, high = film.min(axis=1), film.max(axis=1)
-        ends = (low + ends * (high - low)) / (camera.width, camera.height)
+        low = film.min(axis=1)
+        extent = film.max(axis=1) - low
+        ends = (low + ends * extent) / (camera.width, camera.height)
     (x0, y0), (x1, y1) = np.clip(ends, 0, 1)
     return replace(camera, region=border_region(camera.width, camera.height, x0, x1, y0, y1))

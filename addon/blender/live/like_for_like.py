@@ -1,13 +1,14 @@
-"""Blender's own drawing of what a 3D view shows, like for like, and the case to be compared.
+"""Has Blender draw what a 3D view shows, like for like, and returns the case to be compared.
 
-It is drawn as a camera's picture in a temporary scene. Of the view itself an off-screen drawing
-could be made; but its shading would have to be switched for it, which frees its engine; and it
-would be anti-aliased by the user's preference, which draws everything eight times.
+Blender draws it as a camera's picture in a temporary scene. It could also draw the view itself
+off-screen; but for that the view's shading would have to be switched, which frees its engine, and
+the user's preference for anti-aliasing would draw everything eight times.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import bpy
 
@@ -16,23 +17,22 @@ from ...compare.picture import Picture, Source
 from ...scene import Camera, Scene, SceneError
 from ...tracer.settings import Settings
 from ..drawing.camera_object import add_camera
-from ..drawing.judges import JUDGES
+from ..drawing.picture import picture, prepare_scene
 from ..drawing.rasteriser import snapping_of
-from ..drawing.temporary import drawn, leave_out, temporary_scene
-from ..drawing.viewport import picture, prepare_scene
+from ..drawing.stand_ins import stand_ins
+from ..drawing.viewport import VIEWPORT
 from ..reading.camera import certify_camera
 from ..reading.export import NO_SURFACE, export
-from ..reading.planes import stand_ins
 from ..reading.visible import in_view, types_left_out
+from ..temporary import drawn, leave_out, temporary_scene
 
 AWAY = 1e-3  # of the clip range: how far before all that it shows a camera is placed
-_VIEWPORT = JUDGES["viewport"]
 
 
 def is_busy() -> bool:
     """Return whether the user, or a render, is in the middle of something."""
-    windows = bpy.context.window_manager.windows
-    busy = any(w.modal_operators or w.screen.is_animation_playing for w in windows)
+    manager: Any = bpy.context.window_manager
+    busy = any(w.modal_operators or w.screen.is_animation_playing for w in manager.windows)
     return busy or bpy.app.is_job_running("RENDER")
 
 
@@ -44,45 +44,65 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
     SceneError
         If Blender makes no picture of it.
     """
-    windows = bpy.context.window_manager.windows
-    spaces = ((w, a.spaces.active) for w in windows for a in w.screen.areas)
-    window, shown = next((w, s) for w, s in spaces if s.as_pointer() == space)
-    layer, own, unshown = window.view_layer.name, window.view_layer, types_left_out(shown)
-    if unshown.difference(NO_SURFACE):  # a camera's picture has them
-        raise SceneError("This view leaves out types of objects that have surfaces: show them all.")
-    with temporary_scene(window.scene, layer, _VIEWPORT) as tmp:
-        every = ((o, o.evaluated_get(own.depsgraph)) for o in drawn(tmp, layer))
-        leave_out(tmp, layer, [o for o, e in every if not in_view(shown, unshown, e, own)])
+    window, shown = _view_of(space)
+    layer = window.view_layer
+    with temporary_scene(window.scene, layer.name, VIEWPORT.ignores) as tmp:
+        _leave_out_unseen(tmp, layer, shown)
         prepare_scene(tmp, True)
         tmp.render.use_border = False  # it is of the camera's picture, not of this one
         looking = add_camera(tmp, _from_before(scene.camera)).data
         try:
-            with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]):
+            with bpy.context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer.name]):
                 depsgraph = bpy.context.evaluated_depsgraph_get()
                 exported, manifest = export(depsgraph)
                 certificate = certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
-            snapping = snapping_of(_VIEWPORT)
+            snapping = snapping_of(VIEWPORT)
             planes = [scene.objects[p.object] for p in scene.planes]
-            with stand_ins(tmp, layer, scene, planes) as traced:
-                pixels = picture(tmp, layer, _VIEWPORT, scene.camera, True)
+            with stand_ins(tmp, layer.name, scene, planes) as traced:
+                pixels = picture(tmp, layer.name, VIEWPORT, scene.camera, True)
         finally:
             bpy.data.cameras.remove(looking)  # and the object with it
+    drawn_picture = Picture(
+        pixels,
+        Source(VIEWPORT.name, bpy.app.version_string),
+        snapping=snapping,
+        # Blender stores the view's own camera rounded again: its samples lie so far off.
+        sample_radius=certificate.largest,
+    )
     traced = replace(traced, background=exported.background)
-    # The view's own camera is rounded again, where Blender stores it: its samples lie so far off.
-    drawn_as = {"snapping": snapping, "sample_radius": certificate.largest}
-    shown_by = Source(_VIEWPORT.name, bpy.app.version_string)
-    return Case(traced, manifest, settings, Picture(pixels, shown_by, **drawn_as))
+    return Case(traced, manifest, settings, drawn_picture, certificate)
+
+
+def _view_of(space: int) -> tuple[Any, Any]:
+    """Return the window and the `SpaceView3D` of a space's address."""
+    manager: Any = bpy.context.window_manager
+    spaces = ((w, a.spaces.active) for w in manager.windows for a in w.screen.areas)
+    return next((w, s) for w, s in spaces if s.as_pointer() == space)
+
+
+def _leave_out_unseen(tmp: Any, layer: Any, space: Any) -> None:
+    """Leave out of a temporary scene what a 3D view does not show of a view layer."""
+    unshown = types_left_out(space)
+    if unshown.difference(NO_SURFACE):  # a camera's picture has them
+        raise SceneError("This view leaves out types of objects that have surfaces: show them all.")
+    evaluated = ((o, o.evaluated_get(layer.depsgraph)) for o in drawn(tmp, layer.name))
+    leave_out(tmp, layer.name, [o for o, e in evaluated if not in_view(space, unshown, e, layer)])
 
 
 def _from_before(camera: Camera) -> Camera:
-    """Return a camera, moved to before all that it shows if it looks behind itself, too.
+    """Return a camera that does not look behind itself, moved back to before all that it shows.
 
-    So does an orthographic view, but no camera of Blender's. Parallel rays stay the same.
+    An orthographic view looks behind itself, but no camera of Blender's does. Parallel rays stay
+    the same.
     """
     if camera.clip_start > 0:
         return camera
     back = camera.clip_start - AWAY * (camera.clip_end - camera.clip_start)
     matrix = camera.world_from_camera.copy()
     matrix[:3, 3] += back * camera.forward
-    clip = {"clip_start": camera.clip_start - back, "clip_end": camera.clip_end - back}
-    return replace(camera, world_from_camera=matrix, **clip)
+    return replace(
+        camera,
+        world_from_camera=matrix,
+        clip_start=camera.clip_start - back,
+        clip_end=camera.clip_end - back,
+    )

@@ -1,7 +1,6 @@
-"""What a 3D view in Rendered mode can show: a function each.
+"""Fills a 3D view's picture in steps: one function for each thing that it can show.
 
-A function fills a picture in steps. All but the picture of F12 show how each pixel came about: by
-the one ray through its centre.
+All but the picture of F12 show how each pixel came about, by the one ray through its centre.
 """
 
 from __future__ import annotations
@@ -11,12 +10,13 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Colors
 from ...certainty import Certainty
-from ...compare.cause import AGREE, UNEXPLAINED
+from ...compare.cause import AGREE, UNEXPLAINED, Causes
 from ...compare.causes import CAUSES, explain
 from ...compare.maps import cause_map, certainty_map, dimmed, ringed, wrong_map
+from ...methods import Method
 from ...rendering import steps
 from ...scene import Camera, Scene
 from ...tracer.coloring import Color
@@ -33,13 +33,13 @@ MOST_EXPLAINED = 5_000  # of the pixels that differ: in a second or two
 
 @dataclass(eq=False)
 class Picture:
-    """A picture of h x w pixels that is being made: a camera's region, row 0 at the bottom.
+    """A picture of h x w pixels in the making: a camera's region, row 0 at the bottom.
 
-    A new array in `color` is the picture anew, whatever was shown of the one before.
+    With a new array in `color` the whole picture is shown anew.
     """
 
-    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
-    rows_done: NDArray[np.bool_]  # (h,) of which the colour is known
+    color: Colors  # (h, w, 4) linear RGBA, alpha premultiplied
+    rows_done: Bools  # (h,) whether the row's colours are known
     space: int  # the address of the 3D view's space
     is_coarse: bool  # whether its pixels are larger than the view's
     line: str = ""  # said in the view's corner
@@ -48,20 +48,21 @@ class Picture:
     @classmethod
     def empty(cls, camera: Camera, space: int = 0, is_coarse: bool = False) -> Picture:
         """Return one with no row done."""
-        height, width = camera.region.height, camera.region.width
-        color, done = np.zeros((height, width, 4), np.float32), np.zeros(height, bool)
-        return cls(color, done, space, is_coarse)
+        region = camera.region
+        color = np.zeros((region.height, region.width, 4), np.float32)
+        return cls(color, np.zeros(region.height, bool), space, is_coarse)
 
 
-# Fills a picture in steps of some milliseconds, with the share.
+# Fills a picture in steps of some milliseconds; yields the share that is done.
 Steps = Callable[[Scene, Settings, Picture], Iterator[float]]
-Rows = Callable[[Frame, slice], NDArray]  # what is shown of rows of a frame, linear RGBA
+Rows = Callable[[Frame, slice], Colors]  # what is shown of rows of a frame, linear RGBA
 
 
 def picture(scene: Scene, settings: Settings, shown: Picture) -> Iterator[float]:
     """Trace the picture of F12."""
     frame = Frame.empty(scene)
-    shown.color, shown.rows_done = frame.color, frame.rows_done
+    shown.color = frame.color
+    shown.rows_done = frame.rows_done
     yield from steps(scene, settings, frame)
 
 
@@ -78,7 +79,7 @@ def wrong_pixels(scene: Scene, settings: Settings, shown: Picture) -> Iterator[f
         [shown.line] = frame.statistics.notes[:1] or proven
         return
     truth = Frame.empty(scene)
-    yield from scaled(steps(scene, Settings("certified"), truth), 0.0, 0.4)
+    yield from scaled(steps(scene, Settings(Method.CERTIFIED), truth), 0.0, 0.4)
     work = _traced(
         scene, settings, shown, lambda f, r: wrong_map(f.color[r], f.wrong_against(truth)[r])
     )
@@ -123,31 +124,38 @@ def difference(scene: Scene, settings: Settings, shown: Picture) -> Iterator[flo
     for rows in parts(len(color), ROWS):
         color[rows] = cause_map(frame.color[rows], causes.cause[rows])
         yield 0.9
-    passed = len(causes.passed_over)
     color.reshape(-1, 4)[causes.passed_over] = 1
     shown.color = ringed(color, causes.cause != AGREE)
+    shown.line = _summary(causes)
+
+
+def _summary(causes: Causes) -> str:
+    """Return how many pixels differ from Blender's viewport, and why."""
     counts = {c: int((causes.cause == c).sum()) for c in CAUSES}
+    passed = len(causes.passed_over)
     found = [f"{n:,} {c.label}" for c, n in counts.items() if n and c != AGREE]
-    found += [f"{passed:,} not looked at (white)"] if passed else []
+    if passed:
+        found.append(f"{passed:,} not looked at (white)")
     differ = sum(n for c, n in counts.items() if c.explains or c == UNEXPLAINED) + passed
-    of = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
-    shown.line = f"{of}: {', '.join(found)}" if found else of
+    line = f"{differ:,} of {causes.cause.size:,} pixels differ from Blender's viewport"
+    return f"{line}: {', '.join(found)}" if found else line
 
 
 def _traced(scene: Scene, settings: Settings, shown: Picture, rows: Rows) -> Work[Frame]:
-    """Trace one ray a pixel, and show what is made of the rows that are done."""
+    """Trace one ray a pixel, and show the rows that are done as `rows` makes them."""
     frame = Frame.empty(scene)
     for share in steps(scene, replace(settings, samples=1), frame):
         new = np.flatnonzero(frame.rows_done & ~shown.rows_done)
         for part in parts(len(new), ROWS):
             some = slice(new[part][0], new[part][-1] + 1)
-            shown.color[some], shown.rows_done[some] = rows(frame, some), True
+            shown.color[some] = rows(frame, some)
+            shown.rows_done[some] = True
             yield share
         yield share
     return frame
 
 
-# By its identifier in `properties.toml`, which says what there is to say of each.
+# By the identifiers in `ui/choices.py`, which has Blender's words for each.
 SHOWS: dict[str, Steps] = {
     "PICTURE": picture,
     "WRONG": wrong_pixels,

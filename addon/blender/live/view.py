@@ -1,8 +1,8 @@
-"""One 3D view in Rendered mode: what it shows, and the work towards it, in small steps.
+"""Draws one 3D view in Rendered mode, and works towards its picture in small steps.
 
 While the view changes, coarse pictures follow it; once it rests, the whole one is made. A drawing
 begins the work, so that a fast picture is there at once; a timer goes on with it. Nothing of bpy is
-kept: Blender frees the engine whose view this is, and all that is here goes with it.
+held: Blender frees the engine that this view belongs to, and all that is here goes with it.
 """
 
 from __future__ import annotations
@@ -19,11 +19,12 @@ from ...scene import Camera
 from ...tracer.settings import Settings
 from . import shows
 from .camera import camera_of, coarser
-from .drawing import Layers, draw_words
-from .kept import KeptScene
+from .layers import Layers, draw_words
+from .scene import ViewScene
 
-AT_ONCE = 0.012  # seconds that the interface waits for work: a step may take longer than is left
-COARSE, COARSER = 4, 8  # sizes of a coarse picture's pixels
+AT_ONCE = 0.012  # seconds that the interface waits for work; a step may take longer than is left
+COARSE = 4  # the size of a coarse picture's pixels
+COARSER = 8  # if those take too long
 SLOW = 0.025  # seconds that it waits for a coarse one; of what takes longer the next one is coarser
 PAUSE = 0.1  # seconds until it is asked again for what nothing can be done for now
 LINES = 2  # of what the picture lacks, in the view's corner
@@ -41,13 +42,16 @@ class Wanted(NamedTuple):
 
 
 class Job:
-    """A picture in the making, whose pixels are `factor` times as wide and high as the view's."""
+    """A picture in the making; its pixels are `factor` times as wide and high as the view's."""
 
-    def __init__(self, wanted: Wanted, kept: KeptScene, camera: Camera, factor: int) -> None:
-        self.wanted, self.factor = wanted, factor
-        self.seconds, self.is_done = 0.0, False
-        scene = kept.scene(camera if factor == 1 else coarser(camera, factor))
-        width, height = factor / camera.width, factor / camera.height
+    def __init__(self, wanted: Wanted, whole: ViewScene, camera: Camera, factor: int) -> None:
+        self.wanted = wanted
+        self.factor = factor
+        self.seconds = 0.0
+        self.is_done = False
+        scene = whole.scene(camera if factor == 1 else coarser(camera, factor))
+        width = factor / camera.width
+        height = factor / camera.height
         corner = scene.camera.region
         self.place = corner.x0 * width, corner.y0 * height, width, height
         self.picture = shows.Picture.empty(scene.camera, wanted.space, factor > 1)
@@ -64,16 +68,19 @@ class LiveView:
     """The state of a 3D view."""
 
     def __init__(self) -> None:
-        self._kept = KeptScene()
+        self._scene = ViewScene()
         self._layers = Layers()
         self._wanted: Wanted | None = None
         self.camera: Camera | None = None  # of what is wanted
         self.shown: Job | None = None  # the best one that is done
         self._job: Job | None = None  # a better one
-        self._factor, self._rows = COARSE, 0  # rows that are drawn of the better one
-        self._unread = self.said = ""  # why there is no scene; why what is wanted is not shown
+        self._factor = COARSE  # of the next coarse picture
+        self._rows = 0  # rows that are drawn of the better one
+        self._unread = ""  # why there is no scene
+        self.said = ""  # why what is wanted is not shown
         self._timer: Any = None
-        self._drawn, self._is_drawn = 0.0, False  # when; whether all that is known
+        self._drawn = 0.0  # when
+        self._is_drawn = False  # all that is known
 
     @property
     def rests(self) -> bool:
@@ -82,18 +89,18 @@ class LiveView:
 
     def update(self, context: Any, depsgraph: Any) -> None:
         """Take over what has changed in the scene."""
-        self._unread = failure(self._kept.update, depsgraph, context.space_data)
+        self._unread = failure(self._scene.update, depsgraph, context.space_data)
 
     def draw(self, engine: Any, context: Any, depsgraph: Any) -> None:
         """Draw the view, as well as it is known at once."""
-        if self._kept.outdated(context.scene, context.space_data):
+        if self._scene.outdated(context.scene, context.space_data):
             self.update(context, depsgraph)
         until = time.perf_counter() + SLOW
         if error := self._unread or failure(self._aim, context):
             self._give_up(error)
             self._wanted = None  # whatever is wanted next is to be tried
         while self._job and self._job.factor > 1 and time.perf_counter() < until:
-            self._step()
+            self._step(self._job)
         if error := failure(self._draw, engine, context, until):
             self._give_up(error)
             engine.tag_redraw()  # to say so
@@ -103,11 +110,12 @@ class LiveView:
 
     def tick(self, engine: Any) -> float | None:
         """Work for a while; returns when to go on, in seconds, None for not."""
-        until, pause = time.perf_counter() + AT_ONCE, 0.0
+        until = time.perf_counter() + AT_ONCE
+        pause = 0.0
         while self._job and not pause and time.perf_counter() < until:
             pause = PAUSE if self._job.picture.waits else 0.0
-            self._step()
-        rows = self._job.picture.rows_done.sum() if self._job else 0
+            self._step(self._job)
+        rows = int(self._job.picture.rows_done.sum()) if self._job else 0
         if not self._is_drawn or (rows > self._rows and until > self._drawn + SHOW_EVERY):
             self._rows = rows
             engine.tag_redraw()
@@ -115,34 +123,36 @@ class LiveView:
 
     def _aim(self, context: Any) -> None:
         """Find out what is wanted, and begin to make it."""
-        scene, space = context.scene, context.space_data
+        scene = context.scene
+        space = context.space_data
         camera = camera_of(context.region, context.region_data, space, scene)
         settings = scene.reference_tracer.settings()
         show = shows.SHOWS[scene.reference_tracer.show]
-        version, view = self._kept.version, space.as_pointer()
-        if show is shows.difference:  # of which a part is Blender's
-            version += self._kept.drawings
-        wanted = Wanted(str(camera.to_dict()), version, settings, show, view)
+        version = self._scene.version
+        if show is shows.difference:  # a part of it is Blender's drawing
+            version += self._scene.drawings
+        wanted = Wanted(str(camera.to_dict()), version, settings, show, space.as_pointer())
         if self._wanted != wanted:
-            self._wanted, self.camera, self.said = wanted, camera, ""
+            self._wanted = wanted
+            self.camera = camera
+            self.said = ""
         # A coarse picture of where the view has just been is finished: a view that never rests
         # would never show one.
         job = self._job
         if job and job.wanted != wanted and (job.factor == 1 or job.wanted[1:] != wanted[1:]):
             self._job = None
-        self._begin()
+        self._begin(wanted, camera)
 
-    def _begin(self) -> None:
+    def _begin(self, wanted: Wanted, camera: Camera) -> None:
         """Begin a better picture, if there is one to be made and none in the making."""
-        is_right = self.shown and self.shown.wanted == self._wanted
-        if self._job or self.said or (is_right and self.shown.factor == 1):
+        right = self.shown if self.shown and self.shown.wanted == wanted else None
+        if self._job or self.said or (right and right.factor == 1):
             return
-        factor, self._rows = 1 if is_right else self._factor, 0
-        self._job = Job(self._wanted, self._kept, self.camera, factor)
+        self._rows = 0
+        self._job = Job(wanted, self._scene, camera, 1 if right else self._factor)
 
-    def _step(self) -> None:
+    def _step(self, job: Job) -> None:
         """Do one step; a picture that is done with it is shown, and a better one begun."""
-        job = self._job
         if error := failure(job.step):
             self._give_up(error)
         elif job.is_done:
@@ -150,13 +160,19 @@ class LiveView:
                 share = job.seconds / SLOW * (job.factor / COARSE) ** 2
                 self._factor = COARSER if share > 1 else COARSE
             self._layers.add(job.picture, job.place)
-            self.shown, self._job, self._is_drawn = job, None, False
-            self._give_up(failure(self._begin))
+            self.shown = job
+            self._job = None
+            self._is_drawn = False
+            if self._wanted and self.camera:
+                self._give_up(failure(self._begin, self._wanted, self.camera))
 
     def _give_up(self, error: str) -> None:
         """Show nothing but what went wrong, if something did."""
         if error:
-            self.said, self.shown, self._job, self._is_drawn = error, None, None, False
+            self.said = error
+            self.shown = None
+            self._job = None
+            self._is_drawn = False
             self._layers = Layers()
 
     def _draw(self, engine: Any, context: Any, until: float) -> None:
@@ -171,14 +187,18 @@ class LiveView:
             engine.tag_redraw()
         if self.said:
             draw_words(self.said, region, context.preferences.system.ui_scale)
-        jobs = [job for job in (self._job, self.shown) if job and job.picture.line]
-        own = ["coarse: " * (job.factor > 1) + job.picture.line for job in jobs]
-        lines = own[:1] + list(self._kept.lines[:LINES])
-        more = len(self._kept.lines) - LINES
-        engine.update_stats("", "; ".join(lines) + (f"; and {more} more" if more > 0 else ""))
+        engine.update_stats("", self._corner())
         self._drawn = time.perf_counter()
 
+    def _corner(self) -> str:
+        """Return what is said in the view's corner."""
+        jobs = [job for job in (self._job, self.shown) if job and job.picture.line]
+        own = ["coarse: " * (job.factor > 1) + job.picture.line for job in jobs]
+        text = "; ".join([*own[:1], *self._scene.lines[:LINES]])
+        more = len(self._scene.lines) - LINES
+        return f"{text}; and {more} more" if more > 0 else text
 
-def _tick(reference: weakref.ref) -> float | None:
+
+def _tick(reference: weakref.ref[Any]) -> float | None:
     engine = reference()  # None once Blender has freed it
     return engine.live.tick(engine) if engine else None

@@ -1,1 +1,1 @@
-"""Blender's scene is read: camera, objects, colours, and what is not modelled."""
+"""Reads Blender's scene: camera, objects, colours, and what is not modelled."""

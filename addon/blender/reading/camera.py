@@ -11,8 +11,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Floats
 from ...compare.certificate import CameraCertificate, certify, known_points
 from ...projections import PROJECTIONS, Projection
 from ...projections.projection import Edges
@@ -130,7 +130,7 @@ def export_camera(scene: Any) -> Camera:
     data, render = obj.data, scene.render
     width, height = resolution(render)
     check_size(width, height)
-    region = None
+    region = Region(0, 0, width, height)
     if render.use_border:
         names = ("border_min_x", "border_max_x", "border_min_y", "border_max_y")
         region = border_region(width, height, *(getattr(render, name) for name in names))
@@ -158,7 +158,7 @@ def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertific
     return certify(camera, points, _film(scene, depsgraph, points))
 
 
-def _film(scene: Any, depsgraph: Any, points: NDArray[np.float64]) -> NDArray[np.float64]:
+def _film(scene: Any, depsgraph: Any, points: Floats) -> Floats:
     """Return where world points (3, n) appear, (2, n) pixels of the whole picture."""
     obj, render = scene.camera.evaluated_get(depsgraph), scene.render
     width, height = resolution(render)

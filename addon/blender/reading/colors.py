@@ -1,37 +1,40 @@
-"""The constant colours of Blender's solid viewport, linear RGBA, from `View3DShading`.
-
-In come an evaluated object and the shading; out goes what each of its material slots shows.
-"""
+"""Finds the constant colours that Blender's solid viewport shows, linear RGBA."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors
 from ...scene import GREY
 from ..versions import OWN_BACKGROUND, WITHOUT_ATTRIBUTE
 
-_SATURATION, _VALUE = 0.5, 0.8  # of Blender's random colours
+# Of Blender's random colours.
+_SATURATION = 0.5
+_VALUE = 0.8
 
 
-def instance_colors(
-    obj: Any, holder: Any, color_type: str, single: Any, materials: list[Any]
-) -> NDArray[np.float32]:
-    """Return (k, 4) float32: the colour of each material slot, at least one.
+def instance_colors(obj: Any, holder: Any, shading: Any, materials: list[Any]) -> Colors:
+    """Return the colour of each material slot, at least one: (k, 4) float32 linear RGBA.
 
-    The object is evaluated; of an instance, the holder is what instances it: its colour is shown.
-    Of `View3DShading.color_type`, 'VERTEX' means a mesh without a colour attribute; 'TEXTURE' is
-    not modelled, and shows the material's colour. `single` (3,) is the colour under 'SINGLE'; the
-    materials are by slot, None where it is empty.
+    Parameters
+    ----------
+    obj : bpy.types.Object
+        The evaluated object.
+    holder : bpy.types.Object
+        What instances it, else itself: its colour is shown.
+    shading : bpy.types.View3DShading
+        Its colour type 'TEXTURE' is not modelled, and shows the material's colour. 'VERTEX' here
+        means a mesh without a colour attribute.
+    materials : list of bpy.types.Material
+        By slot, None where it is empty.
     """
+    color_type = WITHOUT_ATTRIBUTE if shading.color_type == "VERTEX" else shading.color_type
     if color_type == "SINGLE":
-        return np.array([(*single, 1.0)], np.float32)
+        return np.array([(*shading.single_color, 1.0)], np.float32)
     if color_type == "RANDOM":
         return np.array([random_color(obj.original)], np.float32)
-    if color_type == "VERTEX":
-        color_type = WITHOUT_ATTRIBUTE
     if color_type == "OBJECT":
         return np.array([holder.color], np.float32)
     return np.array([m.diffuse_color if m else GREY for m in materials] or [GREY], np.float32)
@@ -46,11 +49,11 @@ def slot_materials(obj: Any) -> list[Any]:
     ]
 
 
-def background(scene: Any) -> NDArray[np.float32]:
+def background(scene: Any) -> Colors:
     """Return what a pixel that sees nothing shows in a render of this scene, (4,) linear RGBA.
 
-    As Workbench has it: nothing with a transparent film or without a world; else the shading's own
-    colour where it is set to that and this Blender draws it, else the world's.
+    This is Workbench's rule. With a transparent film or without a world, nothing is shown. Else it
+    is the shading's own colour, if that is set and this Blender draws it; else the world's.
     """
     if scene.render.film_transparent:
         return np.zeros(4, np.float32)
@@ -81,8 +84,10 @@ def random_color(obj: Any) -> tuple[float, float, float, float]:
 
 def _murmur2(data: bytes) -> int:
     """MurmurHash2 by Austin Appleby, 32 bits, seed 0."""
-    m, mask = 0x5BD1E995, 0xFFFFFFFF
-    h, tail = len(data), len(data) % 4
+    m = 0x5BD1E995
+    mask = 0xFFFFFFFF
+    h = len(data)
+    tail = len(data) % 4
     for i in range(0, len(data) - tail, 4):
         k = int.from_bytes(data[i : i + 4], "little") * m & mask
         h = (h * m & mask) ^ ((k ^ k >> 24) * m & mask)
@@ -98,7 +103,8 @@ def _jenkins(key: int) -> int:
     start = 0xDEADBEEF + (2 << 2) + 13 & mask
     words = [start + key & mask, start, start]  # a, b, c
     for n, bits in enumerate((14, 11, 25, 16, 4, 14, 24)):
-        target, value = (n + 2) % 3, words[(n + 1) % 3]
+        target = (n + 2) % 3
+        value = words[(n + 1) % 3]
         rotated = (value << bits | value >> 32 - bits) & mask
         words[target] = (words[target] ^ value) - rotated & mask
     return words[2]

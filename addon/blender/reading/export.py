@@ -1,34 +1,49 @@
-"""An evaluated Blender scene -> `scene.Scene` and its `Manifest`.
+"""Exports an evaluated Blender scene as a `scene.Scene` and its `Manifest`.
 
-The depsgraph says what is visible and evaluated, for the viewport or for a render as its mode has
-it. What lies wholly outside the view is counted, and left out. Nothing of bpy is held in what is
+The depsgraph says what is visible and evaluated: for the viewport or for a render, by its mode.
+What lies wholly outside the view is counted, and left out. Nothing of bpy is held in what is
 returned.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
-from ...scene import Camera, Instance, Plane, Scene
-from ..drawing.temporary import user_scene
+from ...scene import Camera, Instance, Mesh, Plane, Scene
+from ..temporary import user_scene
 from .camera import export_camera
 from .colors import background
-from .planes import outside
+from .meshes import Read, read_mesh
 from .unmodelled import of_scene
-from .visible import Read, Seen, Shown, read_mesh, visible
+from .view_volume import outside
+from .visible import Seen, Shown, visible
 
 NO_SURFACE = ("CAMERA", "LIGHT", "LIGHT_PROBE", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER")
 
 
+@dataclass(frozen=True)
+class Parts:
+    """What a `Scene` has besides its camera and background."""
+
+    meshes: tuple[Mesh, ...] = ()
+    instances: tuple[Instance, ...] = ()
+    planes: tuple[Plane, ...] = ()
+    objects: tuple[str, ...] = ()
+
+    def scene(self, camera: Camera, background: Colors) -> Scene:
+        """Return the scene that a camera sees."""
+        return Scene(camera, self.meshes, self.instances, self.planes, background, self.objects)
+
+
 def export(depsgraph: Any) -> tuple[Scene, Manifest]:
-    """Return what the tracer is to see of an evaluated depsgraph, and the account of it.
+    """Return what the tracer is to see of an evaluated depsgraph, and what the manifest says of it.
 
     The depsgraph's mode decides on visibility and modifier levels.
 
@@ -40,10 +55,9 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     scene = depsgraph.scene_eval
     camera = export_camera(scene)
     seen, shown, meshes = visible(depsgraph, scene.display.shading, read_mesh)
-    parts, surfaces = assemble(seen, shown, meshes, _outside(camera, shown, meshes))
+    parts, owners = assemble(seen, shown, meshes, _outside(camera, shown, meshes))
     manifest = _manifest(depsgraph, camera.name, seen, meshes)
-    whole = Scene(camera=camera, background=background(scene), **parts)
-    return whole, replace(manifest, owners=tuple(s.owner for s in surfaces))
+    return parts.scene(camera, background(scene)), replace(manifest, owners=owners)
 
 
 def assemble(
@@ -51,64 +65,73 @@ def assemble(
     shown: list[Shown],
     meshes: dict[int, Read],
     unseen: Collection[int] = (),
-) -> tuple[dict[str, tuple], list[Shown]]:
-    """Return the parts of a `Scene` but its camera and background, and what its surfaces show.
+) -> tuple[Parts, tuple[str, ...]]:
+    """Return the parts of a scene, and the owner of each instance and then of each plane.
 
     What is `unseen`, by its number in `shown`, is left out. What each object shows is counted in
     `seen`.
     """
-    numbers: dict[int, int] = {}  # of those that something shows, in Scene.meshes
+    numbers: dict[int, int] = {}  # of meshes that something shows, in Scene.meshes
     # Numbered in the order in which they come, in the view or not: it stays when the camera moves.
     objects: dict[str, int] = {}
-    instances: list[tuple[Instance, Shown]] = []
-    planes: list[tuple[Plane, Shown]] = []
+    instances: list[tuple[Instance, str]] = []
+    planes: list[tuple[Plane, str]] = []
     all_finite = np.isfinite([s.matrix for s in shown]).reshape(-1, 16).all(axis=1)
     for n, (item, finite) in enumerate(zip(shown, all_finite, strict=True)):
-        name, _, key, matrix, colors = item
-        entry = seen[name]
-        if key is None:
-            if finite and matrix[:3, :2].any(axis=0).all():
-                index = objects.setdefault(name, len(objects))
-                planes.append((_plane(index, matrix, colors[0]), item))
+        entry = seen[item.name]
+        if item.key is None:
+            if finite and item.matrix[:3, :2].any(axis=0).all():
+                index = objects.setdefault(item.name, len(objects))
+                planes.append((_plane(index, item.matrix, item.colors[0]), item.owner))
                 entry.planes += 1
             else:
                 entry.left_out += 1
-            continue
-        if n in unseen:
-            objects.setdefault(name, len(objects))
+        elif n in unseen:
+            objects.setdefault(item.name, len(objects))
             entry.outside += 1
-            continue
-        mesh, left_out = meshes[key]
-        entry.left_out += left_out if finite else len(mesh.triangles) + left_out
-        if not finite or not len(mesh.triangles):
-            continue
-        entry.mesh_keys.setdefault(key)
-        entry.instances += 1
-        entry.triangles += len(mesh.triangles)
-        number = numbers.setdefault(key, len(numbers))
-        index = objects.setdefault(name, len(objects))
-        instances.append((Instance(number, index, matrix, colors), item))
+        elif _count(entry, item.key, meshes[item.key], bool(finite)):
+            number = numbers.setdefault(item.key, len(numbers))
+            index = objects.setdefault(item.name, len(objects))
+            instances.append((Instance(number, index, item.matrix, item.colors), item.owner))
     instances.sort(key=lambda i: i[0].object)
-    parts = {
-        "meshes": tuple(meshes[key][0] for key in numbers),
-        "instances": tuple(i for i, _ in instances),
-        "planes": tuple(p for p, _ in planes),
-        "objects": tuple(objects),
-    }
-    return parts, [item for _, item in (*instances, *planes)]
+    parts = Parts(
+        tuple(meshes[key][0] for key in numbers),
+        tuple(instance for instance, _ in instances),
+        tuple(plane for plane, _ in planes),
+        tuple(objects),
+    )
+    return parts, tuple(owner for _, owner in (*instances, *planes))
+
+
+def _count(entry: Seen, key: int, read: Read, finite: bool) -> bool:
+    """Count an appearance of a mesh; return whether any of its triangles can be traced."""
+    mesh, left_out = read
+    count = len(mesh.triangles)
+    entry.left_out += left_out if finite else count + left_out
+    if not finite or not count:
+        return False
+    entry.mesh_keys.setdefault(key)
+    entry.instances += 1
+    entry.triangles += count
+    return True
 
 
 def _outside(camera: Camera, shown: list[Shown], meshes: dict[int, Read]) -> set[int]:
-    """Return which appearances no ray of the camera can meet; an infinite plane is none."""
-    whole = [n for n, s in enumerate(shown) if s.key is not None and not meshes[s.key][1]]
+    """Return which appearances of meshes no ray of the camera can meet, by their numbers."""
+    whole = {
+        n: meshes[item.key][0]
+        for n, item in enumerate(shown)
+        if item.key is not None and not meshes[item.key][1]
+    }
     if not whole:
         return set()
-    low, high = np.swapaxes([meshes[shown[n].key][0].bounds for n in whole], 0, 1)
-    out = outside(camera, low, high, np.array([shown[n].matrix for n in whole]))
-    return set(np.array(whole)[out].tolist())
+    bounds = np.array([mesh.bounds for mesh in whole.values()])
+    matrices = np.array([shown[n].matrix for n in whole])
+    out = outside(camera, bounds[:, 0], bounds[:, 1], matrices)
+    return {n for n, is_out in zip(whole, out, strict=True) if is_out}
 
 
-def _plane(index: int, matrix: np.ndarray, color: NDArray[np.float32]) -> Plane:
+def _plane(index: int, matrix: Floats, color: Colors) -> Plane:
     """Return a plane through the object's origin, its normal the object's own +Z axis.
 
     The plane holds the object's X and Y axes, so under shear its normal is their cross product.
@@ -119,27 +142,15 @@ def _plane(index: int, matrix: np.ndarray, color: NDArray[np.float32]) -> Plane:
     return Plane(index, matrix[:3, 3], normal, color)
 
 
-def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
-    scene, layer = user_scene(depsgraph.scene), depsgraph.view_layer
-    entries = []
-    for name, e in seen.items():
-        own = [meshes[k] for k in e.mesh_keys]
-        shown = bool(e.instances or e.planes)
-        entries.append(
-            ObjectEntry(
-                name=name,
-                type="INFINITE_PLANE" if e.planes else e.type,
-                exported=shown,
-                reason="" if shown else _nothing(e),
-                triangles=sum(len(m.triangles) for m, _ in own),
-                vertices=sum(len(m.vertices) for m, _ in own),
-                instances=e.instances + e.planes,
-                outside=e.outside,
-                left_out=e.left_out,
-                empty_slots=e.empty_slots,
-                traced_triangles=e.triangles,
-            )
-        )
+def _manifest(
+    depsgraph: Any, camera: str, seen: dict[str, Seen], meshes: dict[int, Read]
+) -> Manifest:
+    scene = user_scene(depsgraph.scene)
+    layer = depsgraph.view_layer
+    entries = [
+        _entry(name, entry, [meshes[key][0] for key in entry.mesh_keys])
+        for name, entry in seen.items()
+    ]
     for obj in scene.objects:
         if obj.name_full not in seen:
             why = _hidden(obj, layer, depsgraph.mode)
@@ -157,6 +168,23 @@ def _manifest(depsgraph, camera: str, seen, meshes) -> Manifest:
     )
 
 
+def _entry(name: str, seen: Seen, meshes: list[Mesh]) -> ObjectEntry:
+    exported = bool(seen.instances or seen.planes)
+    return ObjectEntry(
+        name=name,
+        type="INFINITE_PLANE" if seen.planes else seen.type,
+        exported=exported,
+        reason="" if exported else _nothing(seen),
+        triangles=sum(len(mesh.triangles) for mesh in meshes),
+        vertices=sum(len(mesh.vertices) for mesh in meshes),
+        instances=seen.instances + seen.planes,
+        outside=seen.outside,
+        left_out=seen.left_out,
+        empty_slots=seen.empty_slots,
+        traced_triangles=seen.triangles,
+    )
+
+
 def _nothing(entry: Seen) -> str:
     if entry.outside:
         return OUTSIDE
@@ -168,7 +196,7 @@ def _nothing(entry: Seen) -> str:
 
 
 def _hidden(obj: Any, layer: Any, mode: str) -> str:
-    """Why the depsgraph does not hand an object out."""
+    """Return why the depsgraph does not hand an object out."""
     flag = "hide_viewport" if mode == "VIEWPORT" else "hide_render"
     where = "the viewport" if mode == "VIEWPORT" else "renders"
     if getattr(obj, flag):

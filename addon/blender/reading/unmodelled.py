@@ -1,26 +1,25 @@
-"""What a Blender scene contains that the tracer does not model, by object and name.
+"""Names what a Blender scene contains that the tracer does not model, by object.
 
-In come an evaluated scene and its objects; out go `manifest.Unmodelled` entries, with what each
-does to the picture of the judge.
+Each is a `manifest.Unmodelled`, with what it does to the judge's picture.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Floats
 from ...manifest import Effect, Unmodelled
-from ..drawing.judges import Judge
-from ..drawing.temporary import is_temporary, judge_of
+from ..temporary import ignored_features, is_temporary
 from ..versions import COMPOSITOR, STRIPS, radii
 from .colors import slot_materials
 
 _UNFILLED = ("WIRE", "BOUNDS")
 
-HAIR = "hair"  # of particles: the object that has it is drawn without it, too
+HAIR = "hair"  # particles: the object that has it is also drawn without it
 
 # Object types that Blender draws, but not as triangles.
 _DRAWN_OTHERWISE = {
@@ -37,7 +36,7 @@ def is_hair(settings: Any) -> bool:
     return settings.type == "HAIR" and settings.render_type == "PATH"
 
 
-def world_bounds(obj: Any, matrix: Any) -> NDArray[np.float64]:
+def world_bounds(obj: Any, matrix: Any) -> Floats:
     """Return the box (2, 3) in world space, metres, around an evaluated object's own box."""
     corners = np.array([(*c, 1.0) for c in obj.bound_box]) @ np.array(matrix, float).T
     reach = max(_reaches(obj), default=0.0)
@@ -59,76 +58,88 @@ def unfilled(obj: Any, holder: Any) -> bool:
     return obj.display_type in _UNFILLED or holder.display_type in _UNFILLED
 
 
-def of_object(
-    obj: Any,
-    holder: Any,
-    matrix: Any,
-    shading: Any,
-    layer: Any,
-    viewport: bool,
-    judge: Judge | None,
-) -> Iterator[Unmodelled]:
+@dataclass(frozen=True)
+class Viewing:
+    """How the objects of a depsgraph are looked at."""
+
+    shading: Any  # bpy.types.View3DShading
+    layer: Any  # bpy.types.ViewLayer
+    viewport: bool  # as the viewport draws them, else as a render does
+    ignored: tuple[str, ...]  # features that the judge does not show
+
+
+_Feature = tuple[str, Effect, str]  # its name, its effect, and what there is to say of it
+
+
+def of_object(obj: Any, holder: Any, matrix: Any, viewing: Viewing) -> Iterator[Unmodelled]:
     """Yield what is not modelled of an evaluated object as it appears with a world_from_object.
 
-    Its holder is what instances it, else itself. What the judge does not draw has no effect, and no
+    Its holder is what instances it, else itself. What the judge does not show has no effect, and no
     bounds.
     """
+    name = obj.original.name_full
     bounds = None
-
-    def found(feature: str, effect: Effect, detail: str = "") -> Unmodelled:
-        nonlocal bounds
-        if judge and feature in judge.ignores:
-            return Unmodelled(obj.original.name_full, feature, detail, None, Effect.NONE)
+    for feature, effect, detail in _features(obj, holder, viewing):
+        if feature in viewing.ignored:
+            yield Unmodelled(name, feature, detail, None, Effect.NONE)
+            continue
         bounds = world_bounds(obj, matrix) if bounds is None else bounds
-        return Unmodelled(obj.original.name_full, feature, detail, bounds, effect)
+        yield Unmodelled(name, feature, detail, bounds, effect)
 
+
+def _features(obj: Any, holder: Any, viewing: Viewing) -> Iterator[_Feature]:
     if obj.type in _DRAWN_OTHERWISE:
         detail = "Blender draws it, but not as triangles"
-        yield found(_DRAWN_OTHERWISE[obj.type], Effect.DRAWN, detail)
+        yield _DRAWN_OTHERWISE[obj.type], Effect.DRAWN, detail
     if obj.type != "MESH":
         return
-    color_type = shading.color_type
-    if color_type in ("OBJECT", "VERTEX") and holder.color[3] < 1:
-        detail = f"the object's colour has alpha {holder.color[3]:.3g}"
-        yield found("transparency", Effect.COLOR, detail)
-    if color_type in ("MATERIAL", "TEXTURE"):
-        for material in {m.name: m for m in slot_materials(obj) if m}.values():
-            name, alpha = f"material '{material.name}'", material.diffuse_color[3]
-            if alpha < 1:
-                detail = f"{name} has a viewport alpha of {alpha:.3g}"
-                yield found("transparency", Effect.COLOR, detail)
-            nodes = material.node_tree.nodes if material.node_tree else ()
-            if color_type == "TEXTURE" and any(node.type == "TEX_IMAGE" for node in nodes):
-                yield found("texture", Effect.COLOR, name)
-    attributes = obj.data.color_attributes
-    if color_type == "VERTEX" and len(attributes) and attributes.active_color is None:
-        detail = "it has some, but none is the active one"
-        yield found("colour attribute", Effect.COLOR, detail)
+    yield from _of_colors(obj, holder, viewing.shading.color_type)
     if obj.show_in_front:
-        yield found("in-front drawing", Effect.IN_FRONT)
+        yield "in-front drawing", Effect.IN_FRONT, ""
     original = obj.original
-    if obj.is_holdout or original.holdout_get(view_layer=layer):
-        yield found("holdout", Effect.HOLDOUT)
-    if original.indirect_only_get(view_layer=layer):
-        detail = "its collection is seen by indirect rays alone"
-        yield found("indirect only", Effect.UNSEEN, detail)
+    if obj.is_holdout or original.holdout_get(view_layer=viewing.layer):
+        yield "holdout", Effect.HOLDOUT, ""
+    if original.indirect_only_get(view_layer=viewing.layer):
+        yield "indirect only", Effect.UNSEEN, "its collection is seen by indirect rays alone"
     if not original.visible_camera:
-        yield found("not visible to the camera", Effect.UNSEEN)
-    if viewport and unfilled(obj, holder):
+        yield "not visible to the camera", Effect.UNSEEN, ""
+    if viewing.viewport and unfilled(obj, holder):
         detail = "wire or bounds: the viewport draws no surface"
-        yield found("display type", Effect.UNPLACED, detail)
+        yield "display type", Effect.UNPLACED, detail
     for system in obj.particle_systems:
         if is_hair(system.settings):
-            yield found(HAIR, Effect.DRAWN, f"particle system '{system.name}'")
+            yield HAIR, Effect.DRAWN, f"particle system '{system.name}'"
+
+
+def _of_colors(obj: Any, holder: Any, color_type: str) -> Iterator[_Feature]:
+    """Yield what is not modelled of an object's colours, by `View3DShading.color_type`."""
+    if color_type in ("OBJECT", "VERTEX") and holder.color[3] < 1:
+        detail = f"the object's colour has alpha {holder.color[3]:.3g}"
+        yield "transparency", Effect.COLOR, detail
+    if color_type in ("MATERIAL", "TEXTURE"):
+        for material in {m.name: m for m in slot_materials(obj) if m}.values():
+            name = f"material '{material.name}'"
+            alpha = material.diffuse_color[3]
+            if alpha < 1:
+                detail = f"{name} has a viewport alpha of {alpha:.3g}"
+                yield "transparency", Effect.COLOR, detail
+            nodes = material.node_tree.nodes if material.node_tree else ()
+            if color_type == "TEXTURE" and any(node.type == "TEX_IMAGE" for node in nodes):
+                yield "texture", Effect.COLOR, name
+    attributes = obj.data.color_attributes
+    if color_type == "VERTEX" and len(attributes) and attributes.active_color is None:
+        yield "colour attribute", Effect.COLOR, "it has some, but none is the active one"
 
 
 def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
-    """Yield what is not modelled of the user's scene and its camera as a whole; it has no bounds.
+    """Yield what is not modelled of the user's scene and its camera as a whole, without bounds.
 
-    What is `drawn` is that, or a temporary copy: for a judge, all of it is switched off there.
+    What is `drawn` is that scene or a temporary copy. In a copy for a judge, all of this is off.
     """
-    effect = Effect.NONE if judge_of(drawn) else Effect.UNPLACED
-    camera, render, shading = drawn.camera, scene.render, scene.display.shading
+    effect = Effect.UNPLACED if ignored_features(drawn) is None else Effect.NONE
+    camera = drawn.camera
+    render = scene.render
+    shading = scene.display.shading
     strips = getattr(scene.sequence_editor, STRIPS, ())
     aside = "not part of what is traced"
     colors = "surfaces show their material's viewport colour"
@@ -150,41 +161,14 @@ def of_scene(scene: Any, drawn: Any) -> Iterator[Unmodelled]:
             yield Unmodelled(of, feature, detail, None, effect)
     bodies = scene.rigidbody_world
     if is_temporary(drawn) and bodies and bodies.enabled and not drawn.rigidbody_world.enabled:
-        cache, detail = bodies.point_cache, "what is compared has them as they begin"
+        cache = bodies.point_cache
+        detail = "what is compared has them as they begin"
         if scene.frame_current > cache.frame_start:
             detail += ", at the second frame alone" if cache.is_baked else ": bake them"
             yield Unmodelled(name, "rigid bodies", detail, None, Effect.UNPLACED)
 
 
 def by_handlers(scene: Any) -> Unmodelled:
-    """Return what it is when the scene's objects are others once Blender has drawn them."""
+    """Return that handlers changed which objects the scene has while Blender drew it."""
     detail = "a script's handlers added or removed objects while Blender drew"
     return Unmodelled(f"scene '{scene.name}'", "handlers", detail, None, Effect.PICTURE)
-
-
-def of_shading(scene: Any, judge: Judge, anti_aliasing: str) -> Iterator[Unmodelled]:
-    """Yield what a picture *as it is* shows that constant shading does not have, anywhere in it.
-
-    Anti-aliasing alone can be checked: it mixes colours that the tracer sees.
-    """
-    shading, name = scene.display.shading, f"scene '{scene.name}'"
-    if not judge.solid:
-        yield Unmodelled(name, "materials and light", f"of {judge.label}", None, Effect.LIGHT)
-        return
-    detail, aa = "Blender's picture is made with it", Effect.NONE
-    studio = shading.light == "STUDIO"
-    for feature, shown, effect in (
-        (f"{shading.light.lower()} light", shading.light != "FLAT", Effect.LIGHT),
-        ("specular highlights", studio and shading.show_specular_highlight, Effect.LIGHT),
-        ("shadows", shading.show_shadows, Effect.LIGHT),
-        ("cavity", shading.show_cavity, Effect.LIGHT),
-        ("object outline", shading.show_object_outline, Effect.LIGHT),
-        ("x-ray", shading.show_xray, Effect.PICTURE),
-        ("backface culling", shading.show_backface_culling, Effect.PICTURE),
-        ("depth of field", shading.use_dof and scene.camera.data.dof.use_dof, Effect.PICTURE),
-    ):
-        if shown:
-            aa = Effect.LIGHT
-            yield Unmodelled(name, feature, detail, None, effect)
-    if anti_aliasing != "OFF":
-        yield Unmodelled(name, "anti-aliasing", detail, None, aa)

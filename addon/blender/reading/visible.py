@@ -1,32 +1,26 @@
-"""An evaluated depsgraph -> what is visible in it: every appearance of a mesh or infinite plane.
+"""Finds what is visible in an evaluated depsgraph: each appearance of a mesh or infinite plane.
 
 The depsgraph hands out every object that has triangles as a mesh: text, curves, surfaces, metaballs
-and what geometry nodes make, with all instances. What is asked of Blender for each of ten thousand
-instances is kept little.
-
-Meshes are read in bulk. What is stored as an attribute is one block of memory, and is copied as
-such. The plain properties (`vertices[i].co` and the like) are asked for one by one, also by
-`foreach_get`: some 50 times as slow.
+and what geometry nodes make, with all instances. There may be ten thousand instances: so Blender is
+asked for little of each.
 """
 
 from __future__ import annotations
 
-import ctypes
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Colors, Floats
 from ...manifest import Unmodelled
-from ...scene import Mesh, drop_non_finite
-from ..drawing.temporary import judge_of
+from ..temporary import ignored_features
 from ..versions import FILTERS
 from .colors import instance_colors, slot_materials
-from .unmodelled import HAIR, of_object, unfilled
+from .meshes import Read
+from .unmodelled import HAIR, Viewing, of_object, unfilled
 
 
 @dataclass
@@ -48,105 +42,144 @@ class Seen:
 class Shown(NamedTuple):
     """One appearance of an object: of a mesh, by its address, or as an infinite plane.
 
-    The `owner` is the object whose colour Blender gives it: of an instance, what instances it.
+    Blender gives it the colour of the `owner`: of an instance, that is what instances it.
     """
 
     name: str
     owner: str
-    key: int | None
-    matrix: NDArray[np.float64]
-    colors: NDArray[np.float32]
+    key: int | None  # the mesh's address; None for an infinite plane
+    matrix: Floats  # (4, 4) world_from_object
+    colors: Colors  # (k, 4) linear RGBA of each material slot
 
 
-Read = tuple[Mesh, int]  # with the triangles left out
-
-_CORNERS = 12  # bytes: three int32
+# An object by its name, the address of its mesh, and the colour that it takes of what instances it:
+# appearances that are equal in these have the same colours and features.
+_Look = tuple[str, int | None, tuple[float, ...] | None]
 
 
 def visible(
     depsgraph: Any, shading: Any, read: Callable[[Any, str, bool], Read | None], space: Any = None
-) -> tuple[dict[str, Seen], list[Shown], dict[int, Read | None]]:
-    """Return by name what is visible, every appearance of it, and the meshes by address.
+) -> tuple[dict[str, Seen], list[Shown], dict[int, Read]]:
+    """Return what is visible by name, every appearance of it, and the meshes by address.
 
-    The shading is a `View3DShading`; each mesh is read once, by :func:`read_mesh` or what knows it
-    already. Of a `space`, a `SpaceView3D`, what is shown in that view alone decides: local view,
-    local collections, types of objects.
+    Parameters
+    ----------
+    depsgraph : bpy.types.Depsgraph
+    shading : bpy.types.View3DShading
+    read : callable
+        :func:`.meshes.read_mesh`, or what knows some meshes already; called once for each mesh.
+    space : bpy.types.SpaceView3D, optional
+        Only what is shown in this 3D view: its local view, local collections and types of objects.
     """
-    viewport, layer = depsgraph.mode == "VIEWPORT", depsgraph.view_layer
-    judge, color_type = judge_of(depsgraph.scene), shading.color_type
-    seen: dict[str, Seen] = {}
-    shown: list[Shown] = []
-    meshes: dict[int, Read | None] = {}
-    # Instances of one mesh by one object look the same, but for the colour that each may inherit.
-    modelled: set[tuple] = set()  # as a whole
-    all_colors: dict[tuple, NDArray[np.float32]] = {}
-    unshown = types_left_out(space) if space else set()
+    looking = _Looking(depsgraph, shading, read, space)
     for item in depsgraph.object_instances:
+        looking.add(item)
+    meshes = {key: mesh for key, mesh in looking.meshes.items() if mesh}
+    return looking.seen, looking.shown, meshes
+
+
+class _Looking:
+    """Goes through the instances of a depsgraph, and remembers what they have shown."""
+
+    def __init__(
+        self,
+        depsgraph: Any,
+        shading: Any,
+        read: Callable[[Any, str, bool], Read | None],
+        space: Any,
+    ) -> None:
+        ignored = ignored_features(depsgraph.scene) or ()
+        viewport = depsgraph.mode == "VIEWPORT"
+        self._viewing = Viewing(shading, depsgraph.view_layer, viewport, ignored)
+        self._read = read
+        self._space = space
+        self._unshown = types_left_out(space) if space else set()
+        self.seen: dict[str, Seen] = {}
+        self.shown: list[Shown] = []
+        self.meshes: dict[int, Read | None] = {}  # None: it has no face
+        self._modelled: set[_Look] = set()  # as a whole
+        self._colors: dict[_Look, Colors] = {}
+
+    def add(self, item: Any) -> None:
+        """Take in a `bpy.types.DepsgraphObjectInstance`."""
         obj = item.object
-        name = obj.original.name_full
         # Once a script has looked at an evaluated object, Blender (4.3 to 5.2) hands out that for
         # an instance of it. So what an instance has of its holder is asked of the holder.
         holder = item.parent if item.is_instance else obj
-        owner = holder.original
-        # The depsgraph hands out what only the eye of a collection hides.
-        if space:
-            if obj.type in unshown or not in_view(space, unshown, holder, layer):
-                continue
-        elif viewport and not owner.visible_get(view_layer=layer):
-            continue
-        if name not in seen:
+        if not self._is_drawn(obj, holder):
+            return
+        name = obj.original.name_full
+        if name not in self.seen:
             original = obj.original
-            seen[name] = Seen(original.type, original.reference_tracer.infinite_plane)
-        entry = seen[name]
+            self.seen[name] = Seen(original.type, original.reference_tracer.infinite_plane)
+        entry = self.seen[name]
         if not (item.show_self or item.show_particles):
-            continue
-        mesh = obj.data if obj.type == "MESH" else None
-        key = mesh.as_pointer() if mesh else None
-        look = name, key, holder.color[:] if color_type in ("OBJECT", "VERTEX") else None
-        if look not in modelled:
-            found = list(of_object(obj, holder, item.matrix_world, shading, layer, viewport, judge))
-            if not item.show_self:  # its hair is shown without it
-                found = [u for u in found if u.feature == HAIR]
-            by_nodes = item.is_instance and owner.instance_type == "NONE"
-            for u in found:
-                _widen(entry.features, replace(u, by=(owner.name_full,) if by_nodes else ()))
-            if not found:
-                modelled.add(look)
+            return
+        viewing = self._viewing
+        address = obj.data.as_pointer() if obj.type == "MESH" else None
+        inherits = viewing.shading.color_type in ("OBJECT", "VERTEX")
+        look = name, address, tuple(holder.color) if inherits else None
+        if look not in self._modelled and not self._add_features(entry, item, holder):
+            self._modelled.add(look)
         if not item.show_self:
-            continue
-        if entry.is_plane:
-            key = None
-        elif not mesh or (viewport and unfilled(obj, holder)):
-            continue
-        else:
-            if key not in meshes:
-                meshes[key] = read(obj, name, color_type == "VERTEX")
-            if meshes[key] is None:
-                continue
-        if look not in all_colors:
-            materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
-            all_colors[look] = instance_colors(
-                obj, holder, color_type, shading.single_color, materials
-            )
-            if color_type == "MATERIAL" and not entry.is_plane:
-                entry.empty_slots = max(entry.empty_slots, materials.count(None))
+            return
+        key = None if entry.is_plane else address
+        if not entry.is_plane:
+            if key is None or (viewing.viewport and unfilled(obj, holder)):
+                return
+            if key not in self.meshes:
+                self.meshes[key] = self._read(obj, name, viewing.shading.color_type == "VERTEX")
+            if self.meshes[key] is None:
+                return
+        if look not in self._colors:
+            self._colors[look] = self._colors_of(entry, obj, holder)
         matrix = np.array(item.matrix_world, dtype=np.float64)
-        shown.append(Shown(name, owner.name_full, key, matrix, all_colors[look]))
-    return seen, shown, meshes
+        owner = holder.original.name_full
+        self.shown.append(Shown(name, owner, key, matrix, self._colors[look]))
+
+    def _is_drawn(self, obj: Any, holder: Any) -> bool:
+        """Return whether this view draws what the depsgraph hands out.
+
+        It also hands out what only the eye of a collection hides.
+        """
+        layer = self._viewing.layer
+        if self._space:
+            in_types = obj.type not in self._unshown
+            return in_types and in_view(self._space, self._unshown, holder, layer)
+        return not self._viewing.viewport or holder.original.visible_get(view_layer=layer)
+
+    def _add_features(self, entry: Seen, item: Any, holder: Any) -> bool:
+        """Add what is not modelled of an appearance; return whether there is any."""
+        found = list(of_object(item.object, holder, item.matrix_world, self._viewing))
+        if not item.show_self:  # its hair is shown without it
+            found = [u for u in found if u.feature == HAIR]
+        by_nodes = item.is_instance and holder.original.instance_type == "NONE"
+        by = (holder.original.name_full,) if by_nodes else ()
+        for feature in found:
+            _widen(entry.features, replace(feature, by=by))
+        return bool(found)
+
+    def _colors_of(self, entry: Seen, obj: Any, holder: Any) -> Colors:
+        shading = self._viewing.shading
+        materials = [obj.active_material] if entry.is_plane else slot_materials(obj)
+        if shading.color_type == "MATERIAL" and not entry.is_plane:
+            entry.empty_slots = max(entry.empty_slots, materials.count(None))
+        return instance_colors(obj, holder, shading, materials)
 
 
 def types_left_out(space: Any) -> set[str]:
     """Return the types of objects that a 3D view does not show, as `Object.type` has them."""
-    types = bpy.types.Object.bl_rna.properties["type"].enum_items.keys()
+    of_type: Any = bpy.types.Object.bl_rna.properties["type"]
+    types = of_type.enum_items.keys()
     names = {t: "show_object_viewport_" + FILTERS.get(t, t.lower()) for t in types}
     return {t for t, name in names.items() if not getattr(space, name, True)}
 
 
 def in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
-    """Return whether a 3D view draws an object, or the instances by it, but for their own type.
+    """Return whether a 3D view draws an object or the instances by it, whatever their own type.
 
-    It draws the instances by an object of a type that it does not show, while it says of that
-    object that it is hidden. (Local collections are not known then.)
+    Blender says that an object of a type that the view does not show is hidden, but draws the
+    instances by it. (Local collections are not known then.)
     """
     if holder.type not in unshown:
         return holder.visible_in_viewport_get(space)
@@ -155,7 +188,7 @@ def in_view(space: Any, unshown: set[str], holder: Any, layer: Any) -> bool:
 
 
 def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
-    """Keep one entry a feature, its bounds around all the object's instances."""
+    """Add a feature, or widen its bounds: it has one entry for all of an object's instances."""
     key = found.feature + found.detail
     if before := features.get(key):
         found = replace(found, by=tuple(dict.fromkeys((*before.by, *found.by))))
@@ -164,84 +197,3 @@ def _widen(features: dict[str, Unmodelled], found: Unmodelled) -> None:
             bounds = np.stack((both[:, 0].min(axis=0), both[:, 1].max(axis=0)))
             found = replace(found, bounds=bounds)
     features[key] = found
-
-
-def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
-    """Return the loop triangles of an evaluated object's mesh, and how many were left out.
-
-    They are numbered as `mesh.loop_triangles`, but for those that touch a vertex that is not
-    finite, which are left out; None if there is no face. `with_colors` says whether the active
-    colour attribute is what will be shown.
-    """
-    with _plain(obj) as mesh:
-        if not len(mesh.polygons):
-            return None
-        loops = _loops(mesh.loop_triangles)
-        triangles = _read(mesh.attributes[".corner_vert"].data, "value", 1, np.int32)[loops, 0]
-        slots = _slots(mesh)
-        colors = _corner_colors(mesh, triangles, loops) if with_colors else None
-        vertices = _read(mesh.attributes["position"].data, "vector", 3, np.float32)
-    vertices, keep = drop_non_finite(vertices, triangles)
-    left_out = len(keep) - int(keep.sum())
-    if left_out:
-        left = (a if a is None else a[keep] for a in (triangles, slots, colors))
-        triangles, slots, colors = left
-    return Mesh(vertices, triangles, slots, colors, name), left_out
-
-
-@contextmanager
-def _plain(obj: Any) -> Iterator[Any]:
-    """Give an evaluated object's mesh with all of its faces and attributes.
-
-    In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
-    """
-    try:
-        yield obj.to_mesh() if obj.data.is_editmode else obj.data
-    finally:
-        obj.to_mesh_clear()
-
-
-def _loops(triangles: Any) -> NDArray[np.int32]:
-    """Return the corners of a mesh's loop triangles, (n, 3).
-
-    Blender asks for them one by one. But it says where each is in memory: where they lie one behind
-    the other there, and as they should, they are copied at once.
-    """
-    n = len(triangles)
-    some = {0, 1, n // 2, n - 1} if n > 1 else set()
-    first = triangles[0].as_pointer() if n > 1 else 0
-    if some and all(triangles[i].as_pointer() == first + _CORNERS * i for i in some):
-        loops = np.frombuffer(ctypes.string_at(first, _CORNERS * n), np.int32).reshape(n, 3)
-        if all(tuple(loops[i]) == tuple(triangles[i].loops) for i in some):
-            return loops
-    return _read(triangles, "loops", 3, np.int32)
-
-
-def _slots(mesh: Any) -> NDArray[np.int32] | None:
-    """Return each triangle's material slot, (n,); None where all show the first."""
-    attribute = mesh.attributes.get("material_index")
-    if attribute and (attribute.domain, attribute.data_type) == ("FACE", "INT"):
-        face = _read(mesh.loop_triangle_polygons, "value", 1, np.int32)
-        slots = _read(attribute.data, "value", 1, np.int32)[face.ravel()]
-    elif attribute:  # Blender converts another kind, which is rare
-        slots = _read(mesh.loop_triangles, "material_index", 1, np.int32)
-    else:
-        return None
-    return np.maximum(slots.ravel(), 0)
-
-
-def _corner_colors(
-    mesh: Any, triangles: NDArray[np.int32], loops: NDArray[np.int32]
-) -> NDArray[np.float32] | None:
-    """Return the active colour attribute at each triangle's corners, (n, 3, 4) linear RGBA."""
-    attribute = mesh.color_attributes.active_color
-    if attribute is None:
-        return None
-    values = _read(attribute.data, "color", 4, np.float32)
-    return values.take(triangles if attribute.domain == "POINT" else loops, axis=0)
-
-
-def _read(collection: Any, attribute: str, width: int, dtype: type) -> NDArray:
-    out = np.empty(len(collection) * width, dtype)
-    collection.foreach_get(attribute, out)
-    return out.reshape(-1, width)

@@ -1,4 +1,4 @@
-"""A pixel of the open scene -> its derivation, drawn, saved: for buttons and scripts."""
+"""The operators that derive what one pixel sees, draw it and save it."""
 
 from __future__ import annotations
 
@@ -9,32 +9,31 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..drawing.judges import judge_named
-from . import results
-from .long_work import named, with_ending
-from .properties import SAID, SOURCES
+from . import choices, results
+from .long_work import Answer, named, with_ending
 from .results import Kind
 
 if TYPE_CHECKING:
     from ...explain.derivation import Derivation
 
 TEXT = "Reference Tracer Pixel"
-_SAID = SAID["explain"]
+LIMIT = 8  # triangles that are shown
 
 
 def derive_here(
-    context: Any, x: int, y: int, source: str = "SCENE", limit: int = _SAID["limit"]["default"]
+    context: Any, x: int, y: int, source: str = "SCENE", limit: int = LIMIT
 ) -> Derivation:
     """Derive a pixel of the context's scene.
 
     Parameters
     ----------
     x, y : int
-        Of the picture; (0, 0) is its lower left.
+        The pixel's column and row; (0, 0) is the lower left of the picture.
     source : {'SCENE', 'RENDER', 'COMPARISON'}
         The scene as *Trace and Compare* would export it now; as a render would; or as the latest
-        comparison did, which is the scene now where there is none.
+        comparison did. Without a comparison, it is the scene now.
     limit : int
-        Triangles shown.
+        How many triangles are shown at most.
 
     Raises
     ------
@@ -44,9 +43,9 @@ def derive_here(
     from ...explain.derivation import derive
     from ..compare import export_open_file
 
-    latest = results.latest(Kind.COMPARISON, context.scene)
-    if source == "COMPARISON" and latest:
-        scene = latest.content.scene
+    comparison = results.content(Kind.COMPARISON, context.scene)
+    if source == "COMPARISON" and comparison:
+        scene = comparison.scene
     else:
         judge = judge_named(context.scene.reference_tracer.judge, bpy.app.background)
         scene, _, _ = export_open_file(context, None if source == "RENDER" else judge)
@@ -56,18 +55,42 @@ def derive_here(
 
 @named
 class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
+    bl_label = "Explain Pixel"
+    bl_description = (
+        "Derive what one pixel sees, step by step, in float32, float64 and exactly. The text "
+        "'Reference Tracer Pixel' has all of it, the panel the key numbers"
+    )
     bl_options = {"UNDO"}
 
-    x: IntProperty(**_SAID["x"])  # type: ignore[valid-type]
-    y: IntProperty(**_SAID["y"])  # type: ignore[valid-type]
-    source: EnumProperty(items=SOURCES, options={"SKIP_SAVE"}, **_SAID["source"])  # type: ignore[valid-type]
-    limit: IntProperty(**_SAID["limit"])  # type: ignore[valid-type]
-    draw_ray: BoolProperty(options={"SKIP_SAVE"}, **_SAID["draw_ray"])  # type: ignore[valid-type]
-    filepath: StringProperty(options={"SKIP_SAVE"}, **_SAID["filepath"])  # type: ignore[valid-type]
+    x: IntProperty(name="X", description="The pixel's column, from the left", min=0)
+    y: IntProperty(name="Y", description="The pixel's row, from the bottom", min=0)
+    source: EnumProperty(
+        name="Of",
+        description="The picture that the pixel belongs to",
+        items=choices.SOURCES,
+        options={"SKIP_SAVE"},
+    )
+    limit: IntProperty(
+        name="Triangles",
+        description="How many triangles are shown at most",
+        default=LIMIT,
+        min=1,
+    )
+    draw_ray: BoolProperty(
+        name="Draw the Ray",
+        description="Also draw the ray, as objects in the 3D view",
+        options={"SKIP_SAVE"},
+    )
+    filepath: StringProperty(
+        name="File",
+        description="A file to write it to; its name ends in .md, .html or .json",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE"},
+    )
 
-    def execute(self, context: Any) -> set[str]:
+    def execute(self, context: Any) -> Answer:
         from ...explain import document
-        from ..drawing import ray_objects
+        from . import ray_objects
 
         found = derive_here(context, self.x, self.y, self.source, self.limit)
         if self.filepath:
@@ -83,7 +106,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
 
 
 def _write(filepath: str, found: Derivation, **other: Callable[[Derivation], str]) -> None:
-    """Write a derivation as the file's ending says; `other` writers are by theirs."""
+    """Write a derivation in the format of the file's ending; `other` formats have their writers."""
     from ...explain.writers import WRITERS
     from ...report import folders
 
@@ -100,12 +123,18 @@ class _OfLatest:
 
 @named
 class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
+    bl_label = "Draw the Ray"
+    bl_description = (
+        "Draw the pixel's ray, the planes it was tested with, the hit and the three triangles "
+        "that weigh the corners, as objects in a collection of their own. No picture shows "
+        "them"
+    )
     bl_options = {"UNDO"}
 
-    def execute(self, context: Any) -> set[str]:
-        from ..drawing import ray_objects
+    def execute(self, context: Any) -> Answer:
+        from . import ray_objects
 
-        found = results.latest(Kind.PIXEL, context.scene).content
+        found = results.content(Kind.PIXEL, context.scene)
         collection = ray_objects.draw(context.scene, found)
         self.report({"INFO"}, f"{len(collection.objects)} objects in '{collection.name}'")
         return {"FINISHED"}
@@ -113,16 +142,18 @@ class REFERENCE_TRACER_OT_draw_ray(_OfLatest, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
+    bl_label = "Remove the Ray"
+    bl_description = "Remove the objects that Draw the Ray has made, and nothing else"
     bl_options = {"UNDO"}
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        from ..drawing import ray_objects
+        from . import ray_objects
 
         return ray_objects.are_drawn()
 
-    def execute(self, context: Any) -> set[str]:
-        from ..drawing import ray_objects
+    def execute(self, context: Any) -> Answer:
+        from . import ray_objects
 
         self.report({"INFO"}, f"{ray_objects.remove()} objects removed")
         return {"FINISHED"}
@@ -130,17 +161,27 @@ class REFERENCE_TRACER_OT_remove_ray(bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
-    filepath: StringProperty(**SAID["save_pixel"]["filepath"])  # type: ignore[valid-type]
-    filter_glob: StringProperty(default="*.html;*.md;*.json", options={"HIDDEN"})  # type: ignore[valid-type]
+    bl_label = "Save Pixel"
+    bl_description = (
+        "Save the derivation (.html, .md); or the pixel's ray and all that it may meet as a "
+        "small file (.json), from which `reftrace explain FILE.json` derives it again"
+    )
+    filepath: StringProperty(
+        name="File",
+        description="The file to write; its name ends in .html, .md or .json",
+        default="pixel.html",
+        subtype="FILE_PATH",
+    )
+    filter_glob: StringProperty(default="*.html;*.md;*.json", options={"HIDDEN"})
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Any, event: Any) -> Answer:
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
 
-    def execute(self, context: Any) -> set[str]:
+    def execute(self, context: Any) -> Answer:
         from ...explain import reproducer
 
-        found = results.latest(Kind.PIXEL, context.scene).content
+        found = results.content(Kind.PIXEL, context.scene)
         _write(self.filepath, found, json=lambda found: reproducer.text(found.pixel))
         self.report({"INFO"}, f"Saved {self.filepath}")
         return {"FINISHED"}

@@ -1,4 +1,4 @@
-"""The pixel inspector: click on a pixel, read its maths.
+"""The pixel inspector: a click on a pixel shows how it comes about.
 
 `picking.py` finds the pixel under the mouse; `reference_tracer.explain` does the work, with a step
 of undo for each click.
@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import bpy
 
-from .long_work import is_blocked, named
+from .long_work import Answer, is_blocked, named
 
 _HINT = (
     "Pixel Inspector: click a pixel in the render, in an image of the comparison, or in the "
@@ -20,6 +20,11 @@ _HINT = (
 
 @named
 class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
+    bl_label = "Inspect Pixels"
+    bl_description = (
+        "Click on pixels in the render, in an image of the comparison, or in the camera's "
+        "view, and read how each comes about. Esc ends it"
+    )
     running: ClassVar[bool] = False
 
     @classmethod
@@ -29,12 +34,12 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
             cls.poll_message_set("The inspector is on: click a pixel, or end it with Esc")
         return not (cls.running or is_blocked(cls, context, needs_camera=True))
 
-    def execute(self, context: Any) -> set[str]:
+    def execute(self, context: Any) -> Answer:
         """Refuse a script's call: it has no mouse."""
         self.report({"ERROR"}, "There is no mouse to click with: use reference_tracer.explain")
         return {"CANCELLED"}
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Any, event: Any) -> Answer:
         if bpy.app.background:
             return self.execute(context)
         type(self).running = True
@@ -43,7 +48,7 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: Any, event: Any) -> set[str]:
+    def modal(self, context: Any, event: Any) -> Answer:
         """Explain the pixel under a click; leave all else to the interface."""
         if event.type == "ESC" and event.value == "PRESS":
             self.cancel(context)
@@ -60,9 +65,8 @@ class REFERENCE_TRACER_OT_inspect(bpy.types.Operator):
                 return {"PASS_THROUGH"}
             draw_ray = context.window_manager.reference_tracer.draw_ray
             # As a button does it: with a step of undo of its own.
-            bpy.ops.reference_tracer.explain(
-                "EXEC_DEFAULT", True, **found._asdict(), draw_ray=draw_ray
-            )
+            ops: Any = bpy.ops
+            ops.reference_tracer.explain("EXEC_DEFAULT", True, **found._asdict(), draw_ray=draw_ray)
         except (SceneError, RuntimeError) as error:  # what an operator reports is one, too
             said = words(error).removeprefix("Error: ")
             self.report({"WARNING"}, said)

@@ -1,8 +1,8 @@
-"""What every operator shares; those with long work, progress, time left, Esc, one at a time, too.
+"""What every operator shares, and what those with long work do while the interface stays alive.
 
-An operator says in `begin` what the work is, a generator that yields the share that is done, and in
-`finish` what becomes of its result. A script's call runs through; a button's goes on in small
-steps, while the interface stays alive.
+An operator returns the work from `begin`: a generator that yields the share that is done. Its
+`finish` shows the result. A script's call runs through. A button's call goes on in small steps,
+with progress, the time left, and Esc. Only one runs at a time.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 import traceback
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar
 
 import bpy
 from bpy.app.translations import pgettext_rpt as rpt_
@@ -19,8 +19,17 @@ from bpy.props import StringProperty
 from ...tracer.progress import Work, result_of
 from ..versions import RELATIVE
 from .preferences import default_folder
-from .properties import SAID
 from .results import redraw
+
+if TYPE_CHECKING:
+    from bpy.stub_internal.rna_enums import OperatorReturnItems
+
+    Mixin = bpy.types.Operator  # what it is mixed into
+else:
+    Mixin = object
+
+Answer: TypeAlias = "set[OperatorReturnItems]"
+T = TypeVar("T", bound=type)
 
 SECONDS_A_STEP = 0.04  # of work between two looks at the events: Esc is answered within 0.2 s
 PAUSE = 0.005  # seconds that the interface gets in between
@@ -29,24 +38,25 @@ SHOWN_EVERY = 0.25  # seconds: showing progress redraws the window, which may co
 OPERATORS: list[type] = []  # to be registered
 
 
-def named(operator: type) -> type:
-    """Give an operator its identifier, texts and reports of errors; have it registered."""
-    name, execute = operator.__name__.rpartition("_OT_")[2], operator.execute
+def named(operator: T) -> T:
+    """Give an operator its identifier, have it report errors, and have it registered."""
+    own: Any = operator
+    execute = own.execute
 
-    def guarded(self: Any, context: Any) -> set[str]:
+    def guarded(self: Any, context: Any) -> Answer:
         try:
             return execute(self, context)
         except Exception as error:
             return failed(self, error)
 
-    operator.bl_idname, operator.execute = f"reference_tracer.{name}", guarded
-    operator.bl_label, operator.bl_description = (SAID[name][t] for t in ("label", "description"))
+    own.bl_idname = f"reference_tracer.{operator.__name__.rpartition('_OT_')[2]}"
+    own.execute = guarded
     OPERATORS.append(operator)
     return operator
 
 
-class LongWork:
-    """Mixed into an operator: the class gives its names, its `begin` and its `finish`."""
+class LongWork(Mixin):
+    """Mixed into an operator with long work, which gives its `begin` and its `finish`."""
 
     bl_options = {"UNDO"}  # what it leaves is one step
 
@@ -57,7 +67,13 @@ class LongWork:
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
 
-    directory: StringProperty(options={"SKIP_SAVE"} | RELATIVE, **SAID["work"]["directory"])  # type: ignore[valid-type]
+    directory: StringProperty(
+        name="Folder",
+        description="The folder for the results. If this is empty, they go where the preferences "
+        "say, or nowhere",
+        subtype="DIR_PATH",
+        options={"SKIP_SAVE"} | RELATIVE,
+    )
 
     def folder(self) -> Path | None:
         """Make the folder, and return it; None where nothing is to be written."""
@@ -81,11 +97,11 @@ class LongWork:
         """Allow one at a time, with a camera if it needs one."""
         return not is_blocked(cls, context, cls.needs_camera)
 
-    def execute(self, context: Any) -> set[str]:
+    def execute(self, context: Any) -> Answer:
         """Run through, as a script wants it."""
         return self._end(context, result_of(self.begin(context)))
 
-    def invoke(self, context: Any, event: Any) -> set[str]:
+    def invoke(self, context: Any, event: Any) -> Answer:
         """Begin, and go on while the interface stays alive."""
         if bpy.app.background:
             return self.execute(context)
@@ -97,31 +113,32 @@ class LongWork:
         LongWork._timer = manager.event_timer_add(PAUSE, window=context.window)
         manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
-        self._began = self._shown = time.monotonic()
+        self._began = time.monotonic()
+        self._shown = self._began
         LongWork.running = self.bl_label
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: Any, event: Any) -> set[str]:
+    def modal(self, context: Any, event: Any) -> Answer:
         """Work for one step, or stop at Esc."""
         if event.type == "ESC" and event.value == "PRESS":
-            self.cancel(context)
+            self.stop(context)
             said = rpt_("{} was cancelled; {}").format(rpt_(self.bl_label), rpt_(self.left))
             self.report({"WARNING"}, said)
             return {"CANCELLED"}
         if event.type != "TIMER":
-            return {"RUNNING_MODAL" if self.alone else "PASS_THROUGH"}
+            return {"RUNNING_MODAL"} if self.alone else {"PASS_THROUGH"}
         until = time.monotonic() + SECONDS_A_STEP
         try:
             while time.monotonic() < until:
                 share = next(self._work)
         except StopIteration as stop:
-            self.cancel(context)
+            self.stop(context)
             try:
                 return self._end(context, stop.value)
             except Exception as error:
                 return failed(self, error)
         except Exception as error:
-            self.cancel(context)
+            self.stop(context)
             return failed(self, error)
         self._show_progress(context, share)
         return {"PASS_THROUGH"}  # the timers of others are theirs
@@ -130,22 +147,20 @@ class LongWork:
         now = time.monotonic()
         if now - self._shown < SHOWN_EVERY:
             return
-        self._shown, past = now, now - self._began
+        self._shown = now
+        past = now - self._began
         context.window_manager.progress_update(int(100 * share))
         left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
         said = rpt_("{}: {} %{}  (Esc: cancel)").format(rpt_(self.bl_label), int(100 * share), left)
         context.workspace.status_text_set(said)
 
-    @staticmethod
-    def stop() -> None:
-        """Stop whatever is running: Blender tells no operator that its add-on is switched off."""
-        if LongWork.running:
-            window = bpy.context.window or bpy.context.window_manager.windows[0]
-            with bpy.context.temp_override(window=window):  # a script may have none
-                LongWork.cancel(LongWork, bpy.context)
-
     def cancel(self, context: Any) -> None:
-        """Stop; Blender itself asks for it, too, as at quitting or loading a file."""
+        """Stop, as Blender itself asks for at quitting or loading a file."""
+        self.stop(context)
+
+    @staticmethod
+    def stop(context: Any) -> None:
+        """Stop whatever is running."""
         LongWork.running = ""
         LongWork._work.close()
         context.window_manager.event_timer_remove(LongWork._timer)
@@ -153,14 +168,15 @@ class LongWork:
         if context.workspace:
             context.workspace.status_text_set(None)
 
-    def _end(self, context: Any, result: Any) -> set[str]:
+    def _end(self, context: Any, result: Any) -> Answer:
         level, text = self.finish(context, result)
         redraw(context)
-        self.report({level}, text)
+        kind: Any = {level}
+        self.report(kind, text)
         return {"FINISHED"}
 
 
-def failed(operator: Any, error: Exception) -> set[str]:
+def failed(operator: Any, error: Exception) -> Answer:
     """Have an operator report an error, with a traceback if it is a fault of ours, and end."""
     from ...errors import EXPECTED, words
 
@@ -171,7 +187,15 @@ def failed(operator: Any, error: Exception) -> set[str]:
 
 
 def with_ending(filepath: str, *endings: str) -> Path:
-    """Return the path of a file that is to have one of these endings; // is beside the .blend."""
+    """Return the path of a file whose name must have one of these endings.
+
+    // is beside the .blend.
+
+    Raises
+    ------
+    SceneError
+        If it has another.
+    """
     from ...scene import SceneError
 
     path = Path(bpy.path.abspath(filepath))
@@ -181,8 +205,9 @@ def with_ending(filepath: str, *endings: str) -> Path:
 
 
 def is_blocked(operator: Any, context: Any, needs_camera: bool) -> bool:
-    """Return whether long work or a missing camera is in the way; an operator's button says so."""
-    why, name = "", context.scene.name
+    """Return whether long work or a missing camera is in the way; the button's tooltip says so."""
+    why = ""
+    name = context.scene.name
     if LongWork.running:
         why = rpt_("{} is running: Esc cancels it").format(rpt_(LongWork.running))
     elif needs_camera and context.scene.camera is None:

@@ -1,4 +1,4 @@
-"""The buttons of the comparison, and its operators for scripts. They hold no maths."""
+"""The operators of the comparison, for buttons and scripts; the work is done elsewhere."""
 
 from __future__ import annotations
 
@@ -11,13 +11,17 @@ from bpy_extras.io_utils import ExportHelper
 
 from ...tracer.progress import Work
 from . import results
-from .long_work import LongWork, named, say, with_ending
-from .properties import SAID
+from .long_work import Answer, LongWork, named, say, with_ending
 from .results import Kind, redraw
 
 
 @named
 class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
+    bl_label = "Trace and Compare"
+    bl_description = (
+        "Trace the scene by the chosen method, and compare every pixel with Blender's own "
+        "picture. The textbook's formulas and the proven picture are listed side by side"
+    )
     needs_camera = True
 
     def begin(self, context: Any) -> Work[Any]:
@@ -36,6 +40,11 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
+    bl_label = "Compare All Engines"
+    bl_description = (
+        "Trace the scene, and compare it with the picture of each of Blender's engines: which "
+        "of them shows a wrong object, where, and why"
+    )
     needs_camera = True
 
     def begin(self, context: Any) -> Work[Any]:
@@ -57,7 +66,13 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
-    needs_camera = alone = True
+    bl_label = "Compare Animation"
+    bl_description = (
+        "Step the scene through its frames, and compare each; the worst are listed first. Esc "
+        "keeps the frames that are done. Afterwards the scene is at its frame again"
+    )
+    needs_camera = True
+    alone = True
 
     def begin(self, context: Any) -> Work[Any]:
         from ...compare.animation import worst_first
@@ -80,15 +95,26 @@ class REFERENCE_TRACER_OT_compare_animation(LongWork, bpy.types.Operator):
         return animation.compare_frames(str(folder), frames, told)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
-        say(*results.latest(Kind.FRAMES, context.scene).lines)
+        found = results.latest(Kind.FRAMES, context.scene)
+        say(*(found.lines if found else ()))
         return "INFO" if self.left.endswith(": agree") else "WARNING", self.left.capitalize()
 
 
 @named
 class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
-    bl_options: set[str] = set()  # it leaves nothing in Blender
+    bl_label = "Open Page"
+    bl_description = (
+        "Write the comparison as one HTML file and open it in the browser: every pixel's "
+        "cause, numbers and derivation, and what else was measured"
+    )
+    bl_options = set()  # it leaves nothing in Blender
 
-    open_browser: BoolProperty(options={"SKIP_SAVE"}, **SAID["open_page"]["open_browser"])  # type: ignore[valid-type]
+    open_browser: BoolProperty(
+        name="Open in the Browser",
+        description="Open the file once it is written",
+        default=True,
+        options={"SKIP_SAVE"},
+    )
 
     @classmethod
     def poll(cls, context: Any) -> bool:
@@ -102,7 +128,7 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         from ...report import page
 
         self._folder = self.folder() or results.session_folder()
-        self._comparison = results.latest(Kind.COMPARISON, context.scene).content
+        self._comparison = results.content(Kind.COMPARISON, context.scene)
         return page.extras(self._comparison)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
@@ -110,10 +136,9 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
         from ...report import page
 
         path = self._folder / page.NAME
-        kinds = Kind.TRADE, Kind.EXTREMES
-        kept = {kind.name.lower(): results.latest(kind, context.scene) for kind in kinds}
-        more = {name: found.content for name, found in kept.items() if found and found.content}
-        page.write(path, self._comparison, replace(result, **more))
+        trade = results.content(Kind.TRADE, context.scene)
+        extremes = results.content(Kind.EXTREMES, context.scene)
+        page.write(path, self._comparison, replace(result, trade=trade, extremes=extremes))
         if self.open_browser:
             bpy.ops.wm.url_open(url=path.resolve().as_uri())
         return "INFO", f"The page is {path}"
@@ -121,24 +146,42 @@ class REFERENCE_TRACER_OT_open_page(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_frame_all(bpy.types.Operator):
+    bl_label = "Add a Camera That Frames All"
+    bl_description = (
+        "Add a camera that sees all that a render shows, from the front, the right and above, "
+        "and make it the scene's"
+    )
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: Any) -> set[str]:
-        from ..reading.choice import frame_all
+    def execute(self, context: Any) -> Answer:
+        from ..choice import frame_all
 
         camera = frame_all(context.scene, context.view_layer)
-        camera.name = camera.data.name = "Camera"
+        camera.name = "Camera"
+        camera.data.name = "Camera"
         return {"FINISHED"}
 
 
 @named
-class REFERENCE_TRACER_OT_export(ExportHelper, LongWork, bpy.types.Operator):
-    bl_options: set[str] = set()  # it leaves nothing in Blender
+class REFERENCE_TRACER_OT_export(  # type: ignore[misc]  # Blender's own helper is no operator
+    ExportHelper, LongWork, bpy.types.Operator
+):
+    bl_label = "Export Reference Tracer Scene"
+    bl_description = (
+        "Write what the camera sees, as a render has it, to a file that `reftrace trace "
+        "FILE.npz` traces without Blender"
+    )
+    bl_options = set()  # it leaves nothing in Blender
     filename_ext = ".npz"
     needs_camera = True
 
-    filepath: StringProperty(options={"SKIP_SAVE"}, **SAID["export"]["filepath"])  # type: ignore[valid-type]
-    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})  # type: ignore[valid-type]
+    filepath: StringProperty(
+        name="File",
+        description="The file to write; its name ends in .npz",
+        subtype="FILE_PATH",
+        options={"SKIP_SAVE"},
+    )
+    filter_glob: StringProperty(default="*.npz", options={"HIDDEN"})
 
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene as a render has it, and write it: it is whole, or not there."""

@@ -1,4 +1,4 @@
-"""The pixel under the mouse, in an image of the picture or in the camera's view."""
+"""Finds the pixel under the mouse, in an image of the picture or in the camera's view."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _OURS = {results.TRACED, results.BLENDER, results.DIFFERENCE}
 
 
 class Pick(NamedTuple):
-    """A pixel of the picture, and which export of the scene it is of: see `explain.py`."""
+    """A pixel of the picture, and the export of the scene to derive it from: see `choices.py`."""
 
     x: int
     y: int
@@ -23,7 +23,7 @@ class Pick(NamedTuple):
 
 
 def pick(context: Any, mouse_x: int, mouse_y: int) -> Pick | None:
-    """Return the pixel under the mouse, which is at a place of the window.
+    """Return the pixel at a place of the window; None where there is no picture.
 
     Raises
     ------
@@ -36,13 +36,13 @@ def pick(context: Any, mouse_x: int, mouse_y: int) -> Pick | None:
             continue
         if region.type != "WINDOW" or area.type not in ("IMAGE_EDITOR", "VIEW_3D"):
             return None
-        of = _of_image if area.type == "IMAGE_EDITOR" else _of_view
-        return of(context, area.spaces.active, region, mouse_x - region.x, mouse_y - region.y)
+        find = _of_image if area.type == "IMAGE_EDITOR" else _of_view
+        return find(context, area.spaces.active, region, mouse_x - region.x, mouse_y - region.y)
     return None
 
 
 def _region_at(area: Any, x: int, y: int) -> Any | None:
-    """Return the region of an area that is at a place; sidebars lie above the main one."""
+    """Return the region of an area at a place; sidebars lie above the main one."""
     found = [
         r
         for r in area.regions
@@ -52,7 +52,8 @@ def _region_at(area: Any, x: int, y: int) -> Any | None:
 
 
 def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
-    image, camera = space.image, export_camera(context.scene)
+    image = space.image
+    camera = export_camera(context.scene)
     if image is None:
         raise SceneError("No image is open here: open the render, or one of the comparison's")
     u, v = region.view2d.region_to_view(x + 0.5, y + 0.5)  # the middle of a screen's pixel
@@ -62,19 +63,20 @@ def _of_image(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
         if context.scene.render.use_crop_to_border:
             return Pick(int(u * camera.region.width), int(v * camera.region.height), "RENDER")
         return _within(camera, u, v, "RENDER")
-    width, height = size = tuple(image.size)
-    own = camera.region.width, camera.region.height
-    if size != own:
+    width, height = image.size
+    own = camera.region
+    if (width, height) != (own.width, own.height):
         raise SceneError(
-            f"The image '{image.name}' has {width} x {height} pixels, the picture {own[0]} x "
-            f"{own[1]}: it is of something else, or the resolution has changed since"
+            f"The image '{image.name}' has {width} x {height} pixels, the picture {own.width} x "
+            f"{own.height}: it is of something else, or the resolution has changed since"
         )
     source = "COMPARISON" if image.get(results.MARK) in _OURS else "SCENE"
     return Pick(int(u * width), int(v * height), source)
 
 
 def _of_view(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
-    scene, view = context.scene, region.data
+    scene = context.scene
+    view = region.data
     if view.view_perspective != "CAMERA":
         raise SceneError(
             "This 3D view does not look through the camera (Numpad 0, or View > Cameras > Active "
@@ -91,17 +93,19 @@ def _of_view(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
     shown = [location_3d_to_region_2d(region, view, corner) for corner in corners]
     if any(place is None for place in shown):
         raise SceneError("The camera's frame is not in this view")
-    low, high = np.min(shown, axis=0), np.max(shown, axis=0)
-    u, v = (np.array((x + 0.5, y + 0.5)) - low) / (high - low)
+    places = np.array(shown)
+    low = places.min(axis=0)
+    u, v = (np.array((x + 0.5, y + 0.5)) - low) / (places.max(axis=0) - low)
     if not (0 <= u < 1 and 0 <= v < 1):
         raise SceneError("That is outside of the camera's frame")
     return _within(camera, u, v, "SCENE")
 
 
 def _within(camera: Camera, u: float, v: float, source: str) -> Pick:
-    """Return the pixel at a place of the whole picture, 0 to 1, counted as the border counts."""
+    """Return the pixel of the render border at a place of the whole picture, 0 to 1."""
     region = camera.region
-    x, y = int(u * camera.width) - region.x0, int(v * camera.height) - region.y0
+    x = int(u * camera.width) - region.x0
+    y = int(v * camera.height) - region.y0
     if not (0 <= x < region.width and 0 <= y < region.height):
         raise SceneError("That is outside of the render border")
     return Pick(x, y, source)

@@ -1,4 +1,4 @@
-"""What holds for all files of a user: Blender keeps it in his preferences."""
+"""Declares what holds for all files of a user: Blender keeps it in his preferences."""
 
 from __future__ import annotations
 
@@ -9,48 +9,62 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 
 from ..versions import RELATIVE
-from .properties import METHOD_ITEMS, SAID
-
-_SAID = SAID["preferences"]
+from . import choices
 
 
 class ReferenceTracerPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__.rsplit(".", 2)[0]  # what has `addon/blender`: the extension
 
-    folder: StringProperty(options=RELATIVE, **_SAID["folder"])  # type: ignore[valid-type]
-    method: EnumProperty(items=METHOD_ITEMS, **_SAID["method"])  # type: ignore[valid-type]
+    folder: StringProperty(
+        name="Results",
+        description="Where results go if no folder is named for them: each into a folder of its "
+        "file and kind. // is beside the .blend. If this is empty, only pages to look at are "
+        "written, to a temporary folder",
+        subtype="DIR_PATH",
+        options=RELATIVE,
+    )
+    method: EnumProperty(
+        name="Method of New Files",
+        description="The method of scenes in new files. Files that are opened keep their own",
+        items=choices.METHODS,
+        default="auto",
+    )
 
     def draw(self, context: Any) -> None:
-        self.layout.use_property_split = True
-        for name in _SAID:
-            self.layout.prop(self, name)
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "folder")
+        layout.prop(self, "method")
 
 
-def preferred(name: str) -> Any:
-    """Return what the user prefers; the default where the add-on is not one of Blender's."""
-    addon = bpy.context.preferences.addons.get(ReferenceTracerPreferences.bl_idname)
-    return getattr(addon and addon.preferences, name, _SAID[name]["default"])
+def _preferences() -> Any:
+    """Return what the user prefers; None where the add-on is not one of Blender's."""
+    preferences: Any = bpy.context.preferences
+    addon = preferences.addons.get(ReferenceTracerPreferences.bl_idname)
+    return addon and addon.preferences
 
 
 def default_folder(operation: str) -> str:
-    """Return where an operation's results go that no folder is named for; empty for nowhere.
+    """Return where an operation's results go if no folder is named for them; empty for nowhere.
 
     What is to lie beside the file goes nowhere until there is one.
     """
-    folder, file = preferred("folder"), bpy.data.filepath
-    if not folder or (folder.startswith("//") and not file):
+    own = _preferences()
+    file = bpy.data.filepath
+    if not (own and own.folder) or (own.folder.startswith("//") and not file):
         return ""
-    return str(Path(bpy.path.abspath(folder), Path(file).stem or "unsaved", operation))
+    return str(Path(bpy.path.abspath(own.folder), Path(file).stem or "unsaved", operation))
 
 
 @bpy.app.handlers.persistent
 def set_up_new_file(*_: Any) -> None:
     """Give the scenes of a new file the method that is preferred; one that is stored stays."""
-    method = preferred("method")
-    if not bpy.data.filepath and method != _SAID["method"]["default"]:
-        for scene in bpy.data.scenes:
-            if not scene.reference_tracer.is_property_set("method"):
-                scene.reference_tracer.method = method
+    own = _preferences()
+    if own and own.method != "auto" and not bpy.data.filepath:
+        scenes: Any = bpy.data.scenes
+        for stored in (scene.reference_tracer for scene in scenes):
+            if not stored.is_property_set("method"):
+                stored.method = own.method
 
 
 register, unregister = bpy.utils.register_classes_factory((ReferenceTracerPreferences,))

@@ -1,55 +1,21 @@
-"""What the user sets: stored in the .blend on the scene and its objects, or of the moment.
+"""Declares the settings that Blender stores, and those of the moment.
 
-`properties.toml` has their names, texts and limits, and those of the operators' properties. Results
-are not stored here: see `results.py`.
+The .blend stores them on the scene, its view layers and objects; the window's are not stored.
+Results are elsewhere: see `results.py`.
 """
-
-# mypy: disable-error-code="valid-type"
 
 from __future__ import annotations
 
-import tomllib
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, PointerProperty
 
-from ...methods import RECORDS, Method
-from ..drawing import judges
-from . import results
+from ...methods import Method
+from . import choices, results
 
 if TYPE_CHECKING:
     from ...tracer.settings import Settings
-
-SAID, SCENARIOS = (
-    tomllib.loads(path.read_text(encoding="utf-8"))
-    for path in (
-        Path(__file__).with_suffix(".toml"),
-        Path(__file__).parents[2] / "study" / "scenarios" / "sweeps.toml",
-    )
-)
-_SCENE, _LAYER, _OBJECT, _WINDOW = (SAID[of] for of in ("scene", "layer", "object", "window"))
-
-METHOD_ITEMS = tuple(
-    (m.value, r.label, r.description, r.number) for m, r in reversed(RECORDS.items())
-)
-PRECISIONS, SHADINGS, COLORS, PASS_ITEMS, SOURCES = (
-    tuple(map(tuple, SAID[items]))
-    for items in ("precisions", "shadings", "colors", "passes", "sources")
-)
-JUDGE_ITEMS = (
-    (judges.AUTO, "Automatic", judges.AUTO_IS, 0),
-    *((j.name.upper(), j.label, j.description, j.number) for j in judges.choices().values()),
-)
-SHOW_ITEMS = (
-    *map(tuple, SAID["shows"]),
-    *((name.upper(), *said, 4 + number) for name, *said, number in COLORS),
-)
-SWEEPS, MAPS = (
-    tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in SCENARIOS[kind])
-    for kind in ("scenario", "map")
-)
 
 
 def _redraw(owner: Any, context: Any) -> None:
@@ -59,15 +25,64 @@ def _redraw(owner: Any, context: Any) -> None:
 class ReferenceTracerScene(bpy.types.PropertyGroup):
     """How to trace and compare this scene."""
 
-    method: EnumProperty(items=METHOD_ITEMS, update=_redraw, **_SCENE["method"])
-    precision: EnumProperty(items=PRECISIONS, update=_redraw, **_SCENE["precision"])
-    samples: IntProperty(update=_redraw, **_SCENE["samples"])
-    color: EnumProperty(items=COLORS, update=_redraw, **_SCENE["color"])
-    show: EnumProperty(items=SHOW_ITEMS, update=_redraw, **_SCENE["show"])
-    judge: EnumProperty(items=JUDGE_ITEMS, **_SCENE["judge"])
-    shading: EnumProperty(items=SHADINGS, **_SCENE["shading"])
-    identity: BoolProperty(**_SCENE["identity"])
-    self_check: BoolProperty(**_SCENE["self_check"])
+    method: EnumProperty(
+        name="Method",
+        description="How a ray meets a triangle",
+        items=choices.METHODS,
+        default="auto",
+        update=_redraw,
+    )
+    precision: EnumProperty(
+        name="Precision",
+        description="The floating-point type of rays and corners. A proof needs float64",
+        items=choices.PRECISIONS,
+        default="float64",
+        update=_redraw,
+    )
+    samples: IntProperty(
+        name="Samples",
+        description="The square root of the number of rays in a pixel: its colour is their mean",
+        default=1,
+        min=1,
+        max=16,
+        update=_redraw,
+    )
+    color: EnumProperty(
+        name="Color",
+        description="What a render shows of a surface",
+        items=choices.COLORS,
+        update=_redraw,
+    )
+    show: EnumProperty(
+        name="Show",
+        description="What a 3D view shows in Rendered mode, if this is the render engine",
+        items=choices.SHOWS,
+        update=_redraw,
+    )
+    judge: EnumProperty(
+        name="Compare With",
+        description="Which of Blender's own pictures the traced one is compared with",
+        items=choices.JUDGES,
+        default="AUTO",
+    )
+    shading: EnumProperty(
+        name="Shading",
+        description="How Blender draws the picture that is compared",
+        items=choices.SHADINGS,
+        default="LIKE_FOR_LIKE",
+    )
+    identity: BoolProperty(
+        name="Object by Object",
+        description="Tell a wrong colour from a wrong object. For that, Blender draws the scene "
+        "once more, with a colour for each object",
+        default=True,
+    )
+    self_check: BoolProperty(
+        name="Self-Check",
+        description="After comparing, make known faults (a pixel off, mirrored, an object left "
+        "out...) and see that the comparison finds each. This takes several times as long",
+        default=False,
+    )
 
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
@@ -82,7 +97,7 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         return Method(self.method).is_plain
 
 
-def _tell_the_compositor(layer: ReferenceTracerLayer, _: object) -> None:
+def _tell_the_compositor(layer: Any, _: object) -> None:
     for each in layer.id_data.view_layers:
         each.update_render_passes()
 
@@ -91,42 +106,65 @@ class ReferenceTracerLayer(bpy.types.PropertyGroup):
     """What is rendered of a view layer."""
 
     passes: EnumProperty(
-        items=PASS_ITEMS, options={"ENUM_FLAG"}, update=_tell_the_compositor, **_LAYER["passes"]
+        name="Passes",
+        description="What the compositor and files get besides the picture; each pass takes time",
+        items=choices.PASSES,
+        options={"ENUM_FLAG"},
+        update=_tell_the_compositor,
     )
 
 
 class ReferenceTracerObject(bpy.types.PropertyGroup):
     """What an object is to the tracer."""
 
-    infinite_plane: BoolProperty(**_OBJECT["infinite_plane"])
+    infinite_plane: BoolProperty(
+        name="Infinite Plane",
+        description="Trace this object as an infinite plane through its origin, facing its local "
+        "+Z, in place of its own geometry",
+        default=False,
+    )
 
 
 class ReferenceTracerWindow(bpy.types.PropertyGroup):
     """What the panels show at the moment, and what a click of the inspector does; not stored."""
 
-    precision: EnumProperty(items=PRECISIONS, options={"SKIP_SAVE"}, **_WINDOW["precision"])
-    scenario: EnumProperty(items=SWEEPS, options={"SKIP_SAVE"}, **_WINDOW["scenario"])
-    draw_ray: BoolProperty(options={"SKIP_SAVE"}, **_WINDOW["draw_ray"])
+    precision: EnumProperty(
+        name="Precision",
+        description="The floating-point type to show. The table says where each method breaks",
+        items=choices.PRECISIONS,
+        options={"SKIP_SAVE"},
+    )
+    scenario: EnumProperty(
+        name="Scenario",
+        description="The scenario that the buttons below open as a scene",
+        items=choices.SWEEPS,
+        options={"SKIP_SAVE"},
+    )
+    draw_ray: BoolProperty(
+        name="Draw the Ray",
+        description="With every click, draw the ray as objects in the 3D view",
+        options={"SKIP_SAVE"},
+    )
 
 
-# Where each is: the type of Blender's, and the name there.
-POINTERS = (
-    (bpy.types.Scene, "reference_tracer", ReferenceTracerScene),
-    (bpy.types.ViewLayer, "reference_tracer", ReferenceTracerLayer),
-    (bpy.types.Object, "reference_tracer", ReferenceTracerObject),
-    (bpy.types.WindowManager, "reference_tracer", ReferenceTracerWindow),
+# What has the settings, as its attribute `reference_tracer`.
+GROUPS = (
+    (bpy.types.Scene, ReferenceTracerScene),
+    (bpy.types.ViewLayer, ReferenceTracerLayer),
+    (bpy.types.Object, ReferenceTracerObject),
+    (bpy.types.WindowManager, ReferenceTracerWindow),
 )
 
 
 def register() -> None:
     """Register the property groups."""
-    for owner, name, group in POINTERS:
+    for owner, group in GROUPS:
         bpy.utils.register_class(group)
-        setattr(owner, name, PointerProperty(type=group))
+        setattr(owner, "reference_tracer", PointerProperty(type=group))  # noqa: B010
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
-    for owner, name, group in reversed(POINTERS):
-        delattr(owner, name)
+    for owner, group in reversed(GROUPS):
+        delattr(owner, "reference_tracer")
         bpy.utils.unregister_class(group)

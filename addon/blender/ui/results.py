@@ -1,6 +1,6 @@
-"""The latest of each kind of result, for the panels; the images and texts that show it.
+"""Keeps the latest of each kind of result for the panels, and shows it in images and texts.
 
-What the panels show is not stored in the .blend: it speaks of one moment.
+What the panels show is not stored in the .blend: it is about one moment.
 """
 
 from __future__ import annotations
@@ -19,15 +19,16 @@ import bpy
 from ...methods import Method
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
+    from ...arrays import Colors
     from ...compare.comparison import Comparison
     from ...study.extremes import BreakingPoint, ExtremesRow
     from ...study.trade import Trade
 
-# What results are of. To name a kind, the class of its contents need not be imported.
+# A name: so the class of a result need not be imported.
 Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES BREAKING_POINTS")
-TRACED, BLENDER, DIFFERENCE = (f"Reference Tracer {n}" for n in ("Traced", "Blender", "Difference"))
+TRACED = "Reference Tracer Traced"
+BLENDER = "Reference Tracer Blender"
+DIFFERENCE = "Reference Tracer Difference"
 MARK = "reference_tracer"  # a custom property of the images that the add-on may write into
 
 
@@ -36,8 +37,8 @@ class Result:
     """What a panel shows; computed once, since panels are drawn many times a second."""
 
     file: str
-    content: Any  # of the kind that it is kept as
-    lines: tuple[str, ...]  # what to say, the first of them first
+    content: Any  # what the kind says
+    lines: tuple[str, ...]  # sentences; a panel shows the first
     scene: str | None = None  # None: of no scene
     page: str = ""  # the address of its plots
 
@@ -69,7 +70,8 @@ def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
     from ...report import extremes as extremes_report
     from ...study.extremes import breaking_points
 
-    page, points = _page("extremes", extremes_report.pictures(rows)), tuple(breaking_points(rows))
+    page = _page("extremes", extremes_report.pictures(rows))
+    points = tuple(breaking_points(rows))
     lines = [_extremes_sentence(rows, points)]
     keep(Kind.EXTREMES, tuple(rows), lines)
     return keep(Kind.BREAKING_POINTS, points, lines, page=page)
@@ -90,22 +92,22 @@ def session_folder() -> Path:
 
 
 def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoint]) -> str:
-    """Return in one sentence whether the certified method holds, and which other holds longest."""
+    """Return whether the certified method is ever wrong, and which other holds most often."""
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
-    points = [p for p in points if Method(p.method).is_plain]
-    holds = Counter({(p.method, p.precision): 0 for p in points})
-    holds.update((p.method, p.precision) for p in points if p.never)
-    if holds:
-        [((method, precision), count)] = holds.most_common(1)
-        total = len({p.scenario for p in points})
-        sentence += (
-            f"; of the other methods, {Method(method).record.words} in {precision} holds in the "
-            f"most sweeps: {count} of {total}"
-            if count
-            else f"; every other method breaks in each of {total} sweeps"
-        )
-    return sentence + "."
+    plain = [p for p in points if Method(p.method).is_plain]
+    if not plain:
+        return sentence + "."
+    holds = Counter({(p.method, p.precision): 0 for p in plain})
+    holds.update((p.method, p.precision) for p in plain if p.never)
+    [((method, precision), count)] = holds.most_common(1)
+    total = len({p.scenario for p in plain})
+    if not count:
+        return f"{sentence}; every other method breaks in each of {total} sweeps."
+    return (
+        f"{sentence}; of the other methods, {Method(method).record.words} in {precision} holds in "
+        f"the most sweeps: {count} of {total}."
+    )
 
 
 def keep(
@@ -124,17 +126,23 @@ def latest(kind: Kind, scene: Any) -> Result | None:
     return None
 
 
+def content(kind: Kind, scene: Any) -> Any:
+    """Return what :func:`latest` has of a kind; None if there is none."""
+    found = latest(kind, scene)
+    return found and found.content
+
+
 def forget() -> None:
     """Drop all results, as when another file is opened."""
     _latest.clear()
 
 
-def show(name: str, color: NDArray) -> Any:
-    """Put linear RGBA (h, w, 4) into our image of this name, made where it is not there."""
+def show(name: str, color: Colors) -> Any:
+    """Put linear RGBA (h, w, 4) into our image of this name; make it if there is none."""
     import numpy as np
 
     height, width = color.shape[:2]
-    image = next((i for i in bpy.data.images if i.get(MARK) == name), None)
+    image: Any = next((i for i in bpy.data.images if i.get(MARK) == name), None)
     if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
         del image[MARK]
         image = None
@@ -156,9 +164,9 @@ def show_in_editor(context: Any, image: Any) -> None:
 
 
 def show_text(context: Any, name: str, content: str) -> Any:
-    """Put a text into ours of this name, made where it is not there, and show it if it can be.
+    """Put a text into our text of this name, or a new one, and show it in a text editor.
 
-    One that the user has saved to a file is theirs, and is left as it is.
+    A text that the user has saved to a file is theirs, and is left as it is.
     """
     text = next((t for t in bpy.data.texts if t.get(MARK) == name), None)
     if text and text.filepath:

@@ -1,4 +1,4 @@
-"""The trade and the extremes: their work, their files, and their operators."""
+"""The operators of the studies: the trade and the extremes, for buttons and scripts."""
 
 from __future__ import annotations
 
@@ -8,21 +8,33 @@ import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ...tracer.progress import Work
-from . import results
-from .long_work import LongWork, named, say
-from .properties import MAPS, SAID, SWEEPS
-
-_TRADE, _EXTREMES, _SCENE = (SAID[of] for of in ("trade", "extremes", "extreme_scene"))
-EVERY = "ALL"  # in place of a scenario's name
-STUDIES = [(EVERY, "All", "Every scenario, and the maps of two scales at once"), *SWEEPS, *MAPS]
+from . import choices, results
+from .long_work import Answer, LongWork, named, say
 
 
 @named
 class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
+    bl_label = "Measure the Trade"
+    bl_description = (
+        "Measure on this scene and camera how long every method, precision, number of samples "
+        "and size takes, and what it gets wrong"
+    )
     needs_camera = True
 
-    width: IntProperty(**_TRADE["width"])  # type: ignore[valid-type]
-    samples: IntProperty(**_TRADE["samples"])  # type: ignore[valid-type]
+    width: IntProperty(
+        name="Width",
+        description="Width of the largest picture that is measured, in pixels",
+        default=160,
+        min=1,
+        soft_max=1920,
+    )
+    samples: IntProperty(
+        name="Samples",
+        description="The square root of the largest number of rays in a pixel that is measured",
+        default=4,
+        min=1,
+        max=16,
+    )
 
     def begin(self, context: Any) -> Work[Any]:
         """Export the scene at once, as a render has it; return the work of measuring."""
@@ -45,16 +57,32 @@ class REFERENCE_TRACER_OT_trade(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
-    scenario: EnumProperty(items=STUDIES, default=EVERY, **_EXTREMES["scenario"])  # type: ignore[valid-type]
-    rays: IntProperty(**_EXTREMES["rays"])  # type: ignore[valid-type]
+    bl_label = "Find Where Methods Break"
+    bl_description = (
+        "Trace scenes that get harder and harder (far away, tiny, edge-on...) by every "
+        "method, and find the first scale at which each differs from exact arithmetic"
+    )
+    scenario: EnumProperty(
+        name="Scenario",
+        description="The scenario to measure",
+        items=choices.STUDIES,
+        default=choices.EVERY,
+    )
+    rays: IntProperty(
+        name="Rays",
+        description="About how many rays go through each scene; 0 for the scene's own number",
+        default=0,
+        min=0,
+        soft_max=10000,
+    )
 
     def begin(self, context: Any) -> Work[Any]:
-        """Return the work; a map has a scenario of its name for each of its rows."""
+        """Return the work; the rows of a map are scenarios of its name."""
         from ...study.extremes import measure
         from ...study.scenarios.sweeps import ALL
 
         self._folder = self.folder()
-        scenarios = [s for s in ALL if self.scenario in (EVERY, s.name)]
+        scenarios = [s for s in ALL if self.scenario in (choices.EVERY, s.name)]
         return measure(scenarios, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
@@ -69,14 +97,30 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
 
 @named
 class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
+    bl_label = "Open Scenario as a Scene"
+    bl_description = (
+        "Build a scenario at one of its scales as a new scene with its camera and meshes, as "
+        "closely as Blender's float32 allows, to look at and to trace and compare there"
+    )
     bl_options = {"UNDO"}
 
-    scenario: EnumProperty(items=SWEEPS, **_SCENE["scenario"])  # type: ignore[valid-type]
-    scale: StringProperty(**_SCENE["scale"])  # type: ignore[valid-type]
-    width: IntProperty(**_SCENE["width"])  # type: ignore[valid-type]
+    scenario: EnumProperty(
+        name="Scenario", description="The scenario to build", items=choices.SWEEPS
+    )
+    scale: StringProperty(
+        name="Scale",
+        description="A number, such as 1e8. If this is empty, the scenario's last and hardest",
+    )
+    width: IntProperty(
+        name="Width",
+        description="Width of the picture, in pixels; 0 for the study's own, one ray a pixel",
+        default=0,
+        min=0,
+        soft_max=1920,
+    )
 
-    def execute(self, context: Any) -> set[str]:
-        from ..drawing import scenario_scene
+    def execute(self, context: Any) -> Answer:
+        from . import scenario_scene
 
         scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
         changed = scene[scenario_scene.CHANGED].split("\n")

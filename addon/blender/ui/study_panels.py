@@ -1,6 +1,6 @@
-"""The panels that look closer: at a pixel's maths, at what tracing costs, at where methods break.
+"""The panels of the pixel inspector, the trade and the extremes.
 
-The pixel inspector's is in the sidebar of images, too.
+The pixel inspector is in the sidebar of images, too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ...methods import MEASURED, PLAIN, Method
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .panels import NARROW, both, draw_table, short_name, wrapped
+from .layout import NARROW, Part, both, draw_table, short_name, wrapped
 from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
@@ -21,18 +21,18 @@ _DIGITS = 18  # of an exact number: what a sidebar has room for, with its expone
 _COLUMNS = 3  # of buttons
 
 
-class _Inspector:
+class _Inspector(Part):
     bl_label = "Pixel Inspector"
 
     def draw(self, context: Any) -> None:
         """Draw the buttons, and the latest pixel's key numbers."""
         layout = self.layout
-        on = REFERENCE_TRACER_OT_inspect.running
+        is_on = REFERENCE_TRACER_OT_inspect.running
         layout.operator(
             REFERENCE_TRACER_OT_inspect.bl_idname,
             icon="EYEDROPPER",
-            text="Click a Pixel (Esc: End)" if on else None,
-            depress=on,
+            text="Click a Pixel (Esc: End)" if is_on else None,
+            depress=is_on,
         )
         layout.prop(context.window_manager.reference_tracer, "draw_ray")
         row = layout.row(align=True)
@@ -61,7 +61,7 @@ def _draw(layout: Any, context: Any, derivation: Any, said: str) -> None:
     tested = iface_("Tested: {}, left out: {:,}").format(len(derivation.tests), pixel.left_out)
     box.label(text=tested)
     for number, test in enumerate(derivation.tests, 1):
-        judged = test.verdicts[Arithmetic.EXACT]
+        judged = test.judgements[Arithmetic.EXACT]
         icon = "CHECKMARK" if judged.accepted else "X"
         box.label(text=f"2.{number} {test.candidate.title}{_t(test)}", icon=icon)
         for reason in judged.reasons[:1]:
@@ -95,7 +95,7 @@ def _numbers(layout: Any, test: Any) -> None:
 
 
 def _number(layout: Any, name: str, value: str, off: str) -> None:
-    """Draw a number with its error; an exact one may be longer than there is room."""
+    """Draw a number with its error; an exact number may be too long for the panel."""
     split = layout.split(factor=0.17 if value else 0.83)  # without a value: a head
     split.label(text=name)
     if value and off:
@@ -107,15 +107,17 @@ def _number(layout: Any, name: str, value: str, off: str) -> None:
 
 
 class IMAGE_PT_reference_tracer_inspector(_Inspector, bpy.types.Panel):
-    bl_space_type, bl_region_type, bl_category = "IMAGE_EDITOR", "UI", "Reference Tracer"
+    bl_space_type = "IMAGE_EDITOR"
+    bl_region_type = "UI"
+    bl_category = "Reference Tracer"
 
 
-class _Trade:
+class _Trade(Part):
     bl_label = "Trade"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        """Draw the button, and what was measured: the methods, then what no other row beats."""
+        """Draw the button and what was measured: the methods, then the rows that no other beats."""
         layout = self.layout
         layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
         found = results.latest(Kind.TRADE, context.scene)
@@ -124,67 +126,77 @@ class _Trade:
         trade = found.content
         wrapped(layout, context, found.lines[0], "INFO")
         layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
-        box, rows = layout.box(), trade.whole
+        box = layout.box()
+        rows = trade.whole
         box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
-        draw_table(box, [("", "s", "Wrong", "MiB"), *(_method(r) for r in rows)], NARROW)
+        _measured(box, rows, ("seconds", "wrong_pixels", "peak_bytes"))
         box = layout.box()
         box.label(text=f"Nearest to {trade.converged} × {trade.converged} rays a pixel")
         best = sorted((r for r in trade.rows if r.best_coverage), key=lambda r: r.seconds)
-        draw_table(box, [("", "Size", "s", "RMS"), *(_coverage(r) for r in best)], NARROW)
+        _measured(box, best, ("seconds", "coverage_error"))
         wrapped(layout, context, "* no other is faster with as few wrong pixels")
 
 
-def _method(row: Any) -> tuple[str, ...]:
-    star = " *" if row.best_pixels else ""
-    memory = f"{row.peak_bytes / 2**20:.1f}"
-    return short_name(row), f"{row.seconds:.3f}", f"{row.wrong_pixels:,}{star}", memory
+def _measured(layout: Any, rows: list[Any], names: tuple[str, ...]) -> None:
+    """Draw some columns of a trade's rows; with the size, where the rows are not of one size."""
+    from ...study.trade import COLUMNS
+
+    columns = [c for c in COLUMNS if c.name in names]
+    sizes = len({r.size for r in rows}) > 1
+    table = [["", *["Size"] * sizes, *(c.short for c in columns)]]
+    for r in rows:
+        size = [f"{r.width}, {r.samples}²"] * sizes
+        table.append([short_name(r), *size, *(c.shown(r) for c in columns)])
+    draw_table(layout, table, NARROW)
 
 
-def _coverage(row: Any) -> tuple[str, ...]:
-    size = f"{row.width}, {row.samples}²"
-    return short_name(row), size, f"{row.seconds:.3f}", f"{row.coverage_error:.4f}"
-
-
-class _Extremes:
+class _Extremes(Part):
     bl_label = "Extremes"
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
         """Draw the button, the breaking points, and the way to each scene."""
-        from ...study.extremes import written
-        from ...study.scenarios.sweeps import BY_NAME
-        from ..drawing.scenario_scene import CHANGED
+        from .scenario_scene import CHANGED
 
-        layout, shown = self.layout, context.window_manager.reference_tracer
+        layout = self.layout
+        shown = context.window_manager.reference_tracer
         layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        found = results.latest(Kind.BREAKING_POINTS, context.scene)
-        if found:
+        if found := results.latest(Kind.BREAKING_POINTS, context.scene):
             wrapped(layout, context, found.lines[0], "INFO")
             layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
-        if found and found.content:
-            wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
-            layout.row().prop(shown, "precision", expand=True)
-            _breaking_points(layout.box(), found.content, shown.precision)
-        box = layout.box()
-        box.prop(shown, "scenario", text="")
-        scenario = BY_NAME[shown.scenario]
-        wrapped(box, context, scenario.explanation)
-        box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
-        operator = studies.REFERENCE_TRACER_OT_extreme_scene
-        grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
-        for scale in scenario.scales:
-            button = grid.operator(operator.bl_idname, text=written(scale))
-            button.scenario, button.scale = scenario.name, repr(float(scale))
+            if found.content:
+                wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
+                layout.row().prop(shown, "precision", expand=True)
+                _breaking_points(layout.box(), found.content, shown.precision)
+        _scene_buttons(layout.box(), context, shown)
         if changed := context.scene.get(CHANGED):
             wrapped(layout, context, "This scene is one of the study's, stored in float32:", "INFO")
             for line in changed.split("\n"):
                 wrapped(layout, context, line)
 
 
-def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
-    """Draw a table: below each scenario's title a value for each method in a precision.
+def _scene_buttons(box: Any, context: Any, shown: Any) -> None:
+    """Draw the choice of a scenario, and a button for the scene at each of its scales."""
+    from ...study.extremes import written
+    from ...study.scenarios.sweeps import BY_NAME
 
-    What is certified is so in float64; it has a column where it breaks, which it should not.
+    box.prop(shown, "scenario", text="")
+    scenario = BY_NAME[shown.scenario]
+    wrapped(box, context, scenario.explanation)
+    box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
+    grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
+    for scale in scenario.scales:
+        button = grid.operator(
+            studies.REFERENCE_TRACER_OT_extreme_scene.bl_idname, text=written(scale)
+        )
+        button.scenario = scenario.name
+        button.scale = repr(float(scale))
+
+
+def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
+    """Draw a table: below each scenario's title, where each method breaks in a precision.
+
+    The certified method, which is float64, has a column only if it breaks, which it should not.
     """
     from ...study.scenarios.sweeps import BY_NAME
 

@@ -47,7 +47,7 @@ class Resolver:
         count = region.width * region.height
         instance, triangle = np.full((2, count), NOTHING, np.int32)
         certainty = np.full(count, Certainty.BOUND, np.uint8)
-        yield "verdict"
+        yield "resolve"
         open_ = np.zeros(count, bool)
         pairs = []
         # Fragments are freed as soon as they are looked at.
@@ -57,7 +57,7 @@ class Resolver:
             pixel = self.depths.pixels(some.pixel)
             open_[pixel] = True
             pairs.append((pixel, some.surface))
-            yield "verdict"
+            yield "resolve"
         winners = self.depths.winners
         for part in parts(count, PIXELS):
             own = winners[part]
@@ -68,7 +68,7 @@ class Resolver:
             triangle[part.start + decided] = names[1]
             beside = np.flatnonzero((own != NOTHING) & is_open)
             pairs.append((part.start + beside, gather(own, beside)))
-            yield "verdict"
+            yield "resolve"
         measured = Measured(self.scene, region, Known.none(), self.film.dx, self.film.dy)
         out = Hits(instance, triangle, certainty, measured)
         known = yield from self._enter_open(out, open_, pairs)
@@ -87,25 +87,25 @@ class Resolver:
         amount = np.zeros(len(open_), np.int32)
         for pixel, _ in pairs:
             np.add.at(amount, pixel, 1)
-            yield "contest"
+            yield "ladder"
         ends = list(groups(amount[every] + _CANDIDATES // _RAYS, _CANDIDATES))
         starts = every[[first for first, _ in ends]]
-        contests: list[list[tuple[Index, Index]]] = [[] for _ in ends]
+        together: list[list[tuple[Index, Index]]] = [[] for _ in ends]
         while pairs and ends:
             pixel, surface = pairs.pop()
             group = (np.searchsorted(starts, pixel, side="right") - 1).astype(np.uint16)
-            for members, own in zip(contests, grouped(group, len(ends)), strict=True):
+            for members, own in zip(together, grouped(group, len(ends)), strict=True):
                 if len(own):
                     members.append((pixel[own], surface[own]))
-            yield "contest"
+            yield "ladder"
         ties = []
         known = [Known.none()]
-        for (first, last), members in zip(ends, contests, strict=True):
+        for (first, last), members in zip(ends, together, strict=True):
             which = every[first:last]
             pixel, surface = map(np.concatenate, zip(*members, strict=True))
             members.clear()
             ray = np.searchsorted(which, pixel)
-            found = yield from self._contest(which, ray, surface)
+            found = yield from self._decide(which, ray, surface)
             hits.instance[which] = found.instance
             hits.triangle[which] = found.triangle
             hits.certainty[which] = found.certainty
@@ -114,7 +114,7 @@ class Resolver:
         hits.ties = Ties.joined(ties)
         return Known.joined(known)
 
-    def _contest(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
+    def _decide(self, pixel: Index, ray: Index, surface: Index) -> Steps[Hits]:
         """Decide the rays of pixels (n,), given all pairs of one of them and a surface, (p,)."""
         scene = self.scene
         film = self.film
@@ -132,5 +132,5 @@ class Resolver:
         ray, row = np.divmod(key, max(1, len(surface)))
         for part in parts(len(ray), _PAIRS):
             ladder.test(Pairs(ray[part], row[part], triangles))
-            yield "contest"
-        return (yield from mapped(ladder.hits(self.statistics, tournament), lambda _: "contest"))
+            yield "ladder"
+        return (yield from mapped(ladder.hits(self.statistics, tournament), lambda _: "ladder"))

@@ -146,7 +146,7 @@ def _add_blenders_picture(parser: Parser) -> None:
     group.add_argument(
         "--identity",
         action=BooleanOptionalAction,
-        help="draw once more, with a colour for each object, to know whose surface a pixel shows",
+        help="draw once more, with one colour for each object, to know which one a pixel shows",
     )
     group.add_argument(
         "--self-check",
@@ -203,7 +203,9 @@ def compare(options: CompareOptions) -> int:
     results = [options.out.resolve() / name for name in comparison_report.NAMES]
     for file in (options.scene, options.against):
         if file and file.resolve() in results:
-            raise SceneError(f"'{file}' is called as a result: choose another --out, or rename it")
+            raise SceneError(
+                f"'{file}' has the name of a result: choose another --out, or rename it"
+            )
     written = comparison_report.failure_written(options.out)  # but for an animation
     with (
         folders.made(options.out),

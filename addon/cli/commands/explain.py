@@ -64,7 +64,11 @@ def add(parser: Parser) -> None:
     )
     parser.add_scene(f"{SOURCES}, or a pixel.json that --reproducer wrote")
     parser.add_argument(
-        "--pixel", type=int, nargs=2, metavar=("X", "Y"), help="0 0 is the picture's lower left"
+        "--pixel",
+        type=int,
+        nargs=2,
+        metavar=("X", "Y"),
+        help="the pixel to explain; 0 0 is the picture's lower left",
     )
     parser.add_argument(
         "--out",

@@ -6,21 +6,12 @@ the weight. One colour alone is no mix, and the object that a pixel shows must b
 
 Workbench mixes log2(1 + colour) in place of RGB; before Blender 5.0 log2(1/2 + colour), of alpha,
 too. So the hulls of these are tried as well.
-
-The nearest point of a hull is found by pairwise steps of Frank and Wolfe's algorithm: weight goes
-from the colour that is farthest behind to the one that is farthest ahead.
-
-References
-----------
-Lacoste-Julien and Jaggi, "On the global linear convergence of Frank-Wolfe optimization variants",
-2015.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from itertools import combinations
 
 import numpy as np
 
@@ -29,6 +20,7 @@ from ...tracer import shading
 from ...tracer.hits import NOTHING
 from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
+from .. import hull
 from ..cause import Cause
 from .coverage import coverage
 from .probe import SOUND, OpenPixels, Part, by_parts
@@ -54,11 +46,8 @@ _PIXELS = [(x, y) for x in range(-2, 3) for y in range(3) if y or x > 0]
 # The least weight of the opposite side. A filter's own is a half, but a pixel has only a few
 # samples, which may lie on one side of the centre by chance.
 OPPOSITE = 0.1
-DISTINCT = 16  # the most colours of which all triples are tried
-ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some very many
 # A mix is stored in half floats after some twenty roundings, and its samples lie between ours.
 NEAR = 2.0**-7
-STEP = 1 << 18  # numbers that the iterations of one step take, if there is more than one
 
 
 def check(pixels: OpenPixels) -> Work[None]:
@@ -183,7 +172,7 @@ def is_mix(
     allowed = (NEAR + sums * 2.0**-11) * np.maximum(1, np.abs(color).max(axis=-1, initial=0))
     bright = color.min(axis=-1, initial=0) >= -allowed
     found = np.zeros(count, bool)
-    together = max(1, STEP * count // max(mixed.size, 1))
+    together = max(1, hull.STEP * count // max(mixed.size, 1))
     for first in range(0, count, together):
         some = first + np.flatnonzero(bright[first : first + together])
         older = partial(_logarithm, offset=0.5, channels=4)
@@ -192,7 +181,7 @@ def is_mix(
             points = of(mixed[:, rest].astype(np.float64))
             if opposite is not None:
                 points = (1 - OPPOSITE) * points + OPPOSITE * points[opposite]
-            found[rest] = yield from in_hull(of(color[rest]), points, slack * allowed[rest])
+            found[rest] = yield from hull.in_hull(of(color[rest]), points, slack * allowed[rest])
         yield 0.0
     return found
 
@@ -204,78 +193,3 @@ def _logarithm(color: Array, offset: float = 1.0, channels: int = 3) -> Floats:
     """
     logarithms = np.log2(offset + np.maximum(color[..., :channels], 0))
     return np.concatenate((logarithms, color[..., channels:]), axis=-1)
-
-
-def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
-    """Return which targets (n, c) lie within `allowed` (n,) of the hull of points (k, n, c).
-
-    A target is surely outside once a plane lies between. If colours lie almost on a line, the
-    iterations move little: then all pairs and triples of the colours are tried.
-    """
-    found = np.zeros(len(target), bool)
-    left = np.arange(len(target))  # the targets that are not decided yet
-    nearest = np.argmin(((points - target) ** 2).sum(axis=-1), axis=0)
-    at, all_points = points[nearest, left], points
-    weight = np.zeros(points.shape[:2])
-    weight[nearest, left] = 1
-    worked = 0
-    for _ in range(ITERATIONS):
-        worked += points.size
-        if worked > STEP:
-            worked = 0
-            yield 0.0
-        way = target[left] - at
-        length = np.sqrt((way**2).sum(axis=-1))
-        near = length <= allowed[left]
-        found[left[near]] = True
-        ahead, behind, share, beyond = _pair(points, weight, way, at)
-        keep = np.flatnonzero(~near & (beyond <= allowed[left] * length))
-        if len(keep) < len(left):
-            left, at, points, weight = left[keep], at[keep], points[:, keep], weight[:, keep]
-            ahead, behind, share = ahead[keep], behind[keep], share[keep]
-        if not len(left):
-            break
-        index = np.arange(len(left))
-        at = at + share[:, None] * (points[ahead, index] - points[behind, index])
-        weight[ahead, index] += share
-        weight[behind, index] -= share
-    for n in left:
-        distinct = np.unique(all_points[:, n], axis=0)[:DISTINCT]
-        found[n] = distance_to_triangles(target[n], distinct) <= allowed[n]
-        yield 0.0
-    return found
-
-
-def _pair(
-    points: Array, weight: Array, way: Array, at: Array
-) -> tuple[Places, Places, Floats, Floats]:
-    """Return the points farthest ahead and behind on the way from `at` to the target, (n,) each.
-
-    Also how much weight to move between them, and how far the target lies beyond the farthest
-    point, times the length of the way.
-    """
-    score = np.einsum("knc,nc->kn", points, way)
-    ahead = np.argmax(score, axis=0)
-    behind = np.argmin(np.where(weight > 0, score, np.inf), axis=0)
-    index = np.arange(len(way))
-    beyond = (way * (at + way)).sum(axis=-1) - score[ahead, index]
-    step = points[ahead, index] - points[behind, index]
-    size = (step**2).sum(axis=-1)
-    share = (way * step).sum(axis=-1) / np.where(size > 0, size, 1)
-    return ahead, behind, np.clip(share, 0, weight[behind, index]), beyond
-
-
-def distance_to_triangles(target: Floats, points: Floats) -> float:
-    """Return how far a colour (c,) is from the nearest point, side or triangle of points (k, c)."""
-    least = np.min(np.linalg.norm(points - target, axis=1))
-    for corners in (2, 3):
-        if len(points) < corners:
-            break
-        index = np.array(list(combinations(range(len(points)), corners)))
-        first, sides = points[index[:, 0]], points[index[:, 1:]] - points[index[:, :1]]
-        share = np.einsum("tij,tj->ti", np.linalg.pinv(sides.swapaxes(1, 2)), target - first)
-        inside = (share >= 0).all(axis=1) & (share.sum(axis=1) <= 1)
-        foot = first + np.einsum("ti,tij->tj", share, sides)
-        away = np.linalg.norm(foot - target, axis=1)
-        least = np.min(away[inside], initial=least)
-    return float(least)

@@ -12,11 +12,10 @@ import numpy as np
 
 from ...scene import Camera
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.nearest import plan
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ..bounds import U32, depth_resolution
 from ..cause import Cause
-from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
+from .probe import LAYERS, OpenPixels, Part, near_surfaces
 
 CLIP_PLANE = Cause(
     7,
@@ -39,9 +38,7 @@ def check(pixels: OpenPixels) -> Work[None]:
     if pixels.open.any():
         scene = pixels.case.scene
         wide = replace(scene, camera=_widened(scene.camera))
-        made = yield from plan(wide, SOUND, reach=0.0)
-        asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.5)
-        yield from scaled(by_parts(pixels, made, _clipped, asked), 0.5, 0.5)
+        yield from near_surfaces(pixels, wide, 0.0, _clipped)
 
 
 def _clipped(part: Part) -> Work[None]:

@@ -15,13 +15,12 @@ from ...arrays import Bools, Floats
 from ...scene import Scene
 from ...tracer.camera import film_of
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.nearest import plan
-from ...tracer.progress import Work, scaled
+from ...tracer.progress import Work
 from ...tracer.vector import transform_points
 from ..cause import Cause
 from ..picture import Picture
 from .coverage import coverage
-from .probe import LAYERS, SOUND, OpenPixels, Part, by_parts, may_be_seen
+from .probe import LAYERS, OpenPixels, Part, near_surfaces
 
 EDGE = Cause(
     1,
@@ -60,9 +59,7 @@ def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at edges and depth ties, a part of the picture at a time."""
     if pixels.open.any():
         reach = float(np.max(pixels.band[pixels.open]))
-        made = yield from plan(pixels.case.scene, SOUND, reach)
-        asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.2)
-        yield from scaled(by_parts(pixels, made, _look, asked), 0.2, 0.8)
+        yield from near_surfaces(pixels, pixels.case.scene, reach, _look)
 
 
 class _Asked(NamedTuple):
@@ -116,7 +113,8 @@ def _beside(part: Part, asked: _Asked) -> Work[None]:
 
 def _behind(part: Part, asked: _Asked) -> Work[None]:
     """Look for what Blender shows in surfaces that tie with the first one."""
-    scene, picture, first = part.scene, part.picture, asked.centre
+    scene, picture = part.scene, part.picture
+    first = asked.centre
     allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
     color, owner = asked.found < np.inf
     color &= ~asked.lost
@@ -136,7 +134,8 @@ def _behind(part: Part, asked: _Asked) -> Work[None]:
 
 def _covering(part: Part, asked: _Asked) -> Work[None]:
     """Look for triangles that no sample hits, but that come near before any surely covered one."""
-    scene, width, found = part.scene, part.band, asked.found
+    scene, width = part.scene, part.band
+    found = asked.found
     may = yield from coverage(part.probe, width)
     farthest = may.behind + part.resolution(may.sure)[may.pixel]
     of = _sides(scene, part.picture.at(may.pixel), may.hits, may.distance)

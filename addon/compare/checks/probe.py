@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,7 +20,7 @@ from ...tracer.camera import Rays, camera_rays, film_positions
 from ...tracer.candidates import Plan, candidates
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING, Hits
-from ...tracer.nearest import test_pairs, test_planes
+from ...tracer.nearest import plan, test_pairs, test_planes
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
@@ -115,18 +114,18 @@ class Probe:
     settings: Settings
 
     @classmethod
-    def of(cls, plan: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
+    def of(cls, made: Plan, tile: Region, wanted: Bools, settings: Settings = SOUND) -> Work[Probe]:
         """Prepare n pixels of a tile, those where `wanted` (row by row from the lowest) is True.
 
         Yields the share of the work done; returns the probe.
         """
         chunks = []
-        for share, some in candidates(plan, tile, wanted):
+        for share, some in candidates(made, tile, wanted):
             if some is not None and len(some.pixel):
                 chunks.append(some)
             yield share
         px, py = film_positions(tile, pixel=np.flatnonzero(wanted))
-        return cls(plan.scene, px, py, chunks, settings)
+        return cls(made.scene, px, py, chunks, settings)
 
     def rays(
         self,
@@ -159,33 +158,22 @@ class Probe:
         return hits
 
 
-@dataclass(eq=False)
+@dataclass(frozen=True, eq=False)
 class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
 
     pixels: OpenPixels  # of the part's rows
-    wanted: Bools  # (rows, w): where the n pixels are
+    at: tuple[Places, ...]  # the rows and columns of the n pixels
+    scene: Scene  # the scene that is asked, with its camera's own clip range
+    picture: Picture  # what the n pixels show
+    band: Floats  # (n,) pixels: how far from the centres Blender's samples may lie
     probe: Probe
 
-    @cached_property
-    def scene(self) -> Scene:
-        """The scene that is asked, with its camera's own clip range."""
-        return self.pixels.case.scene
-
-    @cached_property
-    def at(self) -> tuple[Places, ...]:
-        """The rows and columns of the n pixels."""
-        return np.nonzero(self.wanted)
-
-    @cached_property
-    def picture(self) -> Picture:
-        """What the n pixels show."""
-        return self.pixels.picture.at(self.at)
-
-    @cached_property
-    def band(self) -> Floats:
-        """How far from the n centres Blender's samples may lie, in pixels."""
-        return self.pixels.band[self.at]
+    @classmethod
+    def of(cls, pixels: OpenPixels, wanted: Bools, probe: Probe) -> Part:
+        """Return the part of the pixels `wanted`, (rows, w), of some rows."""
+        at = np.nonzero(wanted)
+        return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.band[at], probe)
 
     @property
     def done(self) -> bool:
@@ -207,29 +195,41 @@ class Part:
 
 def by_parts(
     pixels: OpenPixels,
-    plan: Plan,
+    made: Plan,
     look: Callable[[Part], Work[None]],
     asked: Bools | bool = True,
 ) -> Work[None]:
     """Have `look` give causes to the open pixels of a whole picture, a part of it at a time.
 
-    The scene of `plan` is what is asked: it may have another clip range than the case's. Only the
-    pixels `asked` (h, w) are looked at, if given.
+    The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
+    Only the pixels `asked` (h, w) are looked at, if given.
     """
-    parts = parts_of(plan.scene, pixels.open & asked, FEW)
+    parts = parts_of(made.scene, pixels.open & asked, FEW)
     for number, (tile, rows, wanted) in enumerate(parts):
         done, size = number / len(parts), 1 / len(parts)
-        probe = yield from scaled(Probe.of(plan, tile, wanted.ravel()), done, 0.5 * size)
-        for _ in look(Part(pixels.rows(rows), wanted, probe)):
+        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.5 * size)
+        for _ in look(Part.of(pixels.rows(rows), wanted, probe)):
             yield done + 0.5 * size
 
 
-def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Bools]:
+def near_surfaces(
+    pixels: OpenPixels, scene: Scene, reach: float, look: Callable[[Part], Work[None]]
+) -> Work[None]:
+    """Have `look` give causes to open pixels that may show what lies near, in a scene.
+
+    Rays pass at most `reach` pixels from the centres.
+    """
+    made = yield from plan(scene, SOUND, reach)
+    asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.3)
+    yield from scaled(by_parts(pixels, made, look, asked), 0.3, 0.7)
+
+
+def may_be_seen(pixels: OpenPixels, made: Plan) -> Work[Bools]:
     """Return which open pixels, (h, w), show the colour and the object of something near them.
 
     No ray that passes within the plan's reach sees what the others show, at whatever depth.
     """
-    scene, out = plan.scene, pixels.open.copy()
+    scene, out = made.scene, pixels.open.copy()
     count = len(scene.instances)
     everywhere = (NOTHING, *range(count, count + len(scene.planes)))
     parts = parts_of(scene, out, BLOCK)
@@ -240,7 +240,7 @@ def may_be_seen(pixels: OpenPixels, plan: Plan) -> Work[Bools]:
         for instance in everywhere:
             seen |= _shown(picture, scene, np.full(size, instance), np.full(size, NOTHING))
             yield number / len(parts)
-        for share, some in candidates(plan, tile, wanted.ravel()):
+        for share, some in candidates(made, tile, wanted.ravel()):
             yield (number + share) / len(parts)
             if some is not None:
                 shown = _shown(picture.at(some.pixel), scene, some.instance, some.triangle)

@@ -1,4 +1,4 @@
-"""A `Comparison` -> one HTML file that opens offline and says why each pixel differs.
+"""Writes a comparison as one HTML file that opens offline and says why each pixel differs.
 
 `content.py` gathers what it shows, and `page.schema.json` says what that is. `page.html` names its
 style sheets and its scripts; the written file holds their contents in place of their names. A

@@ -1,4 +1,4 @@
-"""Arrays -> text within a page, which its `data.js` unpacks; among them, the surfaces of a picture.
+"""Packs arrays as text within a page, which its `data.js` unpacks: also the surfaces of a picture.
 
 A pixel holds the number of its surface in a table, 0 for none. The table holds vertices and
 matrices as the scene has them. The page computes world-space corners from these as the tracer does,
@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array, Integers
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
@@ -22,13 +23,14 @@ from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
 from ...tracer.triangle import textbook
+from ...tracer.vector import Floats, Index
 from ...tracer.world import world_corners
 
 _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller
 _TOGETHER = 1 << 16  # pixels: some MiB of temporaries
 
 
-def packed(values: NDArray) -> dict[str, Any]:
+def packed(values: Array) -> dict[str, Any]:
     """Return an array's type, its shape, and its bytes, deflated (zlib) and in base64.
 
     The first bytes of all numbers come first, then all second ones, and so on, so that the
@@ -51,9 +53,9 @@ def size(value: Any) -> int:
 class SeenSurfaces(NamedTuple):
     """The k surfaces that are seen, and which of them each pixel sees."""
 
-    number: NDArray[np.int32]  # (h, w): 0 for none, else one more than the index into the others
-    instance: NDArray[np.int32]  # (k,), as in a `Frame`
-    triangle: NDArray[np.int32]
+    number: Integers  # (h, w): 0 for none, else one more than the index into the others
+    instance: Integers  # (k,), as in a `Frame`
+    triangle: Integers
 
 
 def seen(frame: Frame) -> SeenSurfaces:
@@ -71,7 +73,7 @@ def seen(frame: Frame) -> SeenSurfaces:
 
 
 def surface_table(scene: Scene, surfaces: SeenSurfaces) -> dict[str, Any]:
-    """Return the surfaces as the page has them: whose they are, and their corners.
+    """Return the surfaces as the page has them: their instances, and their corners.
 
     Vertices are in object space, those that a seen triangle has; `matrices` are the rows of
     `world_from_object` of the instances that `instance` numbers, which come in this order.
@@ -121,7 +123,7 @@ def t_offsets(scene: Scene, frame: Frame, surfaces: SeenSurfaces) -> NDArray[np.
     return ((offsets << 1) ^ (offsets >> 63)).view(np.uint64)
 
 
-def _textbook_t(scene: Scene, rays: Rays, surfaces: SeenSurfaces, number: NDArray) -> NDArray:
+def _textbook_t(scene: Scene, rays: Rays, surfaces: SeenSurfaces, number: Index) -> Floats:
     """Return the textbook's t of each ray (n,) with the surface of its number; 0 for none."""
     out = np.zeros(len(number))
     count = len(scene.instances)

@@ -1,4 +1,4 @@
-"""A `Comparison`, and what else was measured -> all that a page shows, for JSON.
+"""Gathers all that a page shows, for JSON: a comparison, and what else was measured.
 
 `page.schema.json` describes each entry. Pictures are PNG images; the numbers behind them are packed
 arrays. The least useful arrays are left out where the page would grow beyond MOST_CHARACTERS.
@@ -6,7 +6,8 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from ...compare.cause import AGREE
 from ...compare.causes import CAUSES
 from ...compare.comparison import Comparison
 from ...explain import html
+from ...explain.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...images import data_uri, to_display
 from ...tracer.triangle import SUM_TOLERANCE
 from .. import extremes as extremes_report
@@ -33,7 +35,7 @@ def content(
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
-    `extras` is what else was found out; `limit`, how many characters the packed arrays may take.
+    `extras` is what else was found out. The packed arrays take at most `limit` characters.
     """
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
@@ -51,25 +53,27 @@ def content(
         ],
         "causes": _causes(comparison),
         "certainties": {
-            str(int(c)): {"name": _words(c.name), "sentence": c.sentence, "color": c.color}
-            for c in Certainty
+            str(int(c)): {"name": _words(name), "sentence": c.sentence, "color": c.color}
+            for name, c in Certainty.__members__.items()
         },
-        "tolerance": {dtype.name: value for dtype, value in SUM_TOLERANCE.items()},
+        "tolerance": {str(dtype): value for dtype, value in SUM_TOLERANCE.items()},
+        "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
+        "errata": ERRATA,
         "pictures": _pictures(comparison, extras.literal),
         "pixels": pixels,
         "derivations": [
             {"pixel": list(pixel), "html": html.fragment(derivation)}
             for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(trade_report, extras.trade),
+        "trade": _study(trade_report, extras.trade, trade_report.page_table),
         # Without its thousands of rows, which the plots show.
-        "extremes": _study(extremes_report, extras.extremes, without="rows"),
+        "extremes": _study(extremes_report, extras.extremes),
         "left_out": [*extras.left_out, *missing],
     }
 
 
 def _causes(comparison: Comparison) -> list[dict[str, Any]]:
-    """Return what there is to say of each cause, in the order of their numbers."""
+    """Return the text, the colour and the count of each cause, in the order of their numbers."""
     pixels = comparison.pixels
     count = pixels["by_cause"] | {"agree": pixels["agree"], "not_traced": pixels["not_traced"]}
     return [
@@ -148,9 +152,12 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
     return found, missing
 
 
-def _study(report: Any, found: Any, without: str = "") -> Any:
-    """Return a study as its module of `report` has it, with its plots."""
+def _study(report: ModuleType, found: Any, table: Callable[[Any], Any] | None = None) -> Any:
+    """Return a study as its module of `report` has it, with its plots, and its table as text."""
     if found is None:
         return None
+    held = {k: v for k, v in report.to_dict(found).items() if k != "rows"}
+    if table:
+        held["table"] = table(found)
     plots = [{"name": name, "svg": svg} for name, svg in report.pictures(found).items()]
-    return {k: v for k, v in report.to_dict(found).items() if k != without} | {"plots": plots}
+    return held | {"plots": plots}

@@ -109,51 +109,20 @@ function verdictOn(met, more) {
   return met.clipped ? "rejected: clipped" : yes;
 }
 
-/** What is to be known of the printed formulas. */
+/** What is wrong in the printed formulas, and what the numbers here are. */
 function errata(surface) {
   if (!surface || surface.plane) return null;
   return element(
     "details",
     { class: "errata", open: true },
     element("summary", {}, "Two errata of the exercise"),
-    element(
-      "ol",
-      {},
-      element(
-        "li",
-        {},
-        "As printed, ",
-        formula("n_s2"),
-        " vanishes on the edge ",
-        formula("p_1 p_2"),
-        ", and ",
-        formula("n_s3"),
-        " on ",
-        formula("p_3 p_1"),
-        ": so the printed ",
-        formula("s_2"),
-        " weighs ",
-        formula("p_3"),
-        " and ",
-        formula("s_3"),
-        " weighs ",
-        formula("p_2"),
-        ". Here each is named for the corner that it weighs: ",
-        formula("x = s_1 p_1 + s_2 p_2 + s_3 p_3"),
-        ". Constant shading never shows the difference.",
-      ),
-      element(
-        "li",
-        {},
-        "In exact arithmetic the three always sum to 1; in floating point they miss it by a rounding error for about every second hit. Taken as printed, the test loses those; repaired, it allows a tolerance.",
-      ),
-    ),
+    element("ol", {}, ...page.errata.map((erratum) => element("li", {}, erratum))),
     element(
       "p",
       { class: "muted" },
       "Digits of float32 ",
       element("mark", { class: "off" }, "marked like this"),
-      " part from float64 by more than one rounding. This page computes every number by the textbook’s formula, in the tracer’s order of operations: in float64 and in float32 they have the bits of its method Textbook. A proven t, as beside the pictures, is not this one: it is the exact value, rounded once.",
+      " differ from float64 by more than one rounding. This page computes every number by the textbook’s formula, in the tracer’s order of operations: in float64 and in float32 they have the bits of its method Textbook. A proven t, as beside the pictures, is another number: the exact value, rounded once.",
     ),
   );
 }

@@ -1,33 +1,28 @@
-"""What a page shows beside the comparison, and the work of finding it out.
+"""Finds what a page shows beside the comparison.
 
 These are the literal textbook's picture, the derivations of the examples, and the studies that were
-asked for. What would take too long is left out, and a sentence says so.
+asked for. If one would take too long, it is left out, and a sentence says so.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ...compare.checks.probe import BLOCK, Probe, blocks, parts_of
+from ...arrays import Colors
 from ...compare.comparison import Comparison
 from ...explain.derivation import Derivation, derive
 from ...methods import Method
 from ...rendering import steps
 from ...study import extremes, tradeoff
 from ...study.trade import Trade
-from ...tracer import shading
 from ...tracer.frame import Frame
-from ...tracer.hits import NOTHING
-from ...tracer.nearest import plan
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 
 LITERAL_SECONDS = 10.0  # of the textbook's picture: a literal one takes as long again
-DERIVED = 3  # examples of each cause whose derivation is written out
+DERIVED = 3  # examples of each cause that are derived
 DERIVED_TRIANGLES = 3_000_000  # in the scene: each derivation looks at all of them
 
 
@@ -37,7 +32,7 @@ class Extras:
 
     trade: Trade | None = None
     extremes: Sequence[extremes.ExtremesRow] | None = None
-    literal: NDArray[np.float32] | None = None  # (h, w, 4) by the textbook's test as printed
+    literal: Colors | None = None  # (h, w, 4) by the textbook's test as printed
     derivations: dict[tuple[int, int], Derivation] = field(default_factory=dict)  # by pixel (x, y)
     left_out: tuple[str, ...] = ()  # sentences: what the page does not have, and why
 
@@ -47,7 +42,9 @@ def extras(
 ) -> Work[Extras]:
     """Find out what a page shows beside a comparison; yields the share of the work done."""
     left_out: list[str] = []
-    works: dict[str, tuple[Work, float]] = {  # of each field, with its share of the work, roughly
+    works: dict[
+        str, tuple[Work[Any], float]
+    ] = {  # of each field, with its share of the work, roughly
         "literal": (_literal(comparison, left_out), 1.0),
         "derivations": (_derivations(comparison, left_out), 0.5),
     }
@@ -56,14 +53,16 @@ def extras(
         works["trade"] = measuring, 6.0
     if measure_extremes:
         works["extremes"] = extremes.measure(), 12.0
-    total, done, found = sum(share for _, share in works.values()), 0.0, {}
+    total = sum(share for _, share in works.values())
+    done = 0.0
+    found: dict[str, Any] = {}
     for name, (work, share) in works.items():
         found[name] = yield from scaled(work, done / total, share / total)
         done += share
     return Extras(**found, left_out=tuple(left_out))
 
 
-def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.float32] | None]:
+def _literal(comparison: Comparison, left_out: list[str]) -> Work[Colors | None]:
     """Return the colours that the textbook taken literally sees, unless that takes long."""
     row = next((r for r in comparison.methods if r.method == Method.TEXTBOOK.value), None)
     if row and row.seconds > LITERAL_SECONDS:
@@ -72,33 +71,18 @@ def _literal(comparison: Comparison, left_out: list[str]) -> Work[NDArray[np.flo
             f"it would take as long again (more than {LITERAL_SECONDS:.0f} s)."
         )
         return None
-    scene, textbook = comparison.scene, comparison.textbook
+    frame = Frame.empty(comparison.scene)
     settings = Settings(Method.TEXTBOOK_LITERAL, Precision.FLOAT64)
-    if textbook is None:
-        textbook = Frame.empty(scene)
-        yield from steps(scene, replace(settings, method=Method.TEXTBOOK), textbook)
-    # What it sees is a part of what the textbook sees: only where that is lost, it sees another.
-    s1, s2, s3 = np.moveaxis(textbook.barycentrics, -1, 0)
-    lost = (s1 + s2 + s3 != 1) & (textbook.triangle_index != NOTHING)
-    color = np.empty((*lost.shape, 4), np.float32)
-    for rows in blocks(lost.shape):
-        color[rows] = shading.colors(scene, textbook.hits(rows)).reshape(-1, *color.shape[1:])
-        yield 0.0
-    made = yield from plan(scene, settings, 0.0)
-    parts = parts_of(scene, lost, BLOCK)
-    for number, (tile, rows, wanted) in enumerate(parts):
-        done, share = number / len(parts), 1 / len(parts)
-        probe = yield from scaled(Probe.of(made, tile, wanted.ravel(), settings), done, share)
-        hits = yield from scaled(probe.trace(), done + share, 0.0)
-        color[rows][wanted] = shading.colors(scene, hits)
-    return color
+    yield from steps(comparison.scene, settings, frame)
+    return frame.color
 
 
 def _derivations(
     comparison: Comparison, left_out: list[str]
 ) -> Work[dict[tuple[int, int], Derivation]]:
     """Derive the first examples of each cause, exactly too."""
-    scene, found = comparison.scene, {}
+    scene = comparison.scene
+    found: dict[tuple[int, int], Derivation] = {}
     if scene.triangle_count > DERIVED_TRIANGLES:
         left_out.append(
             f"The exact derivations of examples: the scene has {scene.triangle_count:,} triangles. "

@@ -23,7 +23,7 @@ function emptyLayer(id, label, note) {
   return { id, label, note, canvas, values: null };
 }
 
-/** Where a pixel's red is in an image, whose first row is on top. */
+/** Where a pixel's red is in an image, which has its first row on top. */
 const offsetOf = (x, y) => 4 * ((HEIGHT - 1 - y) * WIDTH + x);
 
 /** Draw the map of causes over the traced picture, dimmed and grey. */

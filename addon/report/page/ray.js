@@ -1,6 +1,6 @@
 "use strict";
-// The textbook's maths of one ray (Exercise 1), an operation a step, in the order in which the
-// tracer computes it: what `tracer/camera.py`, `plane.py` and `triangle.py` do to arrays.
+// One ray of the textbook (Exercise 1): from the camera, and with a surface. The numbers are those of
+// `tracer/camera.py`, `plane.py` and `triangle.py`, to the last bit.
 
 const camera = page.camera;
 const column = (k, sign = 1) => camera.world_from_camera.slice(0, 3).map((row) => sign * row[k]);
@@ -79,7 +79,7 @@ function cameraRay(x, y, precision) {
   return { film, size, u, v, origin, direction };
 }
 
-/** A surface by its number (1 is the first): whose it is, and its corners in the world. */
+/** A surface by its number (1 is the first): its object, and its corners in the world. */
 function surfaceOf(number) {
   const s = pixels.surfaces;
   if (!s || !number) return null;
@@ -102,56 +102,27 @@ function cornersOf(k) {
   });
 }
 
-/** Ray and infinite plane: t = -((o - p) . n) / (d . n). */
+/** Ray and infinite plane, with every intermediate result. */
 function meetPlane(ray, plane, precision) {
-  const { round, minus, dot, div, plus, times } = arithmetic(precision);
-  const p = plane.point.map(round);
-  const n = plane.normal.map(round);
-  const towards = dot(ray.direction, n);
-  const from = dot(minus(ray.origin, p), n);
-  const t = towards === 0 ? NaN : div(-from, towards);
-  return { p, n, towards, from, t, x: plus(ray.origin, times(t, ray.direction)) };
+  const { round } = arithmetic(precision);
+  const given = { o: ray.origin, d: ray.direction, p: plane.point, n: plane.normal };
+  for (const name of ["p", "n"]) given[name] = given[name].map(round);
+  const met = evaluateAll(page.formulas.plane, given, precision);
+  return met.towards === 0 ? { ...met, t: NaN } : met; // parallel: no hit
 }
 
-/** Ray and triangle, with every intermediate result; `s` weighs p1, p2, p3. */
+/** Ray and triangle, with every intermediate result; `s` weighs p₁, p₂, p₃. */
 function meetTriangle(ray, corners, precision) {
-  const { round, add, minus, plus, times, dot, cross, div } = arithmetic(precision);
+  const { round } = arithmetic(precision);
   const [p1, p2, p3] = corners.map((corner) => corner.map(round));
-  const n = cross(minus(p3, p1), minus(p2, p1));
-  const towards = dot(ray.direction, n);
-  const from = dot(minus(ray.origin, p1), n);
-  const t = div(-from, towards);
-  const x = plus(ray.origin, times(t, ray.direction));
-  const area = dot(n, n);
-  // As printed n_s2 weighs p3 and n_s3 weighs p2: here each is named for the corner it weighs.
-  const weight = [
-    cross(minus(p2, p3), minus(x, p3)),
-    cross(minus(p3, p1), minus(x, p1)),
-    cross(minus(p1, p2), minus(x, p2)),
-  ];
-  const s = weight.map((w) => div(dot(n, w), area));
-  const sum = add(add(s[0], s[1]), s[2]);
+  const given = { o: ray.origin, d: ray.direction, "p₁": p1, "p₂": p2, "p₃": p3 };
+  const met = evaluateAll(page.formulas.triangle, given, precision);
+  const s = [met.s1, met.s2, met.s3];
   const inside = s.every((value) => value >= 0 && value <= 1);
   const tolerance = round(page.tolerance[precision]);
-  const near = Math.abs(round(sum - 1)) <= tolerance;
-  return {
-    p1,
-    p2,
-    p3,
-    n,
-    towards,
-    from,
-    t,
-    x,
-    area,
-    weight,
-    s,
-    sum,
-    inside,
-    tolerance,
-    literal: inside && sum === 1,
-    textbook: inside && near,
-  };
+  const near = Math.abs(round(met.sum - 1)) <= tolerance;
+  const literal = inside && met.sum === 1;
+  return { ...met, s, inside, tolerance, literal, textbook: inside && near };
 }
 
 /** Whether t lies in the camera's clip range. */

@@ -60,17 +60,7 @@ function plots(study) {
 function tradeCard() {
   const { trade } = page;
   if (!trade) return null;
-  const rows = trade.rows.map((r) => [
-    words(r.method),
-    r.precision,
-    `${r.width} × ${r.height}`,
-    `${r.samples} × ${r.samples}`,
-    `${general(1000 * r.seconds, 3)} ms`,
-    `${count(r.wrong_pixels)}${r.best_pixels ? " ★" : ""}`,
-    r.largest_t_error === null ? "–" : general(r.largest_t_error, 2),
-    general(r.peak_bytes / 2 ** 20, 3),
-    `${r.coverage_error === null ? "–" : r.coverage_error.toFixed(4)}${r.best_coverage ? " ★" : ""}`,
-  ]);
+  const { head, rows } = trade.table;
   return wide(
     card(
       "The trade: speed against accuracy",
@@ -79,22 +69,7 @@ function tradeCard() {
         "details",
         {},
         element("summary", {}, `All ${rows.length} rows`),
-        table(
-          "★: no other row beats it",
-          [
-            "Method",
-            "Precision",
-            "Pixels",
-            "Rays",
-            "Time",
-            "Wrong pixels",
-            "t error, m",
-            "MiB",
-            "Coverage error",
-          ],
-          rows,
-          [4, 5, 6, 7, 8],
-        ),
+        table("★: no other row beats it", head, rows, [...head.keys()].slice(3)),
       ),
     ),
   );

@@ -1,7 +1,7 @@
 "use strict";
 // What one sees at a glance: the scene, the verdict, the score.
 
-// Whose picture is compared: Blender's, or one that somebody gave.
+// The picture that is compared: Blender's, or one that somebody gave.
 const OTHER = page.comparison.blender.version
   ? `Blender ${page.comparison.blender.version}`
   : page.comparison.blender.picture;

@@ -1,22 +1,24 @@
-"""What the scenarios are built of: cameras, and meshes around or in front of them.
+"""Builds the parts of the scenarios: cameras, and meshes around or in front of them.
 
-A picture's rays are those of its camera, as the tracer stores them: a mesh that is to be met at its
-corners and edges is built from the camera's own rays (`sheet`).
+A mesh that rays are to meet at its corners and edges is built from the camera's own rays, as the
+tracer stores them (`sheet`).
 """
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...scene import Camera, Instance, Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
+from ...tracer.vector import Floats, Index
 
 SEED = 20240611
+ORIGIN = np.zeros(3)
+UNMOVED = np.eye(4)
+Corners = NDArray[np.int32]  # (n, 3): the numbers of n triangles' corners
 
-# No axis of the world is one of these: an ordinary view, all of whose numbers have to be rounded.
+# An ordinary view: none of its axes is one of the world, so that all numbers have to be rounded.
 # Columns are right, up, backward. Times 39 they are integers: what lies in one plane across
 # this view can do so exactly.
 TURNED_39 = np.array([[13.0, -34.0, -14.0], [26.0, 19.0, -22.0], [26.0, -2.0, 29.0]])
@@ -37,21 +39,18 @@ def camera(
     width: int,
     height: int,
     half: float = 0.4,
-    half_height: float | None = None,
-    eye: Sequence[float] | NDArray = (0.0, 0.0, 0.0),
-    axes: NDArray = TURNED,
-    near: float = 1e-3,
-    far: float = 1e3,
-    **options: object,
+    eye: Floats = ORIGIN,
+    axes: Floats = TURNED,
+    unit: float = 1.0,
 ) -> Camera:
-    """Return a camera whose picture is 2 `half` wide at depth 1, or in metres if orthographic.
+    """Return a camera of square pixels, which sees depths from 0.001 to 1000 units.
 
-    Pixels are square unless `half_height` is given.
+    Its picture is 2 `half` wide: at depth 1, or in metres once it is orthographic.
     """
-    tall = half * height / width if half_height is None else half_height
-    window = options.pop("window", None) or ViewWindow(-half, half, -tall, tall)
-    options |= {"clip_start": near, "clip_end": far}
-    return Camera(placed(axes, eye), window, width, height, **options)
+    tall = half * height / width
+    window = ViewWindow(-half, half, -tall, tall)
+    place = placed(axes, eye)
+    return Camera(place, window, width, height, clip_start=1e-3 * unit, clip_end=1e3 * unit)
 
 
 def sheet(
@@ -65,9 +64,9 @@ def sheet(
     """Return a rough surface before a camera, with a corner on the ray of every `step`-th pixel.
 
     The corners are fl(o + t d), with t at random between `near` and `far`. As a straight line is
-    straight in a picture, the pixels between meet the edges: of step 2, all of them do. With
-    `beside`, in pixels, the corners are that far from the rays. The surface reaches beyond the
-    picture, and is closed `around` a perspective camera by a fan behind it: a ray crosses it once.
+    straight in a picture, the pixels between meet the edges; with a step of 2, all of them do.
+    `beside` is how far the corners are from the rays, in pixels. The surface reaches beyond the
+    picture. A fan behind a perspective camera closes it (`around`), so that a ray crosses it once.
     """
     columns, rows = (n // step + 2 * MARGIN for n in (view.width, view.height))
     px, py = (
@@ -84,16 +83,16 @@ def sheet(
     return closed(points, triangles, lattice_rim(columns, rows), behind)
 
 
-def closed(points: NDArray, triangles: NDArray, rim: NDArray, apex: NDArray | None) -> Mesh:
+def closed(points: Floats, triangles: Index, rim: Index, apex: Floats | None) -> Mesh:
     """Return a mesh with a fan from its rim, corners in order, to the apex, if there is one."""
     if apex is not None:
         fan = np.stack((rim, np.roll(rim, -1), np.full(len(rim), len(points))), axis=1)
         points = np.concatenate((points, apex[None]))
         triangles = np.concatenate((triangles, fan))
-    return Mesh(points, triangles, name="Sheet")
+    return Mesh(points, triangles.astype(np.int32), name="Sheet")
 
 
-def lattice(columns: int, rows: int, split: NDArray | int = 0) -> NDArray[np.int64]:
+def lattice(columns: int, rows: int, split: Index | int = 0) -> Corners:
     """Return triangles of a lattice of cells, each split along one diagonal or the other.
 
     Its (columns + 1) x (rows + 1) corners are numbered row by row.
@@ -104,10 +103,10 @@ def lattice(columns: int, rows: int, split: NDArray | int = 0) -> NDArray[np.int
     other = np.broadcast_to(split, a.shape).astype(bool)
     first = np.where(other, (a, b, d), (a, b, c))
     second = np.where(other, (b, c, d), (a, c, d))
-    return np.stack((first.T, second.T), axis=1).reshape(-1, 3)
+    return np.stack((first.T, second.T), axis=1).reshape(-1, 3).astype(np.int32)
 
 
-def lattice_rim(columns: int, rows: int) -> NDArray[np.int64]:
+def lattice_rim(columns: int, rows: int) -> Index:
     """Return the corners around a lattice, in order."""
     index = np.arange((columns + 1) * (rows + 1)).reshape(rows + 1, columns + 1)
     return np.concatenate((index[0, :-1], index[:-1, -1], index[-1, :0:-1], index[:0:-1, 0]))
@@ -134,30 +133,28 @@ def sphere(radius: float = 2.0, rings: int = 12) -> Mesh:
 
 
 def grid(
-    columns: int,
-    rows: int,
-    corner: NDArray,
-    across: NDArray,
-    along: NDArray,
-    split: int | NDArray = 0,
-    apex: NDArray | None = None,
+    columns: int, rows: int, corner: Floats, across: Floats, along: Floats, split: Index | int = 0
 ) -> Mesh:
     """Return a flat lattice of cells: its first corner, and what spans the whole of it."""
     v, u = (w.ravel()[:, None] for w in np.mgrid[: rows + 1, : columns + 1])
     points = corner + (u / columns) * across + (v / rows) * along
-    return closed(points, lattice(columns, rows, split), lattice_rim(columns, rows), apex)
+    return Mesh(points, lattice(columns, rows, split), name="Sheet")
 
 
-def scene(view: Camera, *meshes: Mesh, matrices: tuple[NDArray, ...] = ()) -> Scene:
-    """Return a scene with an object for each mesh, at the origin unless it has a matrix."""
-    matrices = (*matrices, *[np.eye(4)] * (len(meshes) - len(matrices)))
-    instances = [Instance(k, k, m, [COLORS[k % len(COLORS)]]) for k, m in enumerate(matrices)]
+def scene(view: Camera, *meshes: Mesh, matrix: NDArray[np.float64] = UNMOVED) -> Scene:
+    """Return a scene with an object for each mesh, the first of them moved by a matrix."""
+    instances = tuple(
+        Instance(k, k, UNMOVED if k else matrix, np.array([COLORS[k % len(COLORS)]], np.float32))
+        for k in range(len(meshes))
+    )
+    background = np.array((0.0, 0.0, 0.0, 1.0), np.float32)
     names = tuple(mesh.name for mesh in meshes)
-    return Scene(view, meshes, instances, background=(0.0, 0.0, 0.0, 1.0), objects=names)
+    return Scene(view, meshes, instances, background=background, objects=names)
 
 
-def placed(axes: NDArray, at: Sequence[float] | NDArray = (0.0, 0.0, 0.0)) -> NDArray[np.float64]:
-    """Return the matrix of what has these axes, as columns, and this place."""
+def placed(axes: Floats, at: Floats = ORIGIN) -> NDArray[np.float64]:
+    """Return the matrix of an object with these axes, as columns, at this place."""
     matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = axes, at
+    matrix[:3, :3] = axes
+    matrix[:3, 3] = at
     return matrix

@@ -1,15 +1,18 @@
-"""The scenarios' scenes: hard by their surfaces, or by their numbers, camera or matrix.
+"""Builds the scenarios' scenes, which surfaces, large or small numbers, camera or matrix make hard.
 
 Each function takes the scale that is swept, and the size of the picture.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ...projections import ORTHOGRAPHIC
 from ...scene import Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
+from ...tracer.vector import Floats
 from . import parts
 from .parts import BESIDE, TURNED, camera, generator, grid, scene, sheet, sphere
 
@@ -23,7 +26,7 @@ ULP = 2.0**-52  # relative distance of the doubles next to 1
 
 def corners_and_edges(ratio: float, width: int, height: int) -> Scene:
     """Return a closed surface met at its corners and edges, `ratio` times deeper in its pits."""
-    view = camera(width, height, eye=EYE, far=1e3 * ratio)
+    view = replace(camera(width, height, eye=EYE), clip_end=1e3 * ratio)
     return scene(view, sheet(view, far=4 * ratio))
 
 
@@ -57,17 +60,20 @@ def needles(
     along = np.cos(angle) * FORWARD + np.sin(angle) * UP
     # At most 0.45 of the strip's length to either side; the far side appears shortened.
     tall = 0.45 * length * np.sin(angle) / (depth + 0.5 * length)
-    view = camera(width, height, 0.4 / depth, tall, near=1e-3)
+    window = ViewWindow(-0.4 / depth, 0.4 / depth, -tall, tall)
+    view = replace(camera(width, height), window=window)
     corner = depth * FORWARD - 0.5 * RIGHT - 0.5 * length * along
     apex = -depth * FORWARD  # behind the camera, which is so inside
-    return scene(view, grid(1, quads, corner, RIGHT, length * along, apex=apex))
+    strip = grid(1, quads, corner, RIGHT, length * along)
+    rim = parts.lattice_rim(1, quads)
+    return scene(view, parts.closed(strip.vertices, strip.triangles, rim, apex))
 
 
 def grazing(height_above: float, width: int, height: int) -> Scene:
     """Return a plane of 20 x 20 cells, the camera closely above it and looking along it."""
     # It meets the plane at 1 to 10 m. Not symmetrical: no column of the picture is along a line.
     window = ViewWindow(-0.37, 0.43, -height_above, -0.1 * height_above)
-    view = camera(width, height, window=window)
+    view = replace(camera(width, height), window=window)
     corner = -10 * RIGHT - 5 * FORWARD - height_above * UP
     split = generator().integers(0, 2, 400)
     return scene(view, grid(20, 20, corner, 20 * RIGHT, 20 * FORWARD, split))
@@ -94,20 +100,23 @@ def integer_cube(cells: float, width: int, height: int) -> Scene:
 def integer_cube_ortho(cells: float, width: int, height: int) -> Scene:
     """Return such a cube from outside, with rays at integers along its sides."""
     eye = (0.5 * (width % 2 == 0), 0.5 * (height % 2 == 0), 40.0)
-    view = camera(width, height, width / 2, eye=eye, axes=np.eye(3), projection=ORTHOGRAPHIC)
+    view = camera(width, height, width / 2, np.array(eye), np.eye(3))
+    view = replace(view, projection=ORTHOGRAPHIC)
     return scene(view, _cube(int(cells), np.array((-8.0, -8.0, -8.0)), 16.0))
 
 
-def _cube(cells: int, least: np.ndarray, side: float) -> Mesh:
-    """Return a cube whose six sides are lattices with corners of their own."""
-    points, triangles = [], []
+def _cube(cells: int, least: Floats, side: float) -> Mesh:
+    """Return a cube of six lattices, each with corners of its own."""
+    points: list[Floats] = []
+    triangles: list[parts.Corners] = []
     rng = generator()
     for axis in range(3):
         u, v = side * np.roll(np.eye(3), axis, axis=1)[1:]
         for far in (0.0, side):
             corner = least + far * np.roll(np.eye(3), axis, axis=1)[0]
             wall = grid(cells, cells, corner, u, v, rng.integers(0, 2, cells * cells))
-            triangles.append(wall.triangles + len(wall.vertices) * len(points))
+            first = np.int32(len(wall.vertices) * len(points))
+            triangles.append(wall.triangles + first)
             points.append(wall.vertices)
     return Mesh(np.concatenate(points), np.concatenate(triangles), name="Cube")
 
@@ -131,7 +140,7 @@ def degenerate_faces(copies: float, width: int, height: int) -> Scene:
         again = np.tile(parts.lattice(columns, rows, 1 - split), (copies, 1))
         meshes.append(Mesh(points, np.concatenate((empty, again, point)), name="Copies"))
     # Not symmetrical: no pixel's ray is on a diagonal.
-    view = camera(width, height, window=ViewWindow(-0.33, 0.3, -0.22, 0.25))
+    view = replace(camera(width, height), window=ViewWindow(-0.33, 0.3, -0.22, 0.25))
     return scene(view, *meshes)
 
 
@@ -147,14 +156,14 @@ def non_finite(share: float, width: int, height: int) -> Scene:
     matrix = np.diag((*[np.ldexp(1.0, power)] * 3, 1.0))
     # Not symmetrical: no pixel's ray is on one of its edges.
     wall = grid(2, 2, 9 * FORWARD - 6.3 * RIGHT - 5.8 * UP, 12.5 * RIGHT, 12.3 * UP)
-    return scene(view, Mesh(points, front.triangles, name="Front"), wall, matrices=(matrix,))
+    return scene(view, Mesh(points, front.triangles, name="Front"), wall, matrix=matrix)
 
 
 def far_from_origin(distance: float, width: int, height: int, size: float = 1.0) -> Scene:
     """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
     centre = distance * AWAY
-    view = camera(width, height, 1.0, eye=centre + size * EYE, near=1e-3 * size, far=1e3 * size)
-    return scene(view, sphere(2.0 * size, 8), matrices=(parts.placed(np.eye(3), centre),))
+    view = camera(width, height, 1.0, eye=centre + size * EYE, unit=size)
+    return scene(view, sphere(2.0 * size, 8), matrix=parts.placed(np.eye(3), centre))
 
 
 def far_corners(distance: float, width: int, height: int) -> Scene:
@@ -165,15 +174,15 @@ def far_corners(distance: float, width: int, height: int) -> Scene:
 
 def uniform_scale(size: float, width: int, height: int) -> Scene:
     """Return a sphere with the camera inside, all of it scaled."""
-    view = camera(width, height, 1.0, eye=size * EYE, near=1e-3 * size, far=1e3 * size)
-    return scene(view, sphere(), matrices=(np.diag((size, size, size, 1.0)),))
+    view = camera(width, height, 1.0, eye=size * EYE, unit=size)
+    return scene(view, sphere(), matrix=np.diag((size, size, size, 1.0)))
 
 
 def far_camera(distance: float, width: int, height: int) -> Scene:
     """Return a sphere of 1 m at the origin, and a camera of long focal length far from it."""
     half = 0.6 / distance
-    eye, near, far = distance * BACKWARD, 1e-3 * distance, 1e3 * distance
-    view = camera(width, height, half, half, eye=eye, near=near, far=far)
+    view = camera(width, height, eye=distance * BACKWARD, unit=distance)
+    view = replace(view, window=ViewWindow(-half, half, -half, half))
     return scene(view, sphere(0.5, 8))
 
 
@@ -184,14 +193,14 @@ def narrow_view(angle: float, width: int, height: int) -> Scene:
 
 
 def wide_view(rest: float, width: int, height: int) -> Scene:
-    """Return a rough surface through a camera whose angle of view is 180 less `rest`, degrees."""
+    """Return a rough surface through a camera with an angle of view of 180 - `rest`, degrees."""
     view = camera(width, height, 1 / np.tan(np.radians(0.5 * rest)), eye=EYE)
     return scene(view, sheet(view, 4, beside=BESIDE))
 
 
 def ortho_scale(size: float, width: int, height: int) -> Scene:
     """Return a rough surface through an orthographic camera of this width, in metres."""
-    view = camera(width, height, 0.5 * size, eye=EYE, projection=ORTHOGRAPHIC)
+    view = replace(camera(width, height, 0.5 * size, EYE), projection=ORTHOGRAPHIC)
     return scene(view, sheet(view, 4, beside=BESIDE, around=False))
 
 
@@ -201,20 +210,20 @@ def squashed(thickness: float, width: int, height: int) -> Scene:
     c, s = np.cos(0.3), np.sin(0.3)  # the camera is a little rolled about the view's direction
     axes = np.stack((c * RIGHT + s * UP, c * UP - s * RIGHT, BACKWARD), axis=1)
     view = camera(width, height, 0.4, eye=6 * BACKWARD, axes=axes)
-    return scene(view, sphere(), matrices=(matrix,))
+    return scene(view, sphere(), matrix=matrix)
 
 
 def sheared(factor: float, width: int, height: int) -> Scene:
     """Return a sphere with the camera inside, mirrored and sheared by its object's matrix."""
     shear = np.array([[1.0, factor, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]])
     axes = [[sum(TURNED[i, j] * shear[j, k] for j in range(3)) for k in range(3)] for i in range(3)]
-    eye, near, far = 1e-3 * EYE / factor, 1e-6 / factor, 1e3 * factor
-    view = camera(width, height, 1.0, axes=np.eye(3), near=near, far=far, eye=eye)
-    return scene(view, sphere(), matrices=(parts.placed(axes),))
+    view = camera(width, height, 1.0, 1e-3 * EYE / factor, np.eye(3))
+    view = replace(view, clip_start=1e-6 / factor, clip_end=1e3 * factor)
+    return scene(view, sphere(), matrix=parts.placed(np.array(axes)))
 
 
 def stored_float32(offset: float, width: int, height: int) -> Scene:
-    """Return a sphere whose corners are stored in float32, far from its object's own origin.
+    """Return a sphere stored in float32, far from its object's own origin.
 
     The object stands at the opposite of that offset, so that the sphere appears where it should:
     with the digits that float32 has left of it. What is certified is this mesh, as it is stored.
@@ -223,4 +232,4 @@ def stored_float32(offset: float, width: int, height: int) -> Scene:
     view, ball = camera(width, height, 0.5, eye=6 * BACKWARD), sphere()
     points = (ball.vertices + centre).astype(np.float32)
     mesh = Mesh(points, ball.triangles, name="Sphere")
-    return scene(view, mesh, matrices=(parts.placed(np.eye(3), -centre),))
+    return scene(view, mesh, matrix=parts.placed(np.eye(3), -centre))

@@ -1,8 +1,7 @@
-"""The scenarios of numerical stability: each a scene, and a scale that makes it harder and harder.
+"""Reads the scenarios of numerical stability: each a scene, and a scale that makes it ever harder.
 
-In comes a scale; out goes a `Scene`. `sweeps.toml` lists them, and says what each of its words
-means. What each is to show, and at which scale a method gives way, is worked out in the
-documentation.
+`sweeps.toml` lists them, and says what each of its words means. The documentation works out what
+each is to show, and at which scale a method gives way.
 """
 
 from __future__ import annotations
@@ -20,7 +19,13 @@ from . import scenes
 
 @dataclass(frozen=True)
 class Scenario:
-    """A scene to be swept over a scale: see `sweeps.toml` for what its words mean."""
+    """A scene to be swept over a scale: `sweeps.toml` says what its words mean.
+
+    Raises
+    ------
+    ValueError
+        If it has no name, no scales, or a scale that is no number.
+    """
 
     name: str
     title: str
@@ -33,6 +38,11 @@ class Scenario:
     across: float | None = None  # of a row of a map: the value of its other scale
     width: int = 32  # of the picture, in pixels
     height: int = 24
+
+    def __post_init__(self) -> None:
+        numbers = all(isinstance(x, int | float) for x in self.scales)
+        if not (self.name and self.title and self.scales and numbers):
+            raise ValueError(f"scenario {self.name!r}: a name, a title and scales are needed")
 
     @property
     def scale_and_unit(self) -> str:
@@ -57,10 +67,10 @@ def _scenario(listed: dict[str, Any]) -> Scenario:
 
 def _map(listed: dict[str, Any]) -> Map:
     [(parameter, values)] = listed.pop("across").items()
-    across_name, one = listed.pop("across_name"), _scenario(listed)
-    small = {"width": 16, "height": 12}
+    across_name = listed.pop("across_name")
+    one = replace(_scenario(listed), width=16, height=12)
     rows = (
-        replace(one, build=partial(one.build, **{parameter: x}), across=x, **small) for x in values
+        replace(one, build=partial(one.build, **{parameter: x}), across=float(x)) for x in values
     )
     return Map(one.name, one.title, one.explanation, across_name, tuple(rows))
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.compare.causes import AGREE, ANTI_ALIASING, UNEXPLAINED
-from reference_tracer.compare.checks.anti_aliasing import NEAR, distance_to_triangles, is_mix
+from reference_tracer.compare.checks.anti_aliasing import NEAR, is_mix
+from reference_tracer.compare.hull import distance_to_triangles
 from reference_tracer.compare.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer.progress import result_of

@@ -12,7 +12,6 @@ import pytest
 import trimesh
 from reference_tracer.compare.bounds import SNAPPING
 from reference_tracer.compare.causes import AGREE, DEPTH_TIE, EDGE, UNEXPLAINED
-from reference_tracer.compare.checks import clip, edges
 from reference_tracer.compare.checks import probe as probing
 from reference_tracer.compare.checks.probe import may_be_seen
 from reference_tracer.compare.picture import Picture
@@ -162,8 +161,7 @@ def test_the_division_of_the_work_does_not_matter(room, monkeypatch, shifted):
             assert np.array_equal(getattr(other, name), getattr(results[0], name), equal_nan=True)
 
 
-@pytest.mark.parametrize("check", [edges, clip])
-def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, shifted, rng, check):
+def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, shifted, rng):
     """Nobody's colours, and other owners or none that are known: the causes stay the same."""
     frame = render(stripes)
     moved = render(replace(stripes, camera=shifted(stripes.camera, 1 / 300, -1 / 300)))
@@ -182,7 +180,7 @@ def test_what_nothing_near_shows_need_not_be_asked(stripes, monkeypatch, shifted
     for known in ({}, {"owner": owner, "owners": owners, "names": ("a", "b", "c")}):
         picture, found = Picture(color, **known), []
         for asks in (may_be_seen, counted):
-            monkeypatch.setattr(check, "may_be_seen", asks)
+            monkeypatch.setattr(probing, "may_be_seen", asks)
             found.append(result_of(find_causes(stripes, frame, picture)))
         for name in ("cause", "figure", "allowed"):
             first, second = (getattr(causes, name) for causes in found)

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 import pytest
 import trimesh
+from reference_tracer.compare import hull
 from reference_tracer.compare.causes import explain
-from reference_tracer.compare.checks import anti_aliasing, coverage, probe
 from reference_tracer.compare.checks import color as coloring
+from reference_tracer.compare.checks import coverage, probe
 from reference_tracer.compare.picture import Picture
 from reference_tracer.rendering import render
 from reference_tracer.tracer import candidates, nearest
@@ -26,7 +27,7 @@ BOUNDS = {"pairs": 256, "numbers": 1 << 16, "pixels": 256}
 def work(monkeypatch):
     """Count what is done between two yields, with bounds so low that a small scene meets them."""
     done = Counter()
-    test_pairs, pair, other_color = nearest.test_pairs, anti_aliasing._pair, Picture.other_color
+    test_pairs, pair, other_color = nearest.test_pairs, hull._pair, Picture.other_color
 
     def counted_pairs(scene, settings, rays, some, *hits):
         done["pairs"] += len(some.pixel)
@@ -42,10 +43,10 @@ def work(monkeypatch):
 
     for module in (probe, coverage):
         monkeypatch.setattr(module, "test_pairs", counted_pairs)
-    monkeypatch.setattr(anti_aliasing, "_pair", counted_numbers)
+    monkeypatch.setattr(hull, "_pair", counted_numbers)
     monkeypatch.setattr(Picture, "other_color", counted_pixels)
     monkeypatch.setattr(candidates, "PAIRS", BOUNDS["pairs"])
-    monkeypatch.setattr(anti_aliasing, "STEP", BOUNDS["numbers"] // 4)
+    monkeypatch.setattr(hull, "STEP", BOUNDS["numbers"] // 4)
     monkeypatch.setattr(probe, "BLOCK", BOUNDS["pixels"])
     monkeypatch.setattr(coloring, "ENOUGH", BOUNDS["pixels"])
     monkeypatch.setattr(rendering, "ROWS", 8)

@@ -1,15 +1,16 @@
-"""All records, in the order of `proofs/Recorded.v`."""
+"""All records, by the file of `proofs/recorded/` that has their expressions."""
 
 from . import bounds, boxes, camera, deciding, edges, film, keeping, pixels, quotient
 
-RECORDS = (
-    *bounds.RECORDS,
-    *deciding.RECORDS,
-    *edges.RECORDS,
-    *pixels.RECORDS,
-    *film.RECORDS,
-    *camera.RECORDS,
-    *boxes.RECORDS,
-    *keeping.RECORDS,
-    *quotient.RECORDS,
-)
+FILES = {
+    "RecordedBounds": bounds.RECORDS,
+    "RecordedDecisions": deciding.RECORDS,
+    "RecordedQuotient": quotient.RECORDS,
+    "RecordedCamera": camera.RECORDS,
+    "RecordedChoices": keeping.RECORDS,
+    "RecordedEdges": edges.RECORDS,
+    "RecordedPixels": pixels.RECORDS,
+    "RecordedFilm": film.RECORDS,
+    "RecordedBoxes": boxes.RECORDS,
+}
+RECORDS = tuple(record for records in FILES.values() for record in records)

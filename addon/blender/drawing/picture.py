@@ -1,0 +1,148 @@
+"""Draws Blender's own picture of a scene by one of its engines, as an array.
+
+Everything is set on a temporary copy of the user's scene, and what cannot be is put back: see
+`values.py` and the judges' own files.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Colors
+from ...compare.picture import SizeError
+from ...scene import Camera, SceneError
+from ..values import values_restored
+from ..versions import set_format
+from .judge import Judge
+
+# What a picture that can be compared needs: property of the scene, and value.
+_ALWAYS = {
+    "render.use_crop_to_border": True,
+    "render.use_file_extension": True,
+    "render.use_overwrite": True,
+    "render.use_placeholder": False,
+}
+_LIKE_FOR_LIKE = {
+    "display.shading.light": "FLAT",
+    "display.shading.show_xray": False,
+    "display.shading.show_shadows": False,
+    "display.shading.show_cavity": False,
+    "display.shading.show_object_outline": False,
+    "display.shading.show_specular_highlight": False,
+    "display.shading.show_backface_culling": False,
+    "display.shading.use_dof": False,
+    "display.render_aa": "OFF",
+    "display.viewport_aa": "OFF",
+    "render.film_transparent": True,
+    "view_settings.view_transform": "Raw",
+    "view_settings.look": "None",
+    "view_settings.exposure": 0.0,
+    "view_settings.gamma": 1.0,
+    "view_settings.use_curve_mapping": False,
+}
+
+
+def prepare_scene(scene: Any, like_for_like: bool) -> dict[str, Any]:
+    """Set a temporary scene up for a picture that can be compared; return what was set.
+
+    Like for like means flat light, no effects, no anti-aliasing, a transparent film and raw
+    colours. Where the colours come from stays the user's choice. The picture is one 32-bit EXR,
+    like for like or not.
+    """
+    settings = _ALWAYS | _LIKE_FOR_LIKE if like_for_like else _ALWAYS
+    for path, value in settings.items():
+        owner, _, name = path.rpartition(".")
+        setattr(scene.path_resolve(owner), name, value)
+    render = scene.render
+    shading = scene.display.shading
+    set_format(render, "OPEN_EXR", "RGBA", "32")
+    render.image_settings.exr_codec = "NONE"  # read at once, and removed
+    return {
+        "like_for_like": like_for_like,
+        "light": shading.light,
+        "color_type": shading.color_type,
+        "film_transparent": render.film_transparent,
+        "view_transform": scene.view_settings.view_transform,
+    }
+
+
+def picture(scene: Any, layer: str, judge: Judge, camera: Camera, like_for_like: bool) -> Colors:
+    """Return Blender's picture of a prepared temporary scene.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+        The temporary scene.
+    layer : str
+        Its view layer.
+    judge : Judge
+        The engine that draws.
+    camera : Camera
+        Its region says which pixels are the picture's: the viewport ignores the render border.
+    like_for_like : bool
+        Whether the judge sets the scene up for constant colours.
+
+    Returns
+    -------
+    (h, w, 4) float32
+        Linear RGBA of the camera's region, row 0 at the bottom, alpha premultiplied.
+
+    Raises
+    ------
+    SceneError, RuntimeError
+        If Blender made no picture.
+    SizeError
+        If it made one of another size.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        scene.render.filepath = str(Path(folder) / "picture")
+        with judge.set_up(scene, layer) if like_for_like else nullcontext():
+            try:
+                _draw(scene, layer, judge)
+            except RuntimeError as error:  # what Blender reports, as that a GPU has no such size
+                raise SceneError(f"{judge.name} draws no picture: {error}") from error
+        found = list(Path(folder).glob("picture*.exr"))
+        if len(found) != 1:
+            raise RuntimeError(f"Blender wrote no picture of '{scene.name}' ({judge.name}).")
+        pixels = read(found[0])
+    region = camera.region
+    if judge.needs_window and pixels.shape[:2] == (camera.height, camera.width):
+        pixels = pixels[region.y0 : region.y1, region.x0 : region.x1]
+    if pixels.shape[:2] != (region.height, region.width):
+        raise SizeError(
+            f"Blender's picture has {pixels.shape[1]} x {pixels.shape[0]} pixels, the camera's "
+            f"region {region.width} x {region.height}."
+        )
+    return np.ascontiguousarray(pixels)
+
+
+def _draw(scene: Any, layer: str, judge: Judge) -> None:
+    """Have Blender draw a scene, and write the picture to the scene's path."""
+    if judge.needs_window:
+        # Adding a window, area or region to the override crashes Blender (4.3, 5.2).
+        with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[layer]):
+            bpy.ops.render.opengl(view_context=False, write_still=True)
+        return
+    scene.render.engine = judge.engine
+    with values_restored():
+        bpy.ops.render.render(scene=scene.name, write_still=True)
+
+
+def read(path: Path, colorspace: str = "") -> Colors:
+    """Return a picture's file as Blender reads it, in a colour space: (h, w, 4), row 0 below."""
+    image: Any = bpy.data.images.load(str(path))
+    try:
+        if colorspace:
+            image.colorspace_settings.name = colorspace
+        width, height = image.size
+        pixels = np.empty(width * height * 4, np.float32)
+        image.pixels.foreach_get(pixels)
+        return pixels.reshape(height, width, 4)
+    finally:
+        bpy.data.images.remove(image)

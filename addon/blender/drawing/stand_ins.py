@@ -1,0 +1,82 @@
+"""Shows Blender a polygon in place of each infinite plane, which it cannot draw.
+
+The polygon is where the plane cuts the camera's view volume. Polygons are in the temporary scene
+alone, and the objects that were marked as infinite planes are left out of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ...arrays import Colors, Floats
+from ...scene import Plane, Scene
+from ..reading.colors import random_color
+from ..reading.view_volume import polygon
+from ..temporary import leave_out
+
+# A custom property of the polygon: the name of the object that is the plane.
+STANDS_FOR = "reference_tracer_stands_for"
+
+
+@contextmanager
+def stand_ins(tmp: Any, layer: str, scene: Scene, owners: Sequence[str]) -> Iterator[Scene]:
+    """Show polygons in a temporary Blender scene in place of its infinite planes, for a while.
+
+    Parameters
+    ----------
+    tmp : bpy.types.Scene
+        The temporary scene.
+    layer : str
+        Its view layer.
+    scene : Scene
+        What was exported of it.
+    owners : sequence of str
+        For each plane, the object that is marked as one.
+
+    Yields
+    ------
+    Scene
+        The exported scene as it is to be compared. Random colours come from names: there the planes
+        take the colours of their polygons.
+    """
+    marked = {o for o in tmp.objects if o.reference_tracer.infinite_plane}
+    objects: list[Any] = []
+    planes: list[Plane] = []
+    try:
+        if marked:
+            leave_out(tmp, layer, marked)
+        for plane, owner in zip(scene.planes, owners, strict=True):
+            corners = polygon(scene.camera, plane)
+            if len(corners):
+                objects.append(_stand_in(tmp, corners, scene.camera.origin, plane.color))
+                objects[-1][STANDS_FOR] = owner
+                if tmp.display.shading.color_type == "RANDOM":
+                    plane = replace(plane, color=np.array(random_color(objects[-1]), np.float32))
+            planes.append(plane)
+        yield replace(scene, planes=tuple(planes))
+    finally:
+        for obj in objects:
+            bpy.data.materials.remove(obj.data.materials[0])
+            bpy.data.meshes.remove(obj.data)  # takes the object with it
+
+
+def _stand_in(tmp: Any, corners: Floats, eye: Floats, color: Colors) -> Any:
+    # Vertices are float32: the nearer one lies to the object's origin, the more digits it keeps. So
+    # the origin is the corner that the camera sees largest.
+    nearest = corners[np.argmin(((corners - eye) ** 2).sum(axis=1))]
+    material = bpy.data.materials.new("Infinite Plane")
+    material.diffuse_color = (*color[:3], 1.0)
+    mesh = bpy.data.meshes.new("Infinite Plane")
+    mesh.from_pydata((corners - nearest).tolist(), [], [list(range(len(corners)))])
+    mesh.materials.append(material)
+    obj = bpy.data.objects.new("Infinite Plane", mesh)
+    obj.location = nearest.tolist()
+    obj.color = material.diffuse_color
+    tmp.collection.objects.link(obj)
+    return obj

@@ -1,0 +1,99 @@
+"""Reads the triangles of an evaluated object's mesh, in bulk.
+
+What is stored as an attribute is one block of memory, and `foreach_get` copies it as such. Plain
+properties (`vertices[i].co` and the like) are asked for one by one, also by `foreach_get`: in 5.2
+the corners of a million triangles take 0.12 s, their positions 0.001 s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+
+from ...arrays import Colors, Integers
+from ...scene import Mesh, drop_non_finite
+
+Read = tuple[Mesh, int]  # with the number of triangles left out
+
+
+def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
+    """Return the triangles of an evaluated object's mesh, and how many were left out.
+
+    Parameters
+    ----------
+    obj : bpy.types.Object
+    name : str
+        The mesh's name in what is returned.
+    with_colors : bool
+        Whether the active colour attribute is what will be shown.
+
+    Returns
+    -------
+    (Mesh, int), or None if there is no face
+        The triangles are those of `mesh.loop_triangles`, in their order. Those that touch a vertex
+        that is not finite are left out.
+    """
+    with _whole_mesh(obj) as mesh:
+        if not len(mesh.polygons):
+            return None
+        loops = _integers(mesh.loop_triangles, "loops", 3).reshape(-1, 3)
+        triangles = _integers(mesh.attributes[".corner_vert"].data, "value", 1)[loops]
+        slots = _slots(mesh)
+        colors = _corner_colors(mesh, triangles, loops) if with_colors else None
+        vertices = _floats(mesh.attributes["position"].data, "vector", 3)
+    vertices, is_kept = drop_non_finite(vertices, triangles)
+    left_out = len(is_kept) - int(is_kept.sum())
+    if left_out:
+        triangles = triangles[is_kept]
+        slots = slots[is_kept]
+        colors = None if colors is None else colors[is_kept]
+    return Mesh(vertices, triangles, slots, colors, name), left_out
+
+
+@contextmanager
+def _whole_mesh(obj: Any) -> Iterator[Any]:
+    """Give an evaluated object's mesh with all of its faces and attributes.
+
+    In Edit Mode it is a wrapper that has none, or those of the mesh in the editor.
+    """
+    try:
+        yield obj.to_mesh() if obj.data.is_editmode else obj.data
+    finally:
+        obj.to_mesh_clear()
+
+
+def _slots(mesh: Any) -> Integers:
+    """Return each triangle's material slot, (n,)."""
+    attribute = mesh.attributes.get("material_index")
+    if not attribute:  # all show the first
+        return np.zeros(len(mesh.loop_triangles), np.int32)
+    if (attribute.domain, attribute.data_type) == ("FACE", "INT"):
+        face = _integers(mesh.loop_triangle_polygons, "value", 1)
+        slots = _integers(attribute.data, "value", 1)[face]
+    else:  # Blender converts another kind, which is rare
+        slots = _integers(mesh.loop_triangles, "material_index", 1)
+    return np.maximum(slots, 0)
+
+
+def _corner_colors(mesh: Any, triangles: Integers, loops: Integers) -> Colors | None:
+    """Return the active colour attribute at each triangle's corners, (n, 3, 4) linear RGBA."""
+    attribute = mesh.color_attributes.active_color
+    if attribute is None:
+        return None
+    values = _floats(attribute.data, "color", 4)
+    return values.take(triangles if attribute.domain == "POINT" else loops, axis=0)
+
+
+def _integers(collection: Any, name: str, width: int) -> Integers:
+    out = np.empty(len(collection) * width, np.int32)
+    collection.foreach_get(name, out)
+    return out
+
+
+def _floats(collection: Any, name: str, width: int) -> Colors:
+    out = np.empty(len(collection) * width, np.float32)
+    collection.foreach_get(name, out)
+    return out.reshape(-1, width)

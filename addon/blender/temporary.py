@@ -1,0 +1,152 @@
+"""Makes a temporary copy of the user's scene, on which everything that a picture needs is set.
+
+The copy has settings, view layers and a top collection of its own, which go with it. Its objects
+are the user's. To leave an object out, the collections that hold it are replaced by copies. The
+user's scene, view and Render Result stay as they are. `values.py` changes an object itself, and
+puts it back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import bpy
+
+# Custom properties. DRAWN marks what the add-on itself draws in a scene. The others mark a
+# temporary scene: the name of the user's, and the features that its judge does not show.
+DRAWN = "reference_tracer_drawn"
+_COPY_OF = "reference_tracer_copy_of"
+_IGNORED = "reference_tracer_ignored"
+
+_NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
+
+
+@contextmanager
+def temporary_scene(
+    scene: Any, layer: str | None = None, ignored: Collection[str] | None = None
+) -> Iterator[Any]:
+    """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
+
+    Sequencer, compositor, multiview, stamps, freestyle and motion blur are off in the copy. A
+    'Render Result' that did not exist before is removed, too.
+
+    Parameters
+    ----------
+    scene : bpy.types.Scene
+    layer : str, optional
+        The view layer; by default the scene's first.
+    ignored : collection of str, optional
+        The features that the judge does not show; None if the copy is for no judge.
+    """
+    images = set(bpy.data.images)
+    copy = scene.copy()
+    copy[_COPY_OF] = scene.name_full
+    if ignored is not None:
+        copy[_IGNORED] = "\n".join(ignored)
+    name = copy.name_full
+    try:
+        _isolate(copy, layer or scene.view_layers[0].name)
+        yield copy
+    finally:
+        own = [c for c in bpy.data.collections if c.get(_COPY_OF) == name]
+        # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
+        bpy.data.batch_remove([copy, *own])
+        for image in set(bpy.data.images) - images:
+            if image.type == "RENDER_RESULT":
+                bpy.data.images.remove(image)
+
+
+def is_temporary(scene: Any) -> bool:
+    """Return whether a scene is a temporary copy."""
+    return _COPY_OF in scene
+
+
+def user_scene(scene: Any) -> Any:
+    """Return the user's scene that a temporary one is a copy of; a scene of the user's is itself.
+
+    An evaluated scene gives the original one.
+    """
+    name = scene.get(_COPY_OF, scene.name_full)
+    return next(s for s in bpy.data.scenes if s.name_full == name)
+
+
+def ignored_features(scene: Any) -> tuple[str, ...] | None:
+    """Return the features that a temporary scene's judge does not show; None without a judge."""
+    ignored = scene.get(_IGNORED)
+    return None if ignored is None else tuple(ignored.split("\n"))
+
+
+def _isolate(scene: Any, layer: str) -> None:
+    render = scene.render
+    render.use_compositing = False
+    render.use_multiview = False
+    render.use_stamp = False
+    render.use_freestyle = False
+    render.use_motion_blur = False
+    # With `use_sequencer` off, handlers that add or remove data crash Blender (5.2).
+    scene.sequence_editor_clear()
+    _spare_bodies(scene, scene.frame_current)
+    # Rendering another layer than the first by its name crashes Blender (5.2).
+    for other in [v for v in scene.view_layers if v.name != layer]:
+        scene.view_layers.remove(other)
+    scene.view_layers[layer].use = True
+    _leave_out_drawings(scene.view_layers[layer].layer_collection)
+
+
+def go_to(scene: Any, frame: int) -> None:
+    """Step a temporary scene to a frame."""
+    _spare_bodies(scene, frame)
+    scene.frame_set(frame)
+
+
+def _spare_bodies(scene: Any, frame: int) -> None:
+    # Blender would simulate the user's own rigid bodies in this scene, free them with it, and
+    # crash. Measured: it also does so with baked ones in the second frame of their cache.
+    if bodies := scene.rigidbody_world:
+        cache = bodies.point_cache
+        if not cache.is_baked or frame == cache.frame_start + 1:
+            bodies.enabled = False  # set only then: Blender takes any setting for a change
+
+
+def _leave_out_drawings(parent: Any) -> None:
+    """Exclude what the add-on has drawn in the scene, wherever the user has put it."""
+    for child in parent.children:
+        if child.collection.get(DRAWN):
+            child.exclude = True
+        else:
+            _leave_out_drawings(child)
+
+
+def leave_out(tmp: Any, layer: str, objects: Collection[Any]) -> None:
+    """Take objects out of a temporary scene."""
+    _leave_out(tmp.collection, tmp.view_layers[layer].layer_collection, objects, tmp.name_full)
+
+
+def _leave_out(collection: Any, layer: Any, objects: Collection[Any], copy_of: str) -> None:
+    for child in list(collection.children):
+        if not any(obj in objects for obj in child.all_objects):
+            continue
+        own = child
+        if child.get(_COPY_OF) != copy_of:
+            own = child.copy()
+            own[_COPY_OF] = copy_of
+            collection.children.link(own)  # before the old one goes: hidden objects stay hidden
+            _copy_flags(layer.children[child.name], layer.children[own.name])
+            collection.children.unlink(child)
+        _leave_out(own, layer.children[own.name], objects, copy_of)
+    for obj in [o for o in collection.objects if o in objects]:
+        collection.objects.unlink(obj)
+
+
+def _copy_flags(source: Any, target: Any) -> None:
+    for name in ("exclude", "hide_viewport", "holdout", "indirect_only"):
+        setattr(target, name, getattr(source, name))
+    for old, new in zip(source.children, target.children, strict=True):
+        _copy_flags(old, new)
+
+
+def drawn(tmp: Any, layer: str) -> list[Any]:
+    """Return the objects of a view layer that may be drawn, or that instance what is drawn."""
+    return [o for o in tmp.view_layers[layer].objects if o.type not in _NOT_DRAWN]

@@ -1,0 +1,136 @@
+"""Lists what can be chosen in each setting, with Blender's words for it.
+
+A .blend stores the number of an item. A number that was given away is never given to another item;
+a new item takes one that is free.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+from ...methods import RECORDS
+from ..drawing import judges
+
+Item = tuple[str, str, str, int]  # identifier, name, description, number
+Unstored = tuple[str, str, str]  # identifier, name, description of what no .blend stores
+
+METHODS: tuple[Item, ...] = tuple(
+    (m.value, r.label, r.description, r.number) for m, r in reversed(RECORDS.items())
+)
+
+PRECISIONS: tuple[Item, ...] = (
+    ("float64", "float64", "Double precision", 0),
+    ("float32", "float32", "Single precision, as graphics hardware has it", 1),
+)
+
+SHADINGS: tuple[Item, ...] = (
+    (
+        "LIKE_FOR_LIKE",
+        "Like for Like",
+        "Blender draws what the tracer does: flat light, the same colours, no effects, raw view",
+        0,
+    ),
+    ("AS_IS", "As It Is", "Blender draws with the shading that the scene has", 1),
+)
+
+JUDGES: tuple[Item, ...] = (
+    (
+        judges.AUTO,
+        "Automatic",
+        "The viewport in a window, Workbench in background; Cycles of a panorama",
+        0,
+    ),
+    *(
+        (name.upper(), judge.label, judge.description, judge.number or 0)
+        for name, judge in judges.choices().items()
+    ),
+)
+
+# What a render shows of a surface: `tracer/coloring.py` has the functions.
+COLORS: tuple[Item, ...] = (
+    ("object", "Object", "The object's own colour; every comparison uses this one", 0),
+    ("normal", "Normal", "The normal in world space: red, green, blue are X, Y, Z", 1),
+    ("facing", "Facing", "Light where it faces the ray, dark edge-on, reddish at backs", 2),
+    ("depth", "Depth", "From white at the nearest hit to dark at the farthest, evenly", 3),
+)
+
+# What a 3D view shows: `live/shows.py` has the functions. The colours follow, 4 and more.
+SHOWS: tuple[Item, ...] = (
+    ("PICTURE", "Picture", "What a render shows", 0),
+    (
+        "WRONG",
+        "Wrong Pixels",
+        "The chosen method's picture, dimmed, with wrong pixels in red: there the method sees "
+        "another surface than is proven. The view's corner counts them",
+        1,
+    ),
+    (
+        "DIFFERENCE",
+        "Difference to Blender's Viewport",
+        "Once the view rests, Blender draws it, too, flat and without smoothing. Pixels that "
+        "differ have the colour of their cause, as in a comparison",
+        2,
+    ),
+    (
+        "CERTAINTY",
+        "Certainty",
+        "How each pixel was decided: dark by an error bound, blue by integers, yellow by a rule, "
+        "as the ray meets an edge or two surfaces at once",
+        3,
+    ),
+    *((name.upper(), label, text, 4 + number) for name, label, text, number in COLORS),
+)
+
+# Each number is one bit: that of the pass's place among `tracer.frame.PASSES`.
+PASSES: tuple[Item, ...] = (
+    ("Depth", "Depth", "Distance along the view axis, in metres; 1e10 where nothing is hit", 0x002),
+    ("T", "T", "The ray's parameter at the hit: also the depth in metres", 0x004),
+    ("Position", "Position", "Where the ray hits, in world space, in metres", 0x008),
+    ("Normal", "Normal", "The surface's normal in world space, of length 1", 0x010),
+    (
+        "Barycentrics",
+        "Barycentrics",
+        "The weights of the triangle's three corners at the hit",
+        0x020,
+    ),
+    ("Object Index", "Object Index", "The number of the object, from 1; 0 for none", 0x040),
+    (
+        "Triangle Index",
+        "Triangle Index",
+        "The number of the triangle in its mesh, from 1; 0 for none",
+        0x100,
+    ),
+    (
+        "Certainty",
+        "Certainty",
+        "How each pixel was decided, as a number: 0 is not proven",
+        0x200,
+    ),
+)
+
+# Which export of the scene a pixel is derived from.
+SOURCES: tuple[Unstored, ...] = (
+    ("SCENE", "Scene", "The scene now, as Trace and Compare takes it"),
+    ("RENDER", "Render", "The scene now, as a render takes it"),
+    ("COMPARISON", "Comparison", "The scene as the latest comparison took it"),
+)
+
+
+_SCENARIOS = tomllib.loads(
+    (Path(__file__).parents[2] / "study/scenarios/sweeps.toml").read_text(encoding="utf-8")
+)
+
+
+def _listed(kind: str) -> tuple[Unstored, ...]:
+    """Return the study's scenarios of a kind."""
+    return tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS[kind])
+
+
+SWEEPS = _listed("scenario")
+EVERY = "ALL"  # in place of a scenario's name
+STUDIES = (
+    (EVERY, "All", "Every scenario, and the maps of two scales at once"),
+    *SWEEPS,
+    *_listed("map"),
+)
