@@ -34,7 +34,8 @@ class SceneError(ValueError):
 class ViewWindow:
     """What the whole picture shows, along the camera's right and up axes.
 
-    On the plane at depth 1 (perspective), or in metres (orthographic).
+    On the plane at depth 1 (perspective), in metres (orthographic), or, of a panorama, in radians
+    of longitude and latitude.
     """
 
     left: float
@@ -120,7 +121,7 @@ class Camera:
                 f"Camera '{self.name}' sees nothing: its clip start ({self.clip_start:g} m) is not "
                 f"below its clip end ({self.clip_end:g} m)."
             )
-        if not self.projection.is_parallel and not self.clip_start > 0:
+        if not self.projection.sees_behind and not self.clip_start > 0:
             raise SceneError(
                 f"Camera '{self.name}' has a clip start of {self.clip_start:g} m: what a "
                 f"{self.projection.name} camera sees begins in front of it, so raise it above 0."
@@ -132,10 +133,11 @@ class Camera:
         with np.errstate(all="ignore"):
             farthest = np.abs(self.world_from_camera[:3]) @ (reach, reach, 1.0, 1.0)
             size = w.right - w.left, w.top - w.bottom
-        if not (np.isfinite([reach, *farthest, *size]).all() and min(size) > 0):
+        known = np.isfinite([reach, *farthest, *size]).all() and reach <= self.projection.farthest
+        if not (known and min(size) > 0):
             raise SceneError(
                 f"Camera '{self.name}' has an empty or infinite view window ({w}): check its focal "
-                "length, sensor size, orthographic scale and shift."
+                "length, sensor size, orthographic scale, longitudes, latitudes and shift."
             )
         if (least := min(size[0] / self.width, size[1] / self.height)) < _LEAST_PIXEL:
             raise SceneError(

@@ -4,11 +4,12 @@ Only the files that the errand names are changed in the copy; a Python of its ow
 """
 
 import re
+import shutil
 from pathlib import Path
 
 import pytest
 
-from .copied import copied, run
+from .copied import ADDON, copied, run
 
 CONTRIBUTING = (Path(__file__).parent.parent / "CONTRIBUTING.md").read_text(encoding="utf-8")
 
@@ -77,37 +78,34 @@ SEES_PASS_IN_BLENDER = """
 from reference_tracer.blender.ui.choices import PASSES
 assert PASSES[-1][:2] == ("Twice", "Twice")
 """
-CAMERA = {
-    "projections/mirrored.py": (
-        "",
-        "from dataclasses import dataclass\n"
-        "from .perspective import Perspective\n\n\n"
-        "@dataclass(frozen=True)\n"
-        "class Mirrored(Perspective):\n"
-        "    name = in_files = 'mirrored'\n"
-        "    blender = 'PANO'\n"
-        "    formulas = Perspective.formulas | {'d': ('forward', 'as a test has it')}\n",
-    ),
-    "projections/__init__.py": (
-        "\n\ndef projection_of(",
-        '\nfrom .mirrored import Mirrored\n\nPROJECTIONS["mirrored"] = Mirrored()\n',
-    ),
+# The panorama's own: its file, and its record's lines; without them nobody knows of it.
+CAMERA_FILE = "projections/equirectangular.py"
+CAMERA_RECORD = {
+    "from .equirectangular import Equirectangular\n": "",
+    "EQUIRECTANGULAR = Equirectangular()\n": "",
+    "(PERSPECTIVE, ORTHOGRAPHIC, EQUIRECTANGULAR)": "(PERSPECTIVE, ORTHOGRAPHIC)",
 }
-SEES_CAMERA = """
+SEES_NO_PANORAMA = """
+from reference_tracer.projections import PROJECTIONS
+assert list(PROJECTIONS) == ["perspective", "orthographic"]
+assert np.isfinite(render(scene, Settings("certified")).t).any()
+"""
+SEES_PANORAMA = """
 from dataclasses import replace
-from reference_tracer.compare.certificate import known_points
 from reference_tracer.explain.derivation import derive
+from reference_tracer.explain.writers import to_dict
 from reference_tracer.projections import PROJECTIONS
 from reference_tracer.scene_files import load_scene, save_scene
-new = replace(scene, camera=replace(scene.camera, projection=PROJECTIONS["mirrored"]))
-assert (render(new, Settings("certified")).t == render(scene, Settings("certified")).t).all()
+new = replace(scene, camera=replace(scene.camera, projection=PROJECTIONS["equirectangular"]))
+for method in ("textbook", "certified"):
+    away = np.sqrt((render(new, Settings(method)).position ** 2).sum(axis=-1))
+    t = render(new, Settings(method)).t
+    assert np.isfinite(t).sum() > 20 and np.allclose(away[t < np.inf], t[t < np.inf])
 save_scene("scene.npz", new)
-assert load_scene("scene.npz").camera.projection == PROJECTIONS["mirrored"]
+assert load_scene("scene.npz").camera.projection == PROJECTIONS["equirectangular"]
 derivation = derive(new, 4, 4)
-assert "as a test has it" in str(derivation.ray + derivation.camera)
-from reference_tracer.explain.writers import to_dict
-assert to_dict(derivation)["camera"]["orthographic"] == "mirrored"
-known_points(new.camera)
+assert "cos v" in str(derivation.camera)
+assert to_dict(derivation)["camera"]["orthographic"] == "equirectangular"
 """
 COLUMN = {
     "study/trade.py": (
@@ -297,9 +295,28 @@ def test_a_method_is_its_function_and_its_record(tmp_path):
 
 
 def test_a_camera_type_is_a_file_and_a_record(tmp_path):
-    files = {f.replace("mirrored.py", "") for f in CAMERA}
-    assert files == named("a camera's type") and len(CAMERA) == 2
-    seen(tmp_path, CAMERA, SEES_CAMERA)
+    """The panorama is taken out of the add-on, and put back."""
+    assert named("a camera's type") == {"projections/", "projections/__init__.py"}
+    copy = copied(tmp_path)
+    (copy / CAMERA_FILE).unlink()
+    listed = copy / "projections/__init__.py"
+    whole = without = listed.read_text(encoding="utf-8")
+    for line, less in CAMERA_RECORD.items():
+        assert without.count(line) == 1, line
+        without = without.replace(line, less)
+    listed.write_text(without, encoding="utf-8")
+    naming = [
+        str(file.relative_to(copy))
+        for file in copy.rglob("*.*")
+        if file.suffix in (".py", ".toml") and "equirectangular" in file.read_text("utf-8").lower()
+    ]
+    assert not naming
+    done = run(tmp_path, SCENE + SEES_NO_PANORAMA)
+    assert done.returncode == 0, done.stderr
+    listed.write_text(whole, encoding="utf-8")
+    shutil.copy(ADDON / CAMERA_FILE, copy / CAMERA_FILE)
+    done = run(tmp_path, SCENE + SEES_PANORAMA)
+    assert done.returncode == 0, done.stderr
 
 
 def test_a_trades_column_is_its_field_and_its_record(tmp_path):

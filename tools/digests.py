@@ -43,7 +43,7 @@ def exported(path: Path) -> Scene:
 def orthographic(scene: Scene) -> Scene:
     """The scene through an orthographic camera that shows what the perspective one does."""
     camera = scene.camera
-    if camera.projection.is_parallel:
+    if camera.projection.shares_direction:
         return scene
     depth = np.median(depths) if len(depths := _depths(scene)) else 10.0
     window = ViewWindow(*(float(v * depth) for v in vars(camera.window).values()))

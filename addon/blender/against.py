@@ -28,8 +28,8 @@ from ..scene import Scene
 from ..tracer.settings import Settings
 from .compare import export_open_file
 from .drawing.drawings import Drawing, drawn_by_others
+from .drawing.judges import AUTO, judge_named
 from .drawing.picture import read
-from .drawing.workbench import WORKBENCH
 from .engine import export_for_render
 from .reading.export import export
 from .temporary import go_to, temporary_scene
@@ -52,9 +52,8 @@ def gather_against(
         If the scene cannot be traced.
     """
     scene, manifest, _ = export_open_file(context)
-    drawing = Drawing(
-        context.scene, context.view_layer.name, WORKBENCH, True, None, scene, manifest
-    )
+    judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
+    drawing = Drawing(context.scene, context.view_layer.name, judge, True, None, scene, manifest)
     return Case(
         scene,
         manifest,

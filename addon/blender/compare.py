@@ -82,16 +82,20 @@ def gather_case(context: Any, **choices: Any) -> Case:
     layer = context.view_layer.name
     stored = scene.reference_tracer
     like_for_like = stored.shading == "LIKE_FOR_LIKE" if chosen.as_is is None else not chosen.as_is
-    judge = judge_named(chosen.judge or stored.judge, bpy.app.background)
+    camera = export_camera(scene)  # first: its errors name the user's scene, say what to do
+    is_panorama = not camera.projection.is_linear
+    judge = judge_named(chosen.judge or stored.judge, bpy.app.background, is_panorama)
     of_view = judge.needs_window and not like_for_like
     view_shading = solid_shading(context) if of_view else None
     self_check = stored.self_check if chosen.self_check is None else chosen.self_check
-    region = export_camera(scene).region  # first: its errors name the user's scene, say what to do
-    check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # before Blender draws
+    check_memory(
+        camera.region.width, camera.region.height, COMPARED, 2 * ALWAYS
+    )  # before Blender draws
     with temporary_scene(scene, layer, judge.ignores) as tmp:
         used = _prepared(tmp, judge, like_for_like, view_shading)
         exported, manifest, certificate = export_for_judge(tmp, layer, judge)
-        certificate.check()
+        if certificate:
+            certificate.check()
         there = [o.name_full for o in scene.objects]
         if like_for_like and used["color_type"] == "RANDOM":
             judge.check_random(exported, manifest.owners)

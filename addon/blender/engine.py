@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..tracer.settings import Settings
     from .drawing.judge import Judge
 
-    Certified = tuple[Scene, Manifest, CameraCertificate]
+    Certified = tuple[Scene, Manifest, CameraCertificate | None]
 
 ENGINE = "REFERENCE_TRACER"
 SHOWN = 10.0  # seconds that the status bar shows a message

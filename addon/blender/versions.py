@@ -21,6 +21,13 @@ STRIPS = "strips_all" if _FROM_5 else "sequences_all"  # of a sequencer
 FILTERS = {"SURFACE": "surf", "GREASEPENCIL": "grease_pencil", "GPENCIL": "grease_pencil"}
 
 
+def lens(data: Any) -> Any:
+    """Return what has the settings of a camera's type: of panoramas Cycles' own part up to 4.5."""
+    if data.type != "PANO" or hasattr(data, "panorama_type"):
+        return data
+    return getattr(data, "cycles", data)
+
+
 def curves(action: Any) -> list[Any]:
     """Return an action's F-curves: in layers from 4.4 on."""
     if not hasattr(action, "layers"):

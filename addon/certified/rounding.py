@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import ViewWindow
+from ..scene import SceneError, ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import NOTHING, Hits, Name
@@ -57,8 +57,8 @@ def rounding(scene: Scene) -> Rounding:
     w = camera.window
     x = abs(w.left) + abs(w.right)
     y = abs(w.bottom) + abs(w.top)
-    last = camera.origin if camera.projection.is_parallel else camera.forward
-    ray = _RAY * np.abs([x * camera.right, y * camera.up, last]).sum(axis=0) + _SLACK
+    frame = np.stack((camera.right, camera.up, camera.forward, camera.origin))
+    ray = _RAY * camera.projection.terms(x, y, frame) + _SLACK
     aside = np.max((np.abs(dual_axes(camera)) * ray).sum(axis=1))
     pixels = aside * camera.projection.slant(max(x, y)) / min(pixel_size(camera))
     corner = np.max((_CORNER * reaches(scene) + _SLACK).sum(axis=0), initial=0.0)
@@ -73,10 +73,15 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     Raises
     ------
     SceneError
-        If rounding may move what is seen first behind the eye.
+        If rounding may move what is seen first behind the eye, or rays are no fractions.
     """
     check_assumptions()
     camera = scene.camera
+    if not camera.projection.is_linear:
+        raise SceneError(
+            f"The unrounded rays of an {camera.projection.name} camera are sines and cosines, "
+            "which no fractions are: --check-rounding is for other cameras."
+        )
     region = camera.region
     loose, aside, reach = _loosened(scene)
     plan = yield from cull(loose, np.dtype(float), 1 << 26, reach)

@@ -92,16 +92,17 @@ def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
     return U32 * error
 
 
-def pixel_error(camera: Camera, depth: Floats, view: Floats) -> Floats:
+def pixel_error(camera: Camera, depth: Floats, view: Floats, y: Floats | float = 0.0) -> Floats:
     """Return how far Blender's sample may lie from the pixel's centre, (n,) pixels.
 
-    Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film.
+    Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film, at
+    its height `y` (n,) there, in window units.
     """
     width, height = pixel_size(camera)
     w, projection = camera.window, camera.projection
     steepest = max(map(abs, (w.left, w.right, w.bottom, w.top)))
     moved = view * projection.slant(steepest)
-    moved = moved / projection.scale(np.maximum(depth, camera.clip_start))
+    moved = moved / projection.scale(np.maximum(depth, camera.clip_start), y)
     film = _FILM * U32 * max(camera.width, camera.height)
     return SNAPPING + film + moved / min(width, height)
 
@@ -114,8 +115,8 @@ def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
     error `view` (n,) besides.
     """
     near, far = camera.clip_start, camera.clip_end
-    depth = np.asarray(depth, np.float64)
-    step = camera.projection.depth_step((far - near) * U32, depth, near, far)
+    z = np.asarray(depth, np.float64)
+    step = camera.projection.depth_step((far - near) * U32, z, near, far)
     return _DEPTH_STEPS * step + 2 * view
 
 
@@ -186,13 +187,17 @@ def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[Float
     That is the largest error of the surfaces seen in the 3 x 3 pixels around, and of those farther
     away that float32 may move as far as this pixel. `all_rows` are looked at one after the other.
     """
+    camera = scene.camera
+    w = camera.window
     own = np.zeros(frame.shape)  # of the surface that the pixel itself shows
     for number, rows in enumerate(all_rows):
         hits = frame.hits(rows)
         seen = np.flatnonzero(hits.instance != NOTHING)
         hits = hits.take(seen)
         view = view_error(scene, hits, frame.positions(rows)[seen])
-        own[rows].reshape(-1)[seen] = pixel_error(scene.camera, hits.t, view)
+        row = seen // frame.shape[1] + (rows.start or 0)
+        y = w.bottom + (row + camera.region.y0 + 0.5) * pixel_size(camera)[1]
+        own[rows].reshape(-1)[seen] = pixel_error(camera, hits.t, view, y)
         yield number / len(all_rows)
     return (yield from spread_error(own))
 

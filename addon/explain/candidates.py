@@ -108,7 +108,7 @@ def _triangles(scene: Scene, tile: Region) -> WorldTriangles:
 
 def _both_ways(camera: Camera) -> list[Camera]:
     """Return the camera without clipping, and one that looks along the same rays backwards."""
-    if camera.projection.is_parallel:
+    if camera.projection.sees_behind:
         return [replace(camera, clip_start=-_FARTHEST, clip_end=_FARTHEST)]
     start = min(camera.clip_start, 1.0) * 2.0**-20  # nearer, every box would fill the picture
     ahead = replace(camera, clip_start=start, clip_end=_FARTHEST)

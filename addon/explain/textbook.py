@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..projections.sine import sine
 from ..scene import Camera
 from ..tracer.camera import pixel_size
 from ..tracer.nearest import within_clip
@@ -60,6 +61,27 @@ _OPERATIONS = {
 }
 
 
+_SINES = {"sin": 0, "cos": 1}  # of an angle plus so many right angles
+_UNIT = 1 << 2048  # of sines in integers: the series' terms are below 2^1500 of it
+
+
+def _sine(angle: Any, quarters: int) -> Any:
+    """Return a sine, or a cosine; the exact one of a fraction to far more digits than are shown."""
+    if not isinstance(angle, Fraction):
+        return sine(angle, quarters)
+    size = abs(angle.numerator) * _UNIT // angle.denominator
+    term = _UNIT if quarters else size
+    sign = -1 if angle < 0 and not quarters else 1
+    total = 0
+    k = 2 - quarters
+    while term:
+        total += sign * term
+        term = term * size * size // (_UNIT * _UNIT * k * (k + 1))
+        sign = -sign
+        k += 2
+    return Fraction(total, _UNIT)
+
+
 def evaluate(text: str, names: Values) -> Any:
     """Return the number or vector that a formula gives; `names` has the value of each letter.
 
@@ -90,6 +112,8 @@ def _operand(tokens: list[str], names: Values) -> Any:
     token = tokens.pop()
     if token == "−":
         return -_operand(tokens, names)
+    if token in _SINES:
+        return _sine(_operand(tokens, names), _SINES[token])
     if token != "(":
         return names[token]
     value = _evaluate(tokens, names)

@@ -1,13 +1,17 @@
-"""How a camera projects: a record each, by its name; a file each has the formulas."""
+"""The types of cameras: a record each, by its name; a file each has the formulas."""
 
 from __future__ import annotations
 
+from .equirectangular import Equirectangular
 from .orthographic import Orthographic
 from .perspective import Perspective
+from .projection import Projection as Projection
 
-Projection = Perspective | Orthographic
 PERSPECTIVE, ORTHOGRAPHIC = Perspective(), Orthographic()
-PROJECTIONS: dict[str, Projection] = {p.name: p for p in (PERSPECTIVE, ORTHOGRAPHIC)}
+EQUIRECTANGULAR = Equirectangular()
+PROJECTIONS: dict[str, Projection] = {
+    p.name: p for p in (PERSPECTIVE, ORTHOGRAPHIC, EQUIRECTANGULAR)
+}
 
 
 def projection_of(value: object) -> Projection | None:

@@ -1,37 +1,41 @@
-"""Orthographic: all rays are parallel, and a thing appears as large at any depth.
-
-Every function is that of the same name in `perspective.py`, which says what comes in and goes out.
-"""
+"""Orthographic: all rays are parallel, and a thing appears as large at any depth."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
-from .perspective import Floats
+from ..arrays import Floats
+from .projection import Edges, Formulas, Projection, shifts
 
 
 @dataclass(frozen=True)
-class Orthographic:
-    """Rays along the view axis, beside one another."""
+class Orthographic(Projection):
+    """Rays along the view axis, beside one another. The window is in metres."""
 
-    name: ClassVar[str] = "orthographic"
-    in_files: ClassVar[bool | str] = True
-    blender: ClassVar[str] = "ORTHO"
-    is_parallel: ClassVar[bool] = True
-    is_linear: ClassVar[bool] = True  # a ray is linear in the film position
-    formulas: ClassVar[dict[str, tuple[str, str]]] = {
+    name = "orthographic"
+    in_files = True
+    blender = "ORTHO"
+    shares_direction = True
+    sees_behind = True
+    formulas: ClassVar[Formulas] = {
         "o": ("e + (u right + v up)", ""),
         "d": ("forward", "the same for all pixels: t is the depth"),
     }
 
-    def ray(self, eye: Any, aside: Any, forward: Any) -> tuple[Any, Any]:
-        """Return an origin beside the eye, and the direction that all share."""
-        return eye + aside, forward
+    def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
+        """Return origins beside the eye, and the direction that all share."""
+        return eye + (x * right + y * up), forward
 
-    def scale(self, depth: Any) -> float:
+    def terms(self, x: float, y: float, frame: Floats) -> Floats:
+        """Return those of an origin: the direction is not rounded."""
+        right, up, _, eye = frame
+        return np.abs([x * right, y * up, eye]).sum(axis=0)
+
+    def scale(self, depth: Any, y: Any = 0.0) -> float:
         """Return 1: the window is in metres."""
         return 1.0
 
@@ -51,7 +55,7 @@ class Orthographic:
 
     def depths(self, rng: np.random.Generator, ends: Floats, count: int) -> Floats:
         """Return depths spread evenly."""
-        return rng.uniform(*ends, count)
+        return rng.uniform(ends[0], ends[1], count)
 
     def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Any:
         """Return the step: all are equal."""
@@ -60,3 +64,13 @@ class Orthographic:
     def nearness(self, low: Any, high: Any, room: float) -> tuple[Any, Any]:
         """Return least and most -t, exactly; where high is inf, t may be negative, too."""
         return -high, np.where(np.isfinite(high), -low, np.inf)
+
+    def window(
+        self, data: Any, lens: Any, sensor: float, around: Callable[[float], Edges]
+    ) -> Edges:
+        """Return the window as wide as the camera's scale."""
+        return around(data.ortho_scale)
+
+    def settings(self, edges: Edges) -> dict[str, Any]:
+        """Return the scale and the shift."""
+        return {"type": self.blender, "ortho_scale": edges[1] - edges[0]} | shifts(edges)

@@ -3,6 +3,7 @@
 A ray is x = o + t d. Directions come from the camera's own axes, d = x right + y up + forward,
 and are not normalised, so that t is the depth along the view axis. They are never the difference
 of a world-space pixel and the camera's position, which would lose most digits far from the origin.
+Other types of cameras are in `projections/`.
 
 The textbook (Exercise 1, perspective camera) has the length of a pixel as
 tan(opening angle) / (half the resolution), where the opening angle of the course's code is *half*
@@ -101,7 +102,7 @@ def camera_rays(
         right, up, forward, origin = (
             cast(v)[:, None] for v in (camera.right, camera.up, camera.forward, camera.origin)
         )
-        return Rays(*camera.projection.ray(origin, x * right + y * up, forward))
+        return Rays(*camera.projection.ray(origin, x, y, right, up, forward))
 
 
 def dual_axes(camera: Camera) -> NDArray[np.float64]:
@@ -112,26 +113,43 @@ def dual_axes(camera: Camera) -> NDArray[np.float64]:
 
 
 def corner_rays(camera: Camera, dx: float = 0.0, dy: float = 0.0) -> Rays:
-    """Return the rays of the picture's corner pixels, which enclose those of all the others.
+    """Return rays that enclose those of all pixels, by component.
 
-    By component: a ray is linear in x and y, and rounding is monotone. What is computed for these
-    holds for all rays, and does not depend on the region that is traced.
+    What is computed for these holds for all rays, and does not depend on the region that is traced.
+    Where rays are linear they are those of the picture's corner pixels, as rounding is monotone;
+    else the axes' sums, for what an axis is multiplied by is at most 1, but for a few roundings.
     """
+    if not camera.projection.is_linear:
+        most = np.abs((camera.right, camera.up, camera.forward)).sum(axis=0) * (1 + 2.0**-40)
+        return Rays(camera.origin[:, None], np.stack((-most, most), axis=1))
     px = np.array([0.5, 0.5, camera.width - 0.5, camera.width - 0.5]) + dx
     py = np.array([0.5, camera.height - 0.5] * 2) + dy
     return camera_rays(camera, px, py)
 
 
 def film_of(camera: Camera, points: Vectors) -> tuple[Floats, Floats, Floats]:
-    """Return where world points (3, n) appear on the film, in pixels, and their depth, (n,) each.
+    """Return where world points (3, n) appear on the film, in pixels, and their t, (n,) each.
 
     What a perspective camera does not have in front of it appears nowhere: NaN.
     """
-    (x, y, depth), _ = project(camera, points)
-    scale = camera.projection.scale(np.where(depth > 0, depth, np.nan))
+    xyz, _ = project(camera, points)
     width, height = pixel_size(camera)
     w = camera.window
-    return (x / scale - w.left) / width, (y / scale - w.bottom) / height, depth
+    x, y, t = camera.projection.film(xyz, (w.left + w.right) / 2)
+    return (x - w.left) / width, (y - w.bottom) / height, t
+
+
+def film_beside(camera: Camera, points: Vectors, px: Floats, py: Floats) -> Floats:
+    """Return how far from film positions (n,) world points (3, n) appear, (2, n) pixels.
+
+    Straight lines in space are straight there. Where the film is curved, it is the plane that
+    touches it in each position: only what is near appears in its place.
+    """
+    xyz, _ = project(camera, points)
+    (width, height), w = pixel_size(camera), camera.window
+    at = w.left + px * width, w.bottom + py * height
+    x, y = camera.projection.beside(xyz, *at)
+    return np.stack((x / width, y / height))
 
 
 def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:

@@ -72,8 +72,8 @@ def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> NDArra
 
     Parameters
     ----------
-    corners : (3, 3, m)
-        Corner, component, triangle; world space.
+    corners : (k, 3, m)
+        Corner, component, convex polygon; world space.
     reach : float
         How far from its pixel's centre a ray may pass, in pixels along each axis.
 
@@ -91,31 +91,29 @@ def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> NDArra
     flat = np.concatenate(list(corners), axis=1).astype(np.float64)
     xyz, magnitude = project(camera, flat)
     magnitude = magnitude[0] + magnitude[1] + magnitude[2]
-    error = SAFETY * np.finfo(corners.dtype).eps * magnitude + _TINY
-    error = error.reshape(3, count).max(axis=0)
-    x, y, depth = xyz.reshape(3, 3, count)
-    nearest = depth.min(axis=0) - error
-    farthest = depth.max(axis=0) + error
+    eps = float(np.finfo(corners.dtype).eps)
+    error = SAFETY * eps * magnitude + _TINY
+    error = error.reshape(len(corners), count).max(axis=0)
+    w = camera.window
     sizes = pixel_size(camera)
-    window = camera.window
+    starts = (w.left, w.bottom)
+    # Film positions near their start lose digits when it is subtracted.
+    slacks = [
+        reach + SAFETY * eps * (abs(start / size) + camera.width + camera.height)
+        for start, size in zip(starts, sizes, strict=True)
+    ]
+    x, y = (size * slack for size, slack in zip(sizes, slacks, strict=True))
+    edges = w.left - x, w.right + x, w.bottom - y, w.top + y
+    smallest, largest, nearest, farthest = camera.projection.box(
+        xyz.reshape(3, len(corners), count), error, camera.clip_start, edges, eps
+    )
     bounds = np.empty((4, count), np.int32)
-    # The least depth of the part of the triangle that can be seen.
-    front = np.maximum(nearest, camera.clip_start)
-    for axis, (value, size, start, low, high) in enumerate(
-        (
-            (x, sizes[0], window.left, region.x0, region.x1),
-            (y, sizes[1], window.bottom, region.y0, region.y1),
-        )
+    ends = (region.x0, region.x1), (region.y0, region.y1)
+    for axis, (size, start, slack, (low, high)) in enumerate(
+        zip(sizes, starts, slacks, ends, strict=True)
     ):
-        smallest, largest = camera.projection.window_range(
-            value, depth, error, front, camera.clip_start
-        )
-        # Film positions near `start` lose digits when `start` is subtracted.
-        slack = reach + SAFETY * np.finfo(corners.dtype).eps * (
-            abs(start / size) + camera.width + camera.height
-        )
-        first = np.ceil((smallest - start) / size - 0.5 - slack)
-        end = np.floor((largest - start) / size - 0.5 + slack) + 1
+        first = np.ceil((smallest[axis] - start) / size - 0.5 - slack)
+        end = np.floor((largest[axis] - start) / size - 0.5 + slack) + 1
         bounds[2 * axis] = _pixel(first, low, high, low)
         bounds[2 * axis + 1] = _pixel(end, low, high, high)
     unseen = (farthest < camera.clip_start) | (nearest > camera.clip_end)

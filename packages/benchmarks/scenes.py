@@ -160,7 +160,7 @@ def camera_of(view: View, width: int, height: int, projection: Projection) -> Ca
     axes = np.stack((right, np.cross(backward, right), backward), axis=1)
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = axes / np.linalg.norm(axes, axis=0), view.eye
-    y = view.height if projection.is_parallel else view.angle
+    y = view.height if projection.shares_direction else view.angle
     x = y * width / height
     return Camera(
         matrix,

@@ -78,7 +78,7 @@ def test_scenes_are_the_same_every_time(name):
 def test_all_scenes_trace(name, camera):
     scene = scenes.build(small(name), 32, 18, camera)
     seen = render(scene, Settings("certified")).instance_index >= 0
-    assert scene.camera.projection.is_parallel == (camera == "orthographic")
+    assert scene.camera.projection.shares_direction == (camera == "orthographic")
     assert 0.02 < seen.mean() <= 1
     inside = {"inside_soup", "inside_sphere"} if camera == "perspective" else {"inside_soup"}
     assert seen.all() == (name in inside)

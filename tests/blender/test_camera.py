@@ -85,7 +85,7 @@ def points(camera, rng) -> np.ndarray:
     x = 3 * rng.uniform(-1, 1, 64) * (window.right - window.left) / 2
     y = 3 * rng.uniform(-1, 1, 64) * (window.top - window.bottom) / 2
     depth = rng.uniform(camera.clip_start, 20, 64)
-    if not camera.projection.is_parallel:
+    if not camera.projection.shares_direction:
         x, y = x * depth, y * depth
     return (
         camera.origin[:, None]

@@ -67,7 +67,7 @@ def test_a_placed_camera_agrees_with_blender(kind, solids):
     assert camera.origin == pytest.approx((3, -4, 3))
     half = kind.get("ortho_scale", 2 * np.tan(np.radians(kind.get("angle", 50) / 2))) / 2
     assert camera.window.top == pytest.approx(half)
-    assert camera.projection.is_parallel == ("ortho_scale" in kind)
+    assert camera.projection.shares_direction == ("ortho_scale" in kind)
 
 
 @pytest.fixture

@@ -88,7 +88,7 @@ def test_a_file_without_a_camera(small, tmp_path, reftrace):
     done = reftrace("export", small, "--out", tmp_path / "s.npz", *eye)
     assert done.returncode == 0, done.stderr
     camera = load_scene(tmp_path / "s.npz").camera
-    assert camera.projection.is_parallel and camera.origin.tolist() == [4, -4, 3]
+    assert camera.projection.shares_direction and camera.origin.tolist() == [4, -4, 3]
 
 
 def test_compare_warns_by_its_exit_code(tmp_path):

@@ -58,9 +58,9 @@ def depth_slope(scene, frame) -> np.ndarray:
     camera = scene.camera
     dx, dy = pixel_size(camera)
     towards = frame.normal @ camera.forward
-    scale = 1.0 if camera.projection.is_parallel else frame.t
+    scale = 1.0 if camera.projection.shares_direction else frame.t
     with np.errstate(divide="ignore", invalid="ignore"):
-        if camera.projection.is_parallel:
+        if camera.projection.shares_direction:
             return np.abs(frame.normal @ camera.right * dx) / np.abs(towards) + np.abs(
                 frame.normal @ camera.up * dy
             ) / np.abs(towards)
@@ -98,7 +98,7 @@ def test_depth_normal_and_object_index(name, opened, rendered, export):
     normal, ours = passes["Normal"][flat].astype(float), frame.normal[flat]
     viewer = (
         -scene.camera.forward
-        if scene.camera.projection.is_parallel
+        if scene.camera.projection.shares_direction
         else scene.camera.origin - frame.position[flat]
     )
     ours = ours * np.sign((ours * viewer).sum(axis=-1))[:, None]

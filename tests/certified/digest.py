@@ -35,7 +35,7 @@ def of_scene(scene: Scene) -> str:
     """Return the digest of all that decides who is seen: what the tracer is told."""
     camera = scene.camera
     clip, size = (camera.clip_start, camera.clip_end), (camera.width, camera.height)
-    numbers = *vars(camera.window).values(), *clip, *size, camera.projection.is_parallel
+    numbers = *vars(camera.window).values(), *clip, *size, camera.projection.shares_direction
     arrays = [np.array(numbers, np.float64), camera.world_from_camera, scene.instance_matrices]
     arrays += [scene.instance_meshes, *(v for p in scene.planes for v in (p.point, p.normal))]
     return sha256(*arrays, *(v for m in scene.meshes for v in (m.vertices, m.triangles)))

@@ -57,7 +57,7 @@ def test_what_is_asked_for_later_is_what_the_definition_finds_at_once(make):
             assert getattr(frame, name).tobytes() == values.tobytes(), (seed, name)
         planes += (whole.instance_index >= len(scene.instances)).sum()
         exact += ((whole.certainty != Certainty.BOUND) & (whole.instance_index >= 0)).sum()
-        projections |= 1 + scene.camera.projection.is_parallel
+        projections |= 1 + scene.camera.projection.shares_direction
     assert planes > 100 and exact > 100 and projections == 3
 
 

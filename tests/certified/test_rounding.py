@@ -186,7 +186,7 @@ def test_bounds_hold(make, rng):
                 [Fraction(float(x)) - y for x, y in zip(v[:, pixel], w, strict=True)]
                 for v, w in zip(own, exact, strict=True)
             ]
-            apart = apart[0] if camera.projection.is_parallel else apart[1]
+            apart = apart[0] if camera.projection.shares_direction else apart[1]
             worst[0] = max(worst[0], sum(map(abs, apart)))
             for d, size in zip(dual, pixel_size(camera), strict=True):
                 moved = sum(a * b for a, b in zip(d, apart, strict=True)) / Fraction(size)

@@ -41,7 +41,7 @@ def blenders_film(camera, world_from_object, local):
     view = np.linalg.inv(camera.world_from_camera.astype(F))
     w, n, f = camera.window, F(camera.clip_start), F(camera.clip_end)
     projection = np.zeros((4, 4), F)
-    if camera.projection.is_parallel:
+    if camera.projection.shares_direction:
         projection[0] = (2 / (w.right - w.left), 0, 0, -(w.right + w.left) / (w.right - w.left))
         projection[1] = (0, 2 / (w.top - w.bottom), 0, -(w.top + w.bottom) / (w.top - w.bottom))
         projection[2], projection[3] = (0, 0, -2 / (f - n), -(f + n) / (f - n)), (0, 0, 0, 1)

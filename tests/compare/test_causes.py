@@ -143,7 +143,7 @@ def test_boxes_around_behind_and_beyond(room):
     def at(depth):
         return covered(room.camera, eye + depth * forward + np.array([[-0.3], [0.3]]))
 
-    assert at(0).all() or room.camera.projection.is_parallel
+    assert at(0).all() or room.camera.projection.shares_direction
     assert not at(-2).any() and not at(2000).any()
 
 

@@ -39,7 +39,7 @@ def test_markdown(derivations):
         assert len(tables) == 2 + len(d.tests)
         (_, camera, _), (_, ray, _), *tests = tables
         c = d.pixel.camera
-        size = c.width, c.height, d.pixel.column, d.pixel.row, c.projection.is_parallel
+        size = c.width, c.height, d.pixel.column, d.pixel.row, c.projection.shares_direction
         for kind in ("float32", "float64"):
             made = printed.camera(camera[kind], *size)
             if kind == "float32":  # a pixel's size is float64's, rounded
@@ -63,7 +63,7 @@ def exactly(d, camera, ray, tests):
         inputs[label] = Fraction(float(camera["float64"][label]))
     for name in ("right", "up", "forward", "e"):
         inputs |= {f"{name}.{k}": Fraction(float(camera["float64"][f"{name}.{k}"])) for k in "xyz"}
-    size = c.width, c.height, d.pixel.column, d.pixel.row, c.projection.is_parallel
+    size = c.width, c.height, d.pixel.column, d.pixel.row, c.projection.shares_direction
     compared = rounded(grown(lambda p: printed.camera(p, *size), inputs), camera["exact"])
     line = Printed({k: Fraction(float(v)) for k, v in ray["float64"].items()})
     compared += rounded(line, ray["exact"])

@@ -15,6 +15,7 @@ from reference_tracer.explain.textbook import (
     judge,
     surface_steps,
 )
+from reference_tracer.projections import PROJECTIONS
 from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays
 from reference_tracer.tracer.nearest import within_clip
@@ -76,14 +77,25 @@ def test_planes_are_the_tracers(make, rng, kind):
 
 
 @pytest.mark.parametrize("kind", FLOATS)
-@pytest.mark.parametrize("orthographic", [False, True])
-def test_rays_are_the_cameras(make, kind, orthographic):
-    camera = make.camera(37, 23, eye=(3, -4, 5), target=(0.1, 0.2, 0), orthographic=orthographic)
+@pytest.mark.parametrize("projection", PROJECTIONS.values(), ids=PROJECTIONS)
+def test_rays_are_the_cameras(make, kind, projection):
+    camera = make.camera(37, 23, eye=(3, -4, 5), target=(0.1, 0.2, 0), projection=projection)
     for x, y in ((0, 0), (36, 22), (11, 7)):
         found = camera_steps(kind, camera, x, y)
         rays = camera_rays(camera, np.array([x + 0.5]), np.array([y + 0.5]), np.dtype(kind.value))
         np.testing.assert_array_equal(found["o"], rays.origins[:, 0])
         np.testing.assert_array_equal(found["d"], rays.directions[:, 0])
+
+
+def test_exactly_a_panoramas_ray_is_of_unit_length(make):
+    camera = make.camera(37, 23, projection=PROJECTIONS["equirectangular"])  # axes of integers
+    for x, y in ((0, 0), (36, 22), (11, 7)):
+        exact, near = (camera_steps(kind, camera, x, y) for kind in (Arithmetic.EXACT, FLOATS[1]))
+        assert abs(sum(v * v for v in exact["d"]) - 1) < Fraction(1, 1 << 1500)
+        for true, found in zip(exact["d"], near["d"].tolist(), strict=True):
+            assert abs(true - Fraction(found)) < Fraction(1, 1 << 50)
+    middle = camera_steps(Arithmetic.EXACT, camera, 18, 11)["d"]
+    assert middle.tolist() == [0, 0, -1]
 
 
 def test_exactly_the_weights_sum_to_one_and_make_x(rng):

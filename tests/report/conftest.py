@@ -11,6 +11,7 @@ from reference_tracer.compare.case import Case
 from reference_tracer.compare.comparison import compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
+from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance
 from reference_tracer.tracer.camera import camera_rays
@@ -29,12 +30,11 @@ HOSTILE = (
 FOREIGN = (0.1, 0.9, 0.3, 1.0)  # linear; no surface here has it
 
 
-def _scene(make, orthographic=False, float32=False, planes=True):
+def _scene(make, projection="perspective", float32=False, planes=True):
     """Return a ball, a box and a turned instance of it, before an infinite plane."""
-    half = 1.5 if orthographic else 0.28
-    camera = make.camera(
-        48, 36, half=half, eye=(3, -4, 2.2), target=(0, 0, 0), orthographic=orthographic
-    )
+    half = 1.5 if projection == "orthographic" else 0.28
+    eye, of = (3, -4, 2.2), PROJECTIONS[projection]
+    camera = make.camera(48, 36, half=half, eye=eye, target=(0, 0, 0), projection=of)
     ball = make.mesh(trimesh.creation.icosphere(2, radius=0.8), name=HOSTILE[0])
     box = make.mesh(trimesh.creation.box((0.9, 0.7, 1.3)), name=HOSTILE[1])
     if float32:

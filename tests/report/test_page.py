@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reference_tracer.images import to_display
+from reference_tracer.projections import PROJECTIONS
 from reference_tracer.rendering import render
 from reference_tracer.report import page
 from reference_tracer.report.comparison import failure_written
@@ -71,10 +72,10 @@ def test_packing_loses_nothing(rng, kind, shape):
     )
 
 
-@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("projection", PROJECTIONS)
 @pytest.mark.parametrize("float32", [False, True])
-def test_surfaces_and_t_are_those_of_the_frame(room, orthographic, float32):
-    scene = room(orthographic=orthographic, float32=float32)
+def test_surfaces_and_t_are_those_of_the_frame(room, projection, float32):
+    scene = room(projection=projection, float32=float32)
     frame = render(scene)
     seen = arrays.seen(frame)
     hit = seen.number > 0
@@ -136,7 +137,8 @@ def test_content_is_as_the_schema_says(differing, compared, room):
     only_a_plane = replace(room(), instances=(), meshes=())
     for comparison in (
         differing,
-        compared(room(orthographic=True, planes=False)),
+        compared(room(projection="orthographic", planes=False)),
+        compared(room(projection="equirectangular")),
         compared(only_a_plane),
     ):
         held = json.loads(page.json_text(whole(comparison)))

@@ -8,6 +8,7 @@ import struct
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
+from reference_tracer.projections import PROJECTIONS
 from reference_tracer.report.page import arrays
 from reference_tracer.tracer import plane
 from reference_tracer.tracer.camera import Rays, camera_rays, film_positions
@@ -54,10 +55,10 @@ def expected_bits(comparison, dtype):
 
 
 @pytest.mark.parametrize("precision", ["float64", "float32"])
-@pytest.mark.parametrize("orthographic", [False, True])
+@pytest.mark.parametrize("projection", PROJECTIONS)
 @pytest.mark.parametrize("stored", ["float64", "float32"])
-def test_derivations_have_the_tracers_bits(show, room, compared, precision, orthographic, stored):
-    comparison = compared(room(orthographic=orthographic, float32=stored == "float32"))
+def test_derivations_have_the_tracers_bits(show, room, compared, precision, projection, stored):
+    comparison = compared(room(projection=projection, float32=stored == "float32"))
     tab = show(comparison)
     found = np.frombuffer(base64.b64decode(tab.evaluate(DERIVE_ALL, precision)))
     expected = expected_bits(comparison, np.dtype(precision))
@@ -69,9 +70,9 @@ def test_derivations_have_the_tracers_bits(show, room, compared, precision, orth
     )
 
 
-@pytest.mark.parametrize("orthographic", [False, True])
-def test_the_traced_t_is_there_to_the_last_bit(show, room, compared, orthographic):
-    comparison = compared(room(orthographic=orthographic))
+@pytest.mark.parametrize("projection", PROJECTIONS)
+def test_the_traced_t_is_there_to_the_last_bit(show, room, compared, projection):
+    comparison = compared(room(projection=projection))
     tab = show(comparison)
     height, width = comparison.frame.t.shape
     found = tab.evaluate(

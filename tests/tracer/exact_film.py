@@ -49,7 +49,7 @@ class ExactFilm:
         """
         o, d = map(rational, self.rays(x, y))
         right, up, ahead = self.of(rational(points) - o)
-        if self.camera.projection.is_parallel:  # the ray begins at its own place
+        if self.camera.projection.shares_direction:  # the ray begins at its own place
             p, q = (
                 v / size + ([Fraction(int(k)) for k in pixel] + np.array(Fraction(1, 2)))
                 for v, size, pixel in ((right, self.size[0], x), (up, self.size[1], y))
@@ -73,7 +73,7 @@ class ExactFilm:
         edges, depth, towards = functions(o, d, corners)
         t = np.array([a / b if b else np.inf for a, b in zip(depth, towards, strict=True)])
         edges = edges[[1, 2, 0]] * self.factor
-        if self.camera.projection.is_parallel:
+        if self.camera.projection.shares_direction:
             return edges, towards * self.factor, t
         _, _, ahead = self.of(rational(d))
         return edges / ahead, depth * self.factor, t

@@ -57,7 +57,7 @@ def hostile_triangles(camera, scale, rng):
     depth *= np.where(rng.random(n) < 0.25, rng.choice([-1, 1, 0], (3, n)), 1)
     (width, height), w = pixel_size(camera), camera.window
     x, y = w.left + film[0] * width, w.bottom + film[1] * height
-    if not camera.projection.is_parallel:
+    if not camera.projection.shares_direction:
         x, y = (v * np.where(depth == 0, 1, np.abs(depth)) for v in (x, y))
     corners = [
         camera.origin[:, None]

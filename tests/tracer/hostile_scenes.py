@@ -104,7 +104,7 @@ def _backdrops(camera, rng) -> NDArray[np.float64]:
     out = []
     for k, (x, y) in enumerate(((-4, -4), (4, -4), (0, 4))):
         far = depth * slant[k]
-        along = 1.0 if camera.projection.is_parallel else far
+        along = 1.0 if camera.projection.shares_direction else far
         x, y = (middle[0] + x * half[0]) * along, (middle[1] + y * half[1]) * along
         out.append(
             camera.origin[:, None]
@@ -177,7 +177,7 @@ def scaled_camera(camera: Camera, factor: float) -> Camera:
     """Return a camera with all lengths times a power of two."""
     window, matrix = camera.window, camera.world_from_camera.copy()
     matrix[:3, 3] *= factor
-    if camera.projection.is_parallel:
+    if camera.projection.shares_direction:
         window = ViewWindow(*(v * factor for v in vars(window).values()))
     ends = {k: getattr(camera, k) * factor for k in ("clip_start", "clip_end")}
     return replace(camera, world_from_camera=matrix, window=window, **ends)

@@ -97,7 +97,7 @@ def camera_ray(camera: Camera, pixel: int) -> tuple[list[Fraction], list[Fractio
         [Fraction(c) for c in column] for column in camera.world_from_camera.T[:, :3].tolist()
     )
     aside = [u * a + v * b for a, b in zip(right, up, strict=True)]
-    if camera.projection.is_parallel:
+    if camera.projection.shares_direction:
         return [e + a for e, a in zip(eye, aside, strict=True)], [-b for b in back]
     return eye, [a - b for a, b in zip(aside, back, strict=True)]
 
@@ -165,7 +165,7 @@ def _of_ray(o, d, triangles, planes, clip, projection) -> set[Answer]:
     points = [p for _, corners in triangles for p in corners] + [p for _, p, _ in planes]
     (o, *points), length = _integers([o, *points])
     [d], direction = _integers([d])
-    image, count = _Image(o, d, projection.is_parallel), 3 * len(triangles)
+    image, count = _Image(o, d, projection.shares_direction), 3 * len(triangles)
     found = [
         image.triangle(name, points[3 * k : 3 * k + 3]) for k, (name, _) in enumerate(triangles)
     ]

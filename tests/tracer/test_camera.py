@@ -57,7 +57,7 @@ def test_corners_are_those_of_the_view_window(camera):
     ):
         origin, direction = one(camera, px, py)
         offset = x * camera.right + y * camera.up
-        if camera.projection.is_parallel:
+        if camera.projection.shares_direction:
             assert np.allclose(origin, camera.origin + offset, rtol=0, atol=64 * EPS)
             assert np.array_equal(direction, camera.forward)
         else:
@@ -148,7 +148,7 @@ def test_directions_do_not_depend_on_the_place(camera):
     here = camera_rays(camera, px, px)
     there = camera_rays(replace(camera, world_from_camera=far), px, px)
     assert np.array_equal(here.directions, there.directions)
-    assert here.directions.shape[1] == (1 if camera.projection.is_parallel else 1001)
+    assert here.directions.shape[1] == (1 if camera.projection.shares_direction else 1001)
 
 
 def test_float32_is_near(camera, rng):

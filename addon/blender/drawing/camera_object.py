@@ -9,10 +9,9 @@ from mathutils import Matrix
 
 from ...scene import Camera
 from ...tracer.camera import pixel_size
+from ..versions import lens
 
 LEAST_CLIP = 1e-6  # metres: Blender's own limit
-_SENSOR = 36.0  # millimetres; what Blender's own cameras have
-_LEAST_LENS = 1.0  # millimetres: Blender's least focal length
 
 
 def add_camera(scene: Any, camera: Camera) -> Any:
@@ -36,16 +35,11 @@ def place_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera for the picture that a Blender scene has, and make it the active one."""
     w = camera.window
     data: Any = bpy.data.cameras.new(camera.name)
-    extent = w.right - w.left
     data.sensor_fit = "HORIZONTAL"
-    data.type = camera.projection.blender
-    if camera.projection.is_parallel:
-        data.ortho_scale = extent
-    else:
-        data.lens = max(_SENSOR / extent, _LEAST_LENS)
-        data.sensor_width = max(_SENSOR, _LEAST_LENS * extent)
-    data.shift_x = (w.left + w.right) / 2 / extent
-    data.shift_y = (w.bottom + w.top) / 2 / extent
+    settings = camera.projection.settings((w.left, w.right, w.bottom, w.top))
+    data.type = settings.pop("type")
+    for name, value in settings.items():
+        setattr(lens(data), name, value)
     data.clip_start = camera.clip_start
     data.clip_end = camera.clip_end
     obj = bpy.data.objects.new(camera.name, data)

@@ -11,7 +11,7 @@ from .judge import Judge
 from .viewport import VIEWPORT
 from .workbench import WORKBENCH
 
-AUTO = "AUTO"  # the viewport in a window, Workbench in background
+AUTO = "AUTO"  # the viewport in a window, Workbench in background; Cycles of a panorama
 
 JUDGES = {judge.name: judge for judge in (VIEWPORT, WORKBENCH, CYCLES)}
 
@@ -21,18 +21,22 @@ def choices() -> dict[str, Judge]:
     return {name: judge for name, judge in JUDGES.items() if judge.number is not None}
 
 
-def judge_named(name: str, background: bool) -> Judge:
+def judge_named(name: str, background: bool, is_panorama: bool = False) -> Judge:
     """Return the judge of a name; for AUTO, the one that draws with or without a window.
 
     Raises
     ------
     SceneError
-        If there is none of that name.
+        If there is none of that name, or it rasterises, which makes no panorama.
     """
-    if name == AUTO:
-        return WORKBENCH if background else VIEWPORT
-    if name.lower() not in JUDGES:
-        from ...scene import SceneError
+    from ...scene import SceneError
 
+    if name == AUTO:
+        rasteriser = WORKBENCH if background else VIEWPORT
+        return CYCLES if is_panorama else rasteriser
+    if name.lower() not in JUDGES:
         raise SceneError(f"There is no judge '{name}': choose one of auto, {', '.join(JUDGES)}.")
-    return JUDGES[name.lower()]
+    judge = JUDGES[name.lower()]
+    if is_panorama and not judge.traces_rays:
+        raise SceneError(f"{judge.label} draws no panoramas: compare with Cycles.")
+    return judge

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ...projections import ORTHOGRAPHIC, PERSPECTIVE
-from ...scene import Camera, Region, ViewWindow
+from ...scene import Camera, Region, SceneError, ViewWindow
 from ...tracer.camera import film_of
 from ..reading.camera import border_region, projection_of
 
@@ -39,19 +39,22 @@ def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
     through = None
     if region_3d.view_perspective == "CAMERA":
         through = space.camera if space.use_local_camera else scene.camera
-    if through:
-        projection_of(through, scene)  # or an error
+    if through and not projection_of(through, scene).is_linear:
+        raise SceneError(
+            f"Camera '{through.name}' is a panorama, which a 3D view does not show: leave the "
+            "camera's view, or render (F12)."
+        )
     own = through.data if through else space
     start = own.clip_start
     end = own.clip_end
     p = np.array(region_3d.window_matrix, np.float64)
-    is_parallel = p[3, 3] != 0
-    if is_parallel and not through:  # Blender looks both ways
+    projection = ORTHOGRAPHIC if p[3, 3] else PERSPECTIVE
+    if projection.sees_behind and not through:  # Blender looks both ways
         start = -end / 2
         end = end / 2
     # Where -1 and 1 are: P00 u - P02 = -1 or 1 at u = cx / w in perspective, as cz / w = -1 there;
     # P00 u + P03 else.
-    middle = -p[:2, 3] if is_parallel else p[:2, 2]
+    middle = -p[:2, 3] if projection.shares_direction else p[:2, 2]
     scale = p[[0, 1], [0, 1]]
     left, bottom = ((middle - 1) / scale).tolist()
     right, top = ((middle + 1) / scale).tolist()
@@ -60,7 +63,7 @@ def camera_of(region: Any, region_3d: Any, space: Any, scene: Any) -> Camera:
         window=ViewWindow(left, right, bottom, top),
         width=region.width,
         height=region.height,
-        projection=ORTHOGRAPHIC if is_parallel else PERSPECTIVE,
+        projection=projection,
         clip_start=start,
         clip_end=end,
         name=through.name if through else "3D view",

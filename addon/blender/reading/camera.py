@@ -2,7 +2,8 @@
 
 The rules are Blender's own (its view plane from lens, sensor, shift and pixel aspect; its float32
 rounding of the border), in float64 from the float32 settings. `Object.calc_matrix_camera` is what
-they are held to: of each export by its certificate. Nothing here needs bpy itself.
+they are held to: of each export by its certificate. (It knows no panoramas: a test holds their
+rays against those of Cycles.)
 """
 
 from __future__ import annotations
@@ -14,7 +15,9 @@ import numpy as np
 from ...arrays import Floats
 from ...compare.certificate import CameraCertificate, certify, known_points
 from ...projections import PROJECTIONS, Projection
+from ...projections.projection import Edges
 from ...scene import Camera, Region, SceneError, ViewWindow, check_size
+from ..versions import lens
 
 
 def border_region(
@@ -44,7 +47,7 @@ def pixel_height(render: Any) -> float:
 
 
 def window_of(scene: Any) -> ViewWindow:
-    """Return what the camera of a `bpy.types.Scene` shows, at depth 1, or in metres."""
+    """Return what the camera of a `bpy.types.Scene` shows, in its type's units."""
     data, render = scene.camera.data, scene.render
     width, height = resolution(render)
     tall, vertical = pixel_height(render), data.sensor_fit == "VERTICAL"
@@ -54,15 +57,19 @@ def window_of(scene: Any) -> ViewWindow:
         across = np.float32(render.pixel_aspect_x) * np.float32(width)
         vertical = across < np.float32(render.pixel_aspect_y) * np.float32(height)
     fitted = tall * height if vertical else width  # length of that side, in pixel widths
-    extent = data.ortho_scale if data.type == "ORTHO" else sensor / data.lens
-    size = extent / fitted  # width of a pixel
     x, y = data.shift_x * fitted, data.shift_y * fitted  # which are in lengths of that side
-    return ViewWindow(
-        left=(x - 0.5 * width) * size,
-        right=(x + 0.5 * width) * size,
-        bottom=(y - 0.5 * tall * height) * size,
-        top=(y + 0.5 * tall * height) * size,
-    )
+
+    def around(extent: float) -> Edges:
+        size = extent / fitted  # width of a pixel
+        return (
+            (x - 0.5 * width) * size,
+            (x + 0.5 * width) * size,
+            (y - 0.5 * tall * height) * size,
+            (y + 0.5 * tall * height) * size,
+        )
+
+    projection = projection_of(scene.camera, scene)
+    return ViewWindow(*projection.window(data, lens(data), sensor, around))
 
 
 def camera_axes(matrix_world: Any, name: str) -> np.ndarray:
@@ -94,12 +101,15 @@ def projection_of(obj: Any, scene: Any) -> Projection:
             "make a camera object active."
         )
     projections = {p.blender: p for p in PROJECTIONS.values()}
-    if obj.data.type not in projections:
+    kind = getattr(lens(obj.data), "panorama_type", "PANO")
+    kind = kind if obj.data.type == "PANO" else obj.data.type
+    if kind not in projections:
+        *first, last = PROJECTIONS
         raise SceneError(
-            f"Camera '{obj.name}' is of type {obj.data.type.lower()}; Reference Tracer models "
-            f"{' and '.join(PROJECTIONS)} cameras."
+            f"Camera '{obj.name}' is of type {kind.lower()}; Reference Tracer models "
+            f"{', '.join(first)} and {last} cameras."
         )
-    return projections[obj.data.type]
+    return projections[kind]
 
 
 def export_camera(scene: Any) -> Camera:
@@ -137,8 +147,13 @@ def export_camera(scene: Any) -> Camera:
     )
 
 
-def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate:
-    """Return how far apart the camera exported of a scene and Blender's own see known points."""
+def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate | None:
+    """Return how far apart the camera exported of a scene and Blender's own see known points.
+
+    None for a panorama, of which Blender has no matrix.
+    """
+    if not camera.projection.is_linear:
+        return None
     points = known_points(camera)
     return certify(camera, points, _film(scene, depsgraph, points))
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
 from ...arrays import Bools, Floats
+from ...projections import ORTHOGRAPHIC
 from ...scene import Camera, Plane, ViewWindow
 from ...tracer.camera import dual_axes, pixel_size
 
@@ -19,6 +21,7 @@ _SLACK = 2.0**-20
 
 def volume_corners(camera: Camera) -> Floats:
     """Return the eight corners of the view volume, (8, 3) world space; bits: x, y, depth."""
+    camera = _linear(camera)
     w = _window(camera)
     out = []
     for depth, y, x in product(_depths(camera), (w.bottom, w.top), (w.left, w.right)):
@@ -63,6 +66,15 @@ def outside(
     return found
 
 
+def _linear(camera: Camera) -> Camera:
+    """Return a camera whose view volume holds this one's, with flat sides: of a panorama a box."""
+    if camera.projection.is_linear:
+        return camera
+    end = camera.clip_end
+    window = ViewWindow(-end, end, -end, end)
+    return replace(camera, projection=ORTHOGRAPHIC, window=window, clip_start=-end)
+
+
 def _window(camera: Camera) -> ViewWindow:
     w = camera.window
     x, y = pixel_size(camera)
@@ -79,6 +91,7 @@ def _depths(camera: Camera) -> tuple[float, float]:
 
 def _sides(camera: Camera) -> tuple[Floats, Floats]:
     """Return normals (6, 3) and offsets (6,): n . (p - origin) + offset >= 0 within a side."""
+    camera = _linear(camera)
     # The axes need not be orthonormal: a point's coordinates are its products with their dual.
     x, y, depth = dual_axes(camera)
     w = _window(camera)

@@ -35,7 +35,12 @@ SHADINGS: tuple[Item, ...] = (
 )
 
 JUDGES: tuple[Item, ...] = (
-    (judges.AUTO, "Automatic", "The viewport in a window, Workbench in background", 0),
+    (
+        judges.AUTO,
+        "Automatic",
+        "The viewport in a window, Workbench in background; Cycles of a panorama",
+        0,
+    ),
     *(
         (name.upper(), judge.label, judge.description, judge.number or 0)
         for name, judge in judges.choices().items()

@@ -103,7 +103,7 @@ def set_up(
     sure = (amount > error) & np.isfinite(amount)
     coefficients[:, :3] *= np.where(volume < 0, -1.0, 1.0)
     orientation = amount, error, edge_error
-    if film.camera.projection.is_parallel:
+    if film.camera.projection.shares_direction:
         depths = [gather(vertices.depth, corner) for corner in corners]
         nearness_error, largest_depth = _parallel(film, coefficients, orientation, depths, size)
         terms = terms * largest_depth

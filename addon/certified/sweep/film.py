@@ -93,7 +93,7 @@ class Film:
     @cached_property
     def is_sound(self) -> bool:
         """Whether the bounds hold; if not, they are infinite."""
-        parallel = self.camera.projection.is_parallel
+        parallel = self.camera.projection.shares_direction
         return has_sound_axes(self.camera) and (parallel or self.ray_error <= 0.25)
 
     @cached_property
@@ -106,7 +106,7 @@ class Film:
         c = self.camera
         reach = self._reach[0] + self._reach[1]
         axes = np.abs((c.right, c.up, c.forward)).max()
-        parallel = c.projection.is_parallel
+        parallel = c.projection.shares_direction
         length = np.abs(c.origin).max() + axes * reach if parallel else axes * (1 + reach)
         return 24 * _EPS * self._spread * length
 
@@ -121,7 +121,7 @@ class Film:
         slope = 0.0
         for start, size, reach in zip(window, pixel_size(c), self._reach, strict=True):
             film = SAFETY * _EPS * (abs(start / size) + c.width + c.height)
-            if c.projection.is_parallel:
+            if c.projection.shares_direction:
                 slope = max(slope, (SAFETY + 8) * _EPS * self._spread / size)
                 constant = max(constant, film + 2 * self.ray_error / size)
             else:  # |w| <= spread * size; an error along the axis moves a ray by its film position
@@ -135,7 +135,7 @@ class Film:
         """c: w of a vertex is off by at most c size."""
         if not self.is_sound:
             return np.inf
-        return 0.0 if self.camera.projection.is_parallel else SAFETY * _EPS * self._spread
+        return 0.0 if self.camera.projection.shares_direction else SAFETY * _EPS * self._spread
 
     @cached_property
     def depth_error(self) -> tuple[float, float]:
@@ -144,7 +144,7 @@ class Film:
 
     def nearest(self, depth: Floats, size: Floats) -> Floats:
         """Bound the nearness of what is seen of vertices from above, (n,)."""
-        if self.camera.projection.is_parallel:
+        if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return (constant + slope * size) - depth
         before = np.maximum(depth - self.weight * size, self.camera.clip_start)
@@ -152,7 +152,7 @@ class Film:
 
     def certain_nearness(self, depth: Floats) -> Floats:
         """Return the nearness of `certain` vertices, (n,)."""
-        return -depth if self.camera.projection.is_parallel else 1 / depth
+        return -depth if self.camera.projection.shares_direction else 1 / depth
 
     def certain_error(self, nearness: Floats) -> Floats | float:
         """Bound the error of the nearness of `certain` vertices that are at most this near.
@@ -160,7 +160,7 @@ class Film:
         For certain vertices, `weight` size / w is at most DELTA / 4 / the picture's size in pixels;
         for parallel rays, the slope of `place` times size is at most DELTA / 2.
         """
-        if self.camera.projection.is_parallel:
+        if self.camera.projection.shares_direction:
             constant, slope = self.depth_error
             return constant + slope * (DELTA / self.place[1])
         far = max(self.camera.width, self.camera.height)

@@ -78,7 +78,7 @@ class SmallTriangles:
         right, up, w = (
             d[0] * columns[0] + d[1] * columns[1] + d[2] * columns[2] for d in film.dual
         )
-        if camera.projection.is_parallel:
+        if camera.projection.shares_direction:
             w = np.zeros_like(right)
             w[3] = 1
         window = camera.window

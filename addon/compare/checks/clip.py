@@ -75,6 +75,6 @@ def _widened(camera: Camera) -> Camera:
     view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
     before, behind = depth_resolution(camera, ends, view)
     start = camera.clip_start - before
-    if not camera.projection.is_parallel:
+    if not camera.projection.sees_behind:
         start = max(start, camera.clip_start / 2)
     return replace(camera, clip_start=start, clip_end=camera.clip_end + behind)

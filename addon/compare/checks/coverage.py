@@ -15,7 +15,7 @@ import numpy as np
 
 from ...arrays import Array, Bools, Floats, Index
 from ...tracer import plane, shading
-from ...tracer.camera import film_of
+from ...tracer.camera import film_beside
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import test_pairs, test_planes
 from ...tracer.progress import Work
@@ -84,9 +84,8 @@ def _around_centre(probe: Probe, some: Pairs) -> Floats:
     """Return corners on the film, (3, 2, p) pixels from the pixel's centre; NaN behind the eye."""
     out = np.empty((3, 2, len(some.pixel)))
     for corner, place in zip(some.corners, out, strict=True):
-        x, y, _ = film_of(probe.scene.camera, corner.astype(np.float64))
-        place[0] = x - probe.px[some.pixel]
-        place[1] = y - probe.py[some.pixel]
+        px, py = probe.px[some.pixel], probe.py[some.pixel]
+        place[:] = film_beside(probe.scene.camera, corner.astype(np.float64), px, py)
     return out
 
 

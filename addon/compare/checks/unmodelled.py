@@ -19,7 +19,7 @@ import numpy as np
 from ...arrays import Bools, Floats, Integers
 from ...manifest import Effect
 from ...scene import Camera
-from ...tracer.camera import film_of
+from ...tracer.candidates import pixel_bounds
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work, scaled
@@ -172,22 +172,9 @@ def name_drawn(pixels: OpenPixels) -> Work[None]:
 
 def covered(camera: Camera, bounds: Floats) -> Bools:
     """Return which pixels of the camera's region a world-space box (2, 3) may cover, (h, w)."""
+    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8).T
+    x0, x1, y0, y1 = pixel_bounds(camera, corners[..., None], reach=0.5)[:, 0]
     r = camera.region
-    corners = np.array(np.meshgrid(*bounds.T)).reshape(3, 8)
-    px, py, depth = film_of(camera, corners)
     out = np.zeros((r.height, r.width), bool)
-    if np.max(depth) < camera.clip_start or np.min(depth) > camera.clip_end:
-        return out
-    if not camera.projection.is_parallel and np.min(depth) <= camera.clip_start:
-        return ~out  # around the eye: anywhere
-    rows = _covered(py, r.y0, r.y1)
-    columns = _covered(px, r.x0, r.x1)
-    out[rows, columns] = True
+    out[y0 - r.y0 : y1 - r.y0, x0 - r.x0 : x1 - r.x0] = True
     return out
-
-
-def _covered(film: Floats, first: int, end: int) -> slice:
-    """Return which rows or columns of a region lie between film positions."""
-    start = int(max(np.floor(np.min(film)) - first, 0))
-    stop = int(np.ceil(min(np.max(film), end)) - first)
-    return slice(start, max(stop, 0))

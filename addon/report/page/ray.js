@@ -7,14 +7,17 @@ const column = (k, sign = 1) => camera.world_from_camera.slice(0, 3).map((row) =
 const AXES = { right: column(0), up: column(1), forward: column(2, -1), origin: column(3) };
 
 // What tells the types of cameras apart, by their `orthographic`: how their rays begin and where they
-// go, as formulas and as arithmetic. `across` is u right + v up.
+// go, as formulas and as arithmetic, of a film position u, v.
 const CAMERAS = new Map([
   [
     false,
     {
       origin: "o = camera",
       direction: "d = u right + v up + forward",
-      ray: (axes, across, plus) => [axes.origin, plus(across, axes.forward)],
+      ray: (axes, u, v, { plus, times }) => [
+        axes.origin,
+        plus(plus(times(u, axes.right), times(v, axes.up)), axes.forward),
+      ],
     },
   ],
   [
@@ -22,23 +25,57 @@ const CAMERAS = new Map([
     {
       origin: "o = camera + u right + v up",
       direction: "d = forward",
-      ray: (axes, across, plus) => [plus(axes.origin, across), axes.forward],
+      ray: (axes, u, v, { plus, times }) => [
+        plus(axes.origin, plus(times(u, axes.right), times(v, axes.up))),
+        axes.forward,
+      ],
+    },
+  ],
+  [
+    "equirectangular",
+    {
+      origin: "o = camera",
+      direction: "d = cos v sin u right + sin v up + cos v cos u forward",
+      ray: (axes, u, v, { round, mul, plus, times }) => {
+        const level = round(sine(v, 1));
+        const east = times(mul(level, round(sine(u, 0))), axes.right);
+        const ahead = times(mul(level, round(sine(u, 1))), axes.forward);
+        return [axes.origin, plus(plus(east, times(round(sine(v, 0)), axes.up)), ahead)];
+      },
     },
   ],
 ]);
+
+// pi / 2, in parts.
+const QUARTER = [1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21];
+
+/** The sine of an angle plus so many right angles, as `projections/sine.py` has it. */
+function sine(angle, quarters) {
+  const turns = Math.floor(angle * (2 / Math.PI) + 0.5);
+  const rest = QUARTER.reduce((left, part) => left - turns * part, angle);
+  const series = (first) => {
+    let out = 1;
+    for (let k = first + 16; k > 0; k -= 2) out = 1 - ((rest * rest) / (k * (k + 1))) * out;
+    return out;
+  };
+  const quarter = (((turns + quarters) % 4) + 4) % 4;
+  const found = quarter % 2 ? series(1) : rest * series(2);
+  return quarter < 2 ? found : -found;
+}
+
 const projection = CAMERAS.get(camera.orthographic);
 
-/** The ray x = o + t d through the centre of a pixel; t is the depth along the view axis. */
+/** The ray x = o + t d through the centre of a pixel. */
 function cameraRay(x, y, precision) {
-  const { round, add, mul, plus, times } = arithmetic(precision);
+  const numbers = arithmetic(precision);
+  const { round, add, mul } = numbers;
   const { left, right, bottom, top } = camera.window;
   const film = [x + camera.region.x0 + 0.5, y + camera.region.y0 + 0.5];
   const size = [(right - left) / camera.width, (top - bottom) / camera.height].map(round);
   const u = add(round(left), mul(round(film[0]), size[0]));
   const v = add(round(bottom), mul(round(film[1]), size[1]));
   const axes = Object.fromEntries(Object.entries(AXES).map(([name, a]) => [name, a.map(round)]));
-  const across = plus(times(u, axes.right), times(v, axes.up));
-  const [origin, direction] = projection.ray(axes, across, plus);
+  const [origin, direction] = projection.ray(axes, u, v, numbers);
   return { film, size, u, v, origin, direction };
 }
 

@@ -27,7 +27,7 @@ def film(orthographic=False, place=(0.0, 0.0), weight=0.0, depth=(0.0, 0.0), ray
         weight=weight,
         depth_error=depth,
         ray_error=ray,
-        camera=SimpleNamespace(projection=SimpleNamespace(is_parallel=orthographic)),
+        camera=SimpleNamespace(projection=SimpleNamespace(shares_direction=orthographic)),
     )
 
 

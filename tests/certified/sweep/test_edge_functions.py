@@ -65,7 +65,7 @@ def slivers(camera, corners, rng):
 def edge_on(camera, corners, rng):
     """In a plane with the rays of a line on the film, as near as floats get."""
     a, b, _ = corners
-    parallel = camera.projection.is_parallel
+    parallel = camera.projection.shares_direction
     towards = camera.forward[:, None] if parallel else a - camera.origin[:, None]
     return np.stack((a, b, b + rng.uniform(-1, 1, a.shape[1]) * towards))
 
@@ -140,8 +140,8 @@ def test_functions_are_off_by_no_more_than_they_say(make):
                     assert inside and min(true) > 0, seed
                     count["surely inside"] += 1
                 start = film.camera.clip_start
-                if sure and inside and (t[k] >= start or film.camera.projection.is_parallel):
-                    near = -t[k] if film.camera.projection.is_parallel else 1 / t[k]
+                if sure and inside and (t[k] >= start or film.camera.projection.shares_direction):
+                    near = -t[k] if film.camera.projection.shares_direction else 1 / t[k]
                     error = found.nearness_error[row]
                     assert near <= found.nearest[row], seed
                     if np.isfinite(error):

@@ -52,7 +52,7 @@ def test_every_ray_sees_a_vertex_within_the_bounds(make, orthographic):
     for seed in range(CAMERAS):
         rng = np.random.default_rng(seed)
         camera, corners = sound_camera(make, rng)
-        if camera.projection.is_parallel != orthographic:
+        if camera.projection.shares_direction != orthographic:
             continue
         film = Film(camera, *offsets(rng))
         world = np.concatenate(list(corners), axis=1)[:, rng.permutation(120)[:12]]
@@ -104,9 +104,12 @@ def test_rays_are_off_by_no_more_than_is_claimed(make):
         exact = ExactFilm(camera, film.dx, film.dy)
         x, y = some_pixels(camera, 6, rng)
         o, d = exact.rays(x, y)
-        stored, base = (o, camera.origin) if camera.projection.is_parallel else (d, np.zeros(3))
+        stored, base = (
+            (o, camera.origin) if camera.projection.shares_direction else (d, np.zeros(3))
+        )
         right, up, ahead = exact.of(rational(stored) - rational(base)[:, None])
-        errors = [abs(ahead - (0 if camera.projection.is_parallel else 1))]
+        along = camera.projection.shares_direction
+        errors = [abs(ahead - (0 if along else 1))]
         for value, start, size, pixel, beside in (
             (right, exact.start[0], exact.size[0], x, film.dx),
             (up, exact.start[1], exact.size[1], y, film.dy),
@@ -143,7 +146,7 @@ def test_boxes_hold_every_pixel_that_is_hit(make):
             t = found.t(n)
             if t >= camera.clip_start:
                 bound = Fraction(nearest[k[n]])
-                assert bound >= (-t if camera.projection.is_parallel else 1 / t), seed
+                assert bound >= (-t if camera.projection.shares_direction else 1 / t), seed
                 hits += 1
         outside_boxes += (~inside).sum()
         unseen += 16 - len(ahead)

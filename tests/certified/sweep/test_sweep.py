@@ -88,7 +88,7 @@ def test_as_the_ladder_with_every_ray_and_every_triangle(make, part):
         count["nothing"] += (found.instance == NOTHING).sum()
         for certainty in Certainty:
             count[certainty.name] += (found.certainty == certainty).sum()
-        count["orthographic"] += camera.projection.is_parallel
+        count["orthographic"] += camera.projection.shares_direction
         count["borders"] += (region.width, region.height) != (camera.width, camera.height)
         count["beside"] += beside != (0, 0)
         count["mirrored"] += (np.linalg.slogdet(scene.instance_matrices[:3, :3].T)[0] < 0).any()

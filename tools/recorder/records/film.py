@@ -85,7 +85,7 @@ def of(v: Inputs, projection: Projection, *known: str) -> Film:
     numbers = {
         "place": lambda: (v.scalar("c0"), v.scalar("c1")),
         "depth_error": lambda: (v.scalar("d0"), v.scalar("d1")),
-        "weight": lambda: 0.0 if projection.is_parallel else v.scalar("weight"),
+        "weight": lambda: 0.0 if projection.shares_direction else v.scalar("weight"),
         "ray_error": lambda: v.scalar("ray_error"),
         "dual": lambda: v.stacked(
             [v.vector(f"{row}_x {row}_y {row}_z").reshape(-1) for row in ("right", "up", "depth")]
@@ -130,10 +130,10 @@ def _pairs() -> Iterator[Record]:
         yield Record(
             prefix,
             "film.Film.enter",
-            {k: v for k, v in _ENTER.items() if not (of.is_parallel and k == "weight")},
+            {k: v for k, v in _ENTER.items() if not (of.shares_direction and k == "weight")},
             lambda v, prefix=prefix, of=of: _enter(v, prefix, of),
             {
-                f"{prefix}_{k}": _PROVEN[what][of.is_parallel]
+                f"{prefix}_{k}": _PROVEN[what][of.shares_direction]
                 for what, names in _THEOREMS
                 for k in names.split()
             },
@@ -144,9 +144,9 @@ def _pairs() -> Iterator[Record]:
         yield Record(
             f"film_ray_error_{name}",
             "film.Film.ray_error",
-            reach | AXES | (PLACE if of.is_parallel else {}),
+            reach | AXES | (PLACE if of.shares_direction else {}),
             _of_film(lambda f, _, name=name: {f"film_ray_error_{name}": f.ray_error}, of),
-            {f"film_ray_error_{name}": _PROVEN["ray_error"][of.is_parallel]},
+            {f"film_ray_error_{name}": _PROVEN["ray_error"][of.shares_direction]},
             of.name,
             DOMAIN,
         )
@@ -157,7 +157,7 @@ def _pairs() -> Iterator[Record]:
             _of_film(_place(f"film_place_{name}"), of, "ray_error"),
             dict.fromkeys(
                 (f"film_place_{name}_constant", f"film_place_{name}_slope"),
-                _PROVEN["place"][of.is_parallel],
+                _PROVEN["place"][of.shares_direction],
             ),
             of.name,
             DOMAIN,

@@ -1,0 +1,174 @@
+"""What a type of camera says of itself: a subclass each, in a file of its own, with its formulas.
+
+The defaults are those of a camera whose rays all begin in the eye, with a flat film: its picture is
+linear in the film position, and straight lines are straight in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..arrays import Floats
+
+Vectors = Floats  # (3, ...)
+Formulas = dict[str, tuple[str, str]]  # of "o" and "d": the right side, and a remark
+Edges = tuple[float, float, float, float]  # of a view window: left, right, bottom, top
+
+
+@dataclass(frozen=True)
+class Projection:
+    """A type of camera. World vectors are (3, n) or (3, 1), film positions (n,), window units."""
+
+    name: ClassVar[str]
+    in_files: ClassVar[bool | str]  # their "orthographic"; of a third type, its name
+    blender: ClassVar[str]  # `versions.camera_kind` of Blender's camera
+    # A ray's origin and direction, for readers.
+    formulas: ClassVar[Formulas]
+    # Whether o and d are linear in the film position. Only then the sweep can find what is seen.
+    # Else all rays begin in the eye, and what the axes are multiplied by is at most 1.
+    is_linear: ClassVar[bool] = True
+    shares_direction: ClassVar[bool] = False  # else all rays share their origin, the eye
+    sees_behind: ClassVar[bool] = False  # the clip range may begin behind the camera
+    farthest: ClassVar[float] = np.inf  # window units: the film ends before this
+
+    def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
+        """Return origins and directions of the rays through film positions (x, y)."""
+        raise NotImplementedError
+
+    def terms(self, x: float, y: float, frame: Floats) -> Floats:
+        """Return the sum of the absolute terms of a ray, by component, (3,).
+
+        It bounds the rounding of a ray as `certified/rounding.py` has it. `x` and `y` bound the
+        absolute terms of a film position; `frame` (4, 3) is right, up, forward and the eye.
+        """
+        right, up, forward, _ = frame
+        return np.abs([x * right, y * up, forward]).sum(axis=0)
+
+    def scale(self, depth: Any, y: Any = 0.0) -> Any:
+        """Return how many metres the window's unit is at a depth (t), at height y of the film."""
+        return depth
+
+    def slant(self, reach: float) -> float:
+        """Return how far an error of 1 in every coordinate moves a point on a window's plane."""
+        return 1 + reach
+
+    def film(self, xyz: Vectors, middle: float) -> tuple[Floats, Floats, Floats]:
+        """Return where points appear on the film, and their t, (n,) each; NaN where nowhere.
+
+        `xyz` (3, n) is right, up, depth, in metres; `middle` is the x of the window's middle.
+        """
+        x, y, depth = xyz
+        scale = self.scale(np.where(depth > 0, depth, np.nan))
+        return x / scale, y / scale, depth
+
+    def beside(self, xyz: Vectors, x: Floats, y: Floats) -> tuple[Floats, Floats]:
+        """Return how far from film positions (n,) points appear, where lines are straight."""
+        u, v, _ = self.film(xyz, 0.0)
+        return u - x, v - y
+
+    def box(
+        self, xyz: Vectors, error: Floats, clip_start: float, edges: Edges, eps: float
+    ) -> tuple[list[Floats], list[Floats], Floats, Floats]:
+        """Return what rays that hit polygons have at least and at most: their film position, and t.
+
+        Parameters
+        ----------
+        xyz : (3, k, m) float64
+            Right, up and depth of the k corners of m convex polygons, metres.
+        error : (m,) float64
+            How far they may be off.
+        clip_start : float
+            What lies before it does not count.
+        edges : Edges
+            Rays do not pass outside.
+        eps : float
+            That of the rays' own floating-point type.
+
+        Returns
+        -------
+        low, high : [x, y], (m,) float64 each
+            NaN where they are not known.
+        nearest, farthest : (m,) float64
+        """
+        *sides, depth = xyz
+        nearest, farthest = depth.min(axis=0) - error, depth.max(axis=0) + error
+        front = np.maximum(nearest, clip_start)  # what can be seen is at least as deep
+        ends = [self.window_range(v, depth, error, front, clip_start) for v in sides]
+        return [low for low, _ in ends], [high for _, high in ends], nearest, farthest
+
+    def window_range(
+        self, value: Floats, depth: Floats, error: Floats, front: Floats, clip_start: float
+    ) -> tuple[Floats, Floats]:
+        """Return where m polygons, from `front` on, lie on the window: lowest, highest, (m,) each.
+
+        `value` and `depth`, (k, m), are the corners' right or up, and depth, metres, off by at most
+        `error` (m,); `front` (m,) is the least depth of what can be seen of each.
+        """
+        smallest, largest = value.min(axis=0) - error, value.max(axis=0) + error
+        end = np.maximum(depth.max(axis=0) + error, front)
+        low = np.where(smallest < 0, smallest / front, smallest / end)
+        high = np.where(largest > 0, largest / front, largest / end)
+        # Where no corner is near the eye plane, the corners' own quotients bound.
+        whole = depth.min(axis=0) - error >= clip_start
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            quotient = value / depth
+            margin = error * (1 + np.abs(quotient)) / (depth - error)
+            low = np.where(whole, (quotient - margin).min(axis=0), low)
+            high = np.where(whole, (quotient + margin).max(axis=0), high)
+        return low, high
+
+    def sides(self, across: Floats, depth: Floats, edges: Floats) -> tuple[Floats, Floats]:
+        """Return normals (4, 3) and offsets (4,) of the view volume's sides: here a pyramid's.
+
+        `across` (4, 3), towards each side, and `depth` (3,) are rows of the inverse of the axes;
+        `edges` (4,) is where the window ends on each side.
+        """
+        return across - edges[:, None] * depth, np.zeros(4)
+
+    def depths(self, rng: np.random.Generator, ends: Floats, count: int) -> Floats:
+        """Return depths all over a clip range, (count,): as many near the camera as far away."""
+        start, end = np.log(ends)
+        return np.exp(rng.uniform(start, end, count))
+
+    def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Any:
+        """Return the step of a depth buffer at a depth; `step` is that of equal steps, metres."""
+        return step * depth**2 / (end * start)
+
+    def nearness(self, low: Any, high: Any, room: float) -> tuple[Any, Any]:
+        """Return least and most 1 / t between two t, which are not negative, high perhaps inf.
+
+        `room` is for rounding, relative; where it is negative the range is surely covered.
+        """
+        return (1 - room) / high, (1 + room) / np.maximum(low, 0)
+
+    def window(
+        self, data: Any, lens: Any, sensor: float, around: Callable[[float], Edges]
+    ) -> Edges:
+        """Return the view window of a Blender camera.
+
+        Parameters
+        ----------
+        data : bpy.types.Camera
+        lens
+            What has the settings of a panorama (`versions.lens`).
+        sensor : float
+            Its size on the fitted side, millimetres.
+        around : callable
+            Returns the window of a flat film whose fitted side is so long.
+        """
+        raise NotImplementedError
+
+    def settings(self, edges: Edges) -> dict[str, Any]:
+        """Return the settings of a Blender camera with this window; its sensor is horizontal."""
+        raise NotImplementedError
+
+
+def shifts(edges: Edges) -> dict[str, Any]:
+    """Return the shift of a Blender camera whose flat film has these edges."""
+    left, right, bottom, top = edges
+    extent = right - left
+    return {"shift_x": (left + right) / 2 / extent, "shift_y": (bottom + top) / 2 / extent}
