@@ -1,4 +1,4 @@
-"""Draws numerical stability: where methods break, sweeps, and maps of two scales."""
+"""Draws numerical stability: where methods break, and the sweeps."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ..methods import MEASURED, Method
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
-from ..study.scenarios.sweeps import BY_NAME, Map
+from ..study.scenarios.sweeps import BY_NAME
 from ..tracer.settings import Precision
 from . import plots
 from .tables import percent
@@ -29,9 +29,8 @@ _NESTED = (
 # The methods of the sweeps: the literal textbook loses half of all rays and would hide the others.
 SWEPT = tuple(m for m in MEASURED if m is not Method.TEXTBOOK_LITERAL)
 ACROSS = 4  # sweeps beside one another
-NEVER = "#d9eedd"  # of a cell or a map where nothing goes wrong
+NEVER = "#d9eedd"  # of a cell where nothing goes wrong
 DOUBLED = "#d5e0f0"  # where no ray is lost, but some cross too many triangles
-UNSEEN = "#dddddd"  # where rounding has left nothing to see
 _INKS = {NEVER: "#3d7a4a", DOUBLED: "#3a5687"}
 _RAMP = (255, 248, 190), (253, 190, 84), (226, 48, 34), (126, 0, 38)  # from few to all, in sRGB
 # Of lines that cover one another, each shows inside the one before: width, radius of its marks.
@@ -87,11 +86,10 @@ def _cell(box: plots.Box, words: str, color: str, ink: str, size: float = 22) ->
 
 
 def by_scenario(rows: Sequence[ExtremesRow]) -> dict[str, list[ExtremesRow]]:
-    """Return the rows of each sweep; those of maps are left out."""
+    """Return the rows of each sweep."""
     sweeps: dict[str, list[ExtremesRow]] = {}
     for row in rows:
-        if row.across is None:
-            sweeps.setdefault(row.scenario, []).append(row)
+        sweeps.setdefault(row.scenario, []).append(row)
     return sweeps
 
 
@@ -164,46 +162,4 @@ def _sweep(box: plots.Box, rows: Sequence[ExtremesRow]) -> str:
         note = "no ray is lost"
         note += f"\nup to {100 * most:.0f} %\ncross too many triangles" if most else ""
         out += plots.text((box[0] + box[2] / 2, box[1] + box[3] / 2), note, 19, anchor="middle")
-    return out
-
-
-def map_picture(some: Map, rows: Sequence[ExtremesRow]) -> str:
-    """Return heat maps over two scales of the share of lost rays, one for each method."""
-    methods = [m for m in MEASURED if any(r.method == m for r in rows)]
-    precisions = [p for p in reversed(Precision) if any(r.precision == p for r in rows)]
-    wide, high = (plots.WIDTH - 60) / len(methods), 830 / len(precisions)
-    title = f"{some.title}: rays that are missed or see the wrong surface"
-    out = plots.text((20, 30), title, 29) + plots.text((20, 72), some.explanation, 22, plots.GREY)
-    out += plots.text((plots.WIDTH / 2, 975), some.rows[0].scale_name, 25, anchor="middle")
-    out += plots.turned((25, 510), some.across_name, 25, -90, "middle")
-    for j, precision in enumerate(precisions):
-        for k, method in enumerate(methods):
-            shown = [r for r in rows if (r.method, r.precision) == (method, precision)]
-            box = 120 + wide * k, 160 + high * j, wide - 75, high - 115
-            out += _heat(box, shown) if shown else ""
-    shares = {"none": NEVER} | {f"{s} %": _color((s / 100) ** 0.5) for s in (1, 10, 25, 50, 100)}
-    if any(map(_is_grey, rows)):
-        shares["rounding has left nothing to see"] = UNSEEN
-    entries = {words: plots.cell(-22, -15, 44, 30, color) for words, color in shares.items()}
-    out += plots.legend(entries, plots.HEIGHT - 40)
-    return plots.picture(plots.WIDTH, plots.HEIGHT, title, some.explanation, out)
-
-
-def _is_grey(row: ExtremesRow) -> bool:
-    return not (row.seen or row.lost)
-
-
-def _heat(box: plots.Box, rows: Sequence[ExtremesRow]) -> str:
-    """Draw the map of one method."""
-    scales, others = (
-        list(dict.fromkeys(getattr(r, of) for r in rows)) for of in ("scale", "across")
-    )
-    axes = plots.Axes(*box, _steps(scales), _steps(others))
-    wide, high = axes.width / len(scales), axes.height / len(others)
-    out = axes.drawn(f"{Method(rows[0].method).record.words}, {rows[0].precision}", "", small=True)
-    for r in rows:
-        x, y = axes.at(scales.index(r.scale), others.index(r.across))
-        color = UNSEEN if _is_grey(r) else _color(r.share**0.5) if r.lost else NEVER
-        title = f"{written(r.scale)}, {written(r.across)}: {percent(r.share)} %"
-        out += plots.cell(x - wide / 2, y - high / 2, wide, high, color, title)
     return out

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..methods import MEASURED
 from ..study.extremes import BreakingPoint, ExtremesRow, breaking_points, written
-from ..study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS, Map, Scenario
+from ..study.scenarios.sweeps import BY_NAME, SCENARIOS
 from . import extreme_plots
 from .extreme_plots import by_scenario, scale_of
 from .folders import finite, replacing, write_json
@@ -34,7 +34,6 @@ _UNITS = {  # what the numbers of a row are, for the reader of the JSON
     "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
     "exact": "share of the pairs of a ray and a triangle that integer arithmetic decided",
     "judged": "rays that were held against the definition, in integers, with every surface",
-    "across": "the second scale, of a row of a map",
 }
 _SHORT = {m.value: m.record.short for m in MEASURED}
 _WIDTH = 12  # of a column of the tables
@@ -113,17 +112,19 @@ def to_dict(rows: Sequence[ExtremesRow]) -> dict[str, Any]:
     return {
         "schema": SCHEMA,
         "units": _UNITS,
-        "scenarios": [_about(s) | {"scale": s.scale_name, "unit": s.unit} for s in SCENARIOS],
-        "maps": [
-            _about(m) | {"scale": m.rows[0].scale_name, "across": m.across_name} for m in MAPS
+        "scenarios": [
+            {
+                "name": s.name,
+                "title": s.title,
+                "explanation": s.explanation,
+                "scale": s.scale_name,
+                "unit": s.unit,
+            }
+            for s in SCENARIOS
         ],
         "breaking_points": [p._asdict() for p in breaking_points(rows)],
         "rows": [asdict(r) | {"largest_t_error": finite(r.largest_t_error)} for r in rows],
     }
-
-
-def _about(some: Scenario | Map) -> dict[str, str]:
-    return {"name": some.name, "title": some.title, "explanation": some.explanation}
 
 
 def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
@@ -146,8 +147,7 @@ def write(directory: str | Path, rows: Sequence[ExtremesRow]) -> None:
 def picture_names() -> list[str]:
     """Return the names of all pictures that there may be."""
     pages = math.ceil(len(SCENARIOS) / PANELS)
-    sweeps = (f"sweeps_{page + 1}" for page in range(pages))
-    return ["breaking_points", *sweeps, *(f"map_{m.name}" for m in MAPS)]
+    return ["breaking_points", *(f"sweeps_{page + 1}" for page in range(pages))]
 
 
 def pictures(rows: Sequence[ExtremesRow]) -> dict[str, str]:
@@ -160,7 +160,4 @@ def pictures(rows: Sequence[ExtremesRow]) -> dict[str, str]:
         for page in range(1, pages + 1):
             shown = groups[(page - 1) * each : page * each]
             found[f"sweeps_{page}"] = extreme_plots.sweeps_picture(shown, f"{page} of {pages}")
-    for some in MAPS:
-        if of := [r for r in rows if r.across is not None and r.scenario == some.name]:
-            found[f"map_{some.name}"] = extreme_plots.map_picture(some, of)
     return found

@@ -24,7 +24,7 @@ from ..tracer.progress import Work, result_of, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.triangle import TESTS
 from ..tracer.world import Pairs
-from .scenarios.sweeps import ALL, Scenario
+from .scenarios.sweeps import SCENARIOS, Scenario
 from .truth import CERTIFIED, Truth, crossings, keys, largest_t_error, pixel_rays, sample, truth_of
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
@@ -52,7 +52,6 @@ class ExtremesRow:
     exact: float | None = None  # certified: share of the pairs that integers decided
     judged: int = 0  # certified: rays that were held against the definition
     seen: int = 0  # rays whose certified ray sees a surface
-    across: float | None = None  # the second scale of a map's row
 
     @property
     def lost(self) -> int:
@@ -88,14 +87,10 @@ class BreakingPoint(NamedTuple):
 
 
 def breaking_points(rows: Sequence[ExtremesRow]) -> list[BreakingPoint]:
-    """Return where each method first goes wrong in each sweep, in the order of the rows.
-
-    Rows of a map have two scales, and no first one: they are left out.
-    """
+    """Return where each method first goes wrong in each sweep, in the order of the rows."""
     sweeps: dict[tuple[str, str, str], list[ExtremesRow]] = {}
     for row in rows:
-        if row.across is None:
-            sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
+        sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
 
     def first(rows: list[ExtremesRow], count: str) -> float | None:
         return next((r.scale for r in rows if getattr(r, count)), None)
@@ -118,7 +113,7 @@ def written(scale: float | None) -> str:
 
 
 def measure(
-    scenarios: Sequence[Scenario] = ALL,
+    scenarios: Sequence[Scenario] = SCENARIOS,
     rays: int | None = None,
     judged: int = JUDGED,
     every: Every | None = None,
@@ -210,7 +205,6 @@ def _row(
         doubled=0,
         wrong=0,
         refused=frame.statistics.refused + int((~finite).sum()),
-        across=scenario.across,
         seen=int((truth.frame.instance_index != NOTHING).sum()),
     )
 

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture
 def one_scenario(monkeypatch):
-    real, some = extremes.measure, extremes.ALL[:1]
+    real, some = extremes.measure, extremes.SCENARIOS[:1]
     monkeypatch.setattr(extremes, "measure", lambda rays: real(some, rays, judged=1))
 
 

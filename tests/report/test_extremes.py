@@ -18,7 +18,7 @@ from reference_tracer.report.extremes import (
     write,
 )
 from reference_tracer.study.extremes import ExtremesRow, breaking_points, written
-from reference_tracer.study.scenarios.sweeps import BY_NAME, MAPS, SCENARIOS
+from reference_tracer.study.scenarios.sweeps import BY_NAME, SCENARIOS
 
 from ..drawn import Plot, scale
 from ..scenarios import quick
@@ -43,8 +43,6 @@ def rows():
             wrong=0,
             refused=0,
             largest_t_error=np.inf if k else 1.5,
-            seen=0 if k == 2 else 100,
-            across=s.across,
         )
         for s in quick()
         for k, scale in enumerate(s.scales)
@@ -77,7 +75,6 @@ def test_the_folder(rows, tmp_path):
     )
     assert points["needles", "certified", "float64"]["lost"] is None
     assert [s["name"] for s in held["scenarios"]] == [s.name for s in SCENARIOS]
-    assert [m["name"] for m in held["maps"]] == [m.name for m in MAPS]
 
 
 SCENARIOS_BY_NAME = {s.name: s for s in quick(SCENARIOS)}
@@ -99,14 +96,6 @@ def test_pictures_are_legible(rows, drawn):
         if r.scenario == s.name
         for x in s.scales
     ]
-    full += [
-        replace(r, scale=x, across=row.across)
-        for some in MAPS
-        for r in rows
-        if r.scenario == some.name
-        for row in some.rows
-        for x in row.scales
-    ]
     for plot in (*drawn.values(), *map(Plot, pictures(full).values())):
         plot.assert_legible()
         assert plot.width == 1920 and plot.height >= 1000
@@ -127,7 +116,6 @@ def test_the_table_has_every_breaking_point_in_its_row_and_column(rows, drawn):
 
 
 def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
-    swept = [r for r in rows if r.across is None]
     marks = 0
     for plot in (drawn["sweeps_1"], drawn["sweeps_2"]):
         shown = [s for s in SCENARIOS if s.title in plot.said()]
@@ -147,31 +135,18 @@ def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
             }
             found = [e for e in near if e.tag == "circle" and e.words]
             marks += len(found)
-            for r in (r for r in swept if r.scenario == s.name):
+            for r in (r for r in rows if r.scenario == s.name):
                 name = f"{Method(r.method).record.words}, {r.precision}, {written(r.scale)}: "
                 [m] = [m for m in found if m.words.startswith(name)]
                 assert m.x == pytest.approx(along[written(r.scale)], abs=0.1)
                 assert y(m.y) == pytest.approx(100 * r.share, abs=0.1)
                 assert (m.attributes["fill"] == "white") == (r.precision == "float32")
-    assert marks == len(swept)
-
-
-def test_every_row_of_a_map_is_a_cell(rows, drawn):
-    for some in MAPS:
-        of_map = [r for r in rows if r.scenario == some.name]
-        cells = drawn[f"map_{some.name}"].titled("rect")
-        assert len(cells) == len(of_map)
-        names = [f"{written(r.scale)}, {written(r.across)}: {100 * r.share:.0f}" for r in of_map]
-        assert all(any(c.words.startswith(name) for c in cells) for name in names)
-        colors = {c.attributes["fill"] for c in cells}
-        assert {extreme_plots.NEVER, extreme_plots.UNSEEN} < colors
+    assert marks == len(rows)
 
 
 def test_pictures_of_some_scenarios_only(rows):
     sweep = [r for r in rows if r.scenario == "needles"]
     assert list(pictures(sweep)) == ["breaking_points", "sweeps_1"]
-    of_map = [r for r in rows if r.scenario == MAPS[0].name]
-    assert list(pictures(of_map)) == [f"map_{MAPS[0].name}"]
 
 
 def test_a_scenario_of_ones_own(rows):
@@ -193,13 +168,6 @@ def test_what_crosses_too_many_triangles_is_not_shown_as_what_holds(rows):
 
     assert shown(some, extreme_plots.DOUBLED) == 3 == shown(holds, extreme_plots.NEVER)
     assert shown(holds, extreme_plots.DOUBLED) == 0 == shown(some, extreme_plots.NEVER)
-
-
-@pytest.mark.parametrize("seen", [0, 100])
-def test_grey_is_explained_only_where_there_is_grey(seen, rows):
-    some = [replace(r, seen=seen, missed=0, doubled=0) for r in rows if r.scenario == MAPS[0].name]
-    held = extreme_plots.map_picture(MAPS[0], [*some[:-1], replace(some[-1], seen=100)])
-    assert ("nothing to see" in Plot(held).said()) == (seen == 0)
 
 
 def row(scale, missed=0, wrong=0, doubled=0, method="watertight"):
@@ -224,7 +192,6 @@ def test_tables():
 def test_tables_of_all(rows):
     text = table(rows)
     assert all(s.explanation in text for s in SCENARIOS)
-    assert not any(m.title in text for m in MAPS)
     lines = breaking_table([replace(r, doubled=0) for r in rows]).splitlines()
     assert [line.split()[0] for line in lines[-len(SCENARIOS) :]] == [s.name for s in SCENARIOS]
     assert all(line.endswith(" .") for line in lines[-len(SCENARIOS) :])
