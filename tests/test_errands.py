@@ -135,7 +135,7 @@ assert held["units"]["hits"] == "pixels" and held["rows"][0]["hits"] == found.ro
 page = trade.page_table(found)
 assert "hits" in page["head"] and any(said in row for row in page["rows"])
 assert " hits\\n" in trade.table(found) + "\\n" and said in trade.table(found)
-assert f"hits {said}" in trade.pictures(found)["tradeoff"]
+assert f"hits {said}" in trade.picture(found)
 """
 CAUSE = {
     "compare/checks/comet.py": (

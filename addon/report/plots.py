@@ -279,8 +279,8 @@ def legend(entries: Mapping[str, str], y: float, size: float = LARGE[2]) -> str:
     return "".join(out)
 
 
-def page(title: str, pictures: Iterable[str]) -> str:
-    """Return pictures as one page for a browser; an SVG by itself may be opened by an editor."""
+def page(title: str, drawn: str) -> str:
+    """Return a picture as a page for a browser; an SVG by itself may be opened by an editor."""
     style = "svg { display: block; width: 100%; max-height: 100vh; }"
     head = '<meta charset="utf-8">' + said("title", title) + element("style", style)
-    return "<!doctype html>\n" + element("html", head, *pictures, lang="en")
+    return "<!doctype html>\n" + element("html", head, drawn, lang="en")

@@ -56,11 +56,6 @@ def page_table(trade: Trade) -> dict[str, Any]:
     }
 
 
-def _page_row(r: TradeRow) -> list[str]:
-    name = Method(r.method).record.words
-    return [name, r.precision, r.size, *(c.shown(r, " ★") for c in COLUMNS)]
-
-
 def to_dict(trade: Trade) -> dict[str, Any]:
     """Return what `tradeoff.json` holds."""
     return {
@@ -90,11 +85,11 @@ def write(directory: str | Path, trade: Trade) -> None:
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(trade))
-        (new / PLOT).write_text(pictures(trade)["tradeoff"], encoding="utf-8")
+        (new / PLOT).write_text(picture(trade), encoding="utf-8")
 
 
-def pictures(trade: Trade) -> dict[str, str]:
-    """Return the name and the SVG of the one picture that there is.
+def picture(trade: Trade) -> str:
+    """Return the plot, an SVG.
 
     Above, the wrong pixels of the methods side by side; below, the coverage error of all rows. In
     both a line joins the rows that no other beats.
@@ -126,7 +121,7 @@ def pictures(trade: Trade) -> dict[str, str]:
     entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
     inside += plots.legend(entries, plots.HEIGHT - 30)
     title = "Time against wrong pixels, and time against coverage error, of every method"
-    return {"tradeoff": plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, inside)}
+    return plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, inside)
 
 
 def _name(r: TradeRow) -> str:

@@ -77,7 +77,7 @@ def test_extremes_shows_its_table_and_pictures_and_changes_nothing(solids):
     points = results.latest(Kind.BREAKING_POINTS, solids).content
     assert {p.scenario for p in points} == {"closed_fan"}
     assert [p.never for p in points if p.method == "certified"] == [True]
-    assert page_of(Kind.BREAKING_POINTS, solids).count("<svg") == 2
+    assert page_of(Kind.BREAKING_POINTS, solids).count("<svg") == 1
     assert differences(before, state()) == []
 
 
@@ -86,8 +86,7 @@ def test_extremes_writes_what_reftrace_does(solids, tmp_path):
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
         "extremes.txt",
         "extremes.json",
-        "breaking_points.svg",
-        "sweeps_1.svg",
+        "extremes.svg",
     }
 
 

@@ -15,7 +15,7 @@ from reference_tracer.report.trade import (
     SCHEMA,
     TABLE,
     page_table,
-    pictures,
+    picture,
     table,
     write,
 )
@@ -60,7 +60,7 @@ def trade():
 
 
 def drawn(trade):
-    return Plot(pictures(trade)["tradeoff"])
+    return Plot(picture(trade))
 
 
 def test_table(trade):
