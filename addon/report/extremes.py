@@ -22,10 +22,8 @@ _FIRST = "First scale at which a ray is missed or wrong; + at which one crosses 
 _LITERAL = "(The literal textbook is left out: it loses rays from the first scale of nearly all.)"
 _UNITS = {  # what the numbers of a row are, for the reader of the JSON
     "rays": "rays of the scene; the counts below are of rays",
-    "seen": "rays whose certified ray sees a surface",
     "missed": "the certified ray sees a surface, the method none",
     "wrong": "the method sees another surface, or one where there is none",
-    "order": "those of the wrong that see what is truly crossed, but is not the nearest",
     "doubled": "the method crosses more triangles than the certified ray does",
     "refused": "triangles and rays that are not finite in this precision",
     "largest_t_error": "ulp of the certified t in float64, where both see the same; null: nowhere",
