@@ -18,7 +18,6 @@ SCHEMA = "reference_tracer.tradeoff/1"
 TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.svg"
 
 _NOTE = """
-
 * no other row beats it, as far as the rounds agree on which is faster: beside wrong
   pixels, in time and wrong pixels, of the same size; beside coverage, in time and
   coverage, of all. Coverage is the root mean square of RGBA's difference from
@@ -27,30 +26,18 @@ _NOTE = """
 
 
 def table(trade: Trade) -> str:
-    """Return the rows as text, a block for each size; a star marks those that no other beats."""
-    blocks: dict[str, list[list[str]]] = {}
-    for r in trade.rows:
-        rays = "one ray" if r.samples == 1 else f"{r.samples} x {r.samples} rays"
-        title = f"{r.width} x {r.height} pixels, {rays} each"
-        cells = (c.shown(r, wide=True) for c in COLUMNS)
-        blocks.setdefault(title, []).append([r.method, r.precision, *cells])
-    lines = [line for title, rows in blocks.items() for line in ("", title, *rows)]
-    head = ["method", "precision", *(c.head + "  " * bool(c.best) for c in COLUMNS)]
-    note = _NOTE.format(k=trade.converged)
-    return "\n".join([*columns([head, *lines], left=(0, 1, 3), gap=" "), note, trade.advice])
+    """Return the rows and the advice as text; a star marks what no other row beats."""
+    cells = text_cells(trade)
+    lines = columns([cells["head"], *cells["rows"]], left=(0, 1, 2))
+    return "\n".join([*lines, _NOTE.format(k=trade.converged), trade.advice])
 
 
-def page_table(trade: Trade) -> dict[str, Any]:
-    """Return the table that the page shows: its head, and the cells of each row."""
+def text_cells(trade: Trade) -> dict[str, list[Any]]:
+    """Return the head of the table, and the cells of each row."""
     return {
         "head": ["method", "precision", "picture", *(c.head for c in COLUMNS)],
         "rows": [
-            [
-                Method(r.method).record.words,
-                r.precision,
-                r.size,
-                *(c.shown(r, " ★") for c in COLUMNS),
-            ]
+            [Method(r.method).record.words, r.precision, r.size, *(c.shown(r) for c in COLUMNS)]
             for r in trade.rows
         ],
     }
@@ -168,7 +155,7 @@ def _against(
 
 
 def _mark(r: TradeRow, y: float, best: bool) -> plots.Series:
-    said = ", ".join(f"{c.head} {c.shown(r)}" for c in COLUMNS)
+    said = ", ".join(f"{c.head} {c.show(r)}" for c in COLUMNS)
     return plots.Series(
         Method(r.method).record.color,
         [(r.seconds, y, f"{_name(r)}, {r.size}: {said}")],

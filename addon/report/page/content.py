@@ -65,7 +65,7 @@ def content(
             {"pixel": list(pixel), "html": html.fragment(derivation)}
             for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(trade_report, extras.trade, trade_report.page_table),
+        "trade": _study(trade_report, extras.trade, trade_report.text_cells),
         # Without its thousands of rows, which the plot shows.
         "extremes": _study(extremes_report, extras.extremes),
         "left_out": [*extras.left_out, *missing],

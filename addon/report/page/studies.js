@@ -67,7 +67,7 @@ function tradeCard() {
         "details",
         {},
         element("summary", {}, `All ${rows.length} rows`),
-        table("★: no other row beats it", head, rows, [...head.keys()].slice(3)),
+        table("*: no other row beats it", head, rows, [...head.keys()].slice(3)),
       ),
     ),
   );
