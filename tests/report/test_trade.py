@@ -184,11 +184,7 @@ def test_the_plot_says_what_it_shows(trade):
     said = plot.said()
     for words in (trade.advice, "a scene.blend: ", "16 × 16 rays", "160 × 90 pixels, one ray each"):
         assert words in said
-    assert all(m.record.words in said for m in MEASURED) and "certified, float64, proven" in said
-    sizes = {(r.width, r.height, r.samples) for r in trade.rows if r.best_coverage}
-    assert len(sizes) > 2  # and no name is left out
-    for width, height, k in sizes:
-        assert f"{width} × {height}{f', {k} × {k} rays' * (k > 1)}" in said
+    assert all(m.record.words in said for m in MEASURED)
     lines = [
         e for e in plot.elements if e.tag == "polyline" and e.attributes["stroke"] == plots.INK
     ]
@@ -221,13 +217,3 @@ def test_plots_are_legible(case, slow):
         plot = drawn(replace(trade, rows=mark(rows), scene=scene, advice="word " * 60))
         plot.assert_legible()
         assert len(plot.titled("circle")) == len(trade.rows) + len(trade.whole)
-
-
-def test_names_in_a_plot_are_apart():
-    """Also where all that is named is at one point."""
-    axes = plots.Axes(100, 100, 500, 800, plots.linear(0, 1), plots.linear(0, 1))
-    for place in ((0.5, 0.5), (0.9, 0.0), (0.1, 1.0)):
-        names = {f"a name, number {k}": axes.at(*place) for k in range(30)}
-        plot = Plot(plots.picture(1200, 1000, "t", "a", plots.named(axes, names)))
-        plot.assert_legible()
-        assert len(plot.texts) == 30
