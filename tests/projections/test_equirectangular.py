@@ -14,7 +14,6 @@ from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
 from reference_tracer.scene_files import load_scene, save_scene
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import (
     camera_rays,
     corner_rays,
@@ -28,6 +27,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
+from ..oracle import scene_sights
 from ..tracer.hostile_scenes import brute_force
 from ..tracer.test_candidates import exact_depth, hits_outside
 from .test_sine import true_sine

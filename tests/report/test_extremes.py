@@ -148,7 +148,7 @@ def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
             found = [e for e in near if e.tag == "circle" and e.words]
             marks += len(found)
             for r in (r for r in swept if r.scenario == s.name):
-                name = f"{Method(r.method).words}, {r.precision}, {written(r.scale)}: "
+                name = f"{Method(r.method).record.words}, {r.precision}, {written(r.scale)}: "
                 [m] = [m for m in found if m.words.startswith(name)]
                 assert m.x == pytest.approx(along[written(r.scale)], abs=0.1)
                 assert y(m.y) == pytest.approx(100 * r.share, abs=0.1)
