@@ -8,13 +8,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.certified.definition import definition
 from reference_tracer.certified.rounding import check_rounding, rounding
 from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
 from reference_tracer.scene_files import load_scene, save_scene
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import (
     camera_rays,
     corner_rays,
@@ -28,6 +28,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
+from ..oracle import scene_sights
 from ..tracer.hostile_scenes import brute_force
 from ..tracer.test_candidates import exact_depth, hits_outside
 from .test_sine import true_sine
@@ -248,6 +249,8 @@ def test_certified_is_what_the_integers_say(make, part):
             assert sight.seen == name, (seed, k)
             assert t == (np.inf if sight.t is None else float(sight.t)), (seed, k)
             rays, hits = rays + 1, hits + (name[0] != NOTHING)
+        names = [seen.name for seen in definition(scene)]
+        assert names == [sight.seen for sight in sights], seed
         defined = brute_force(scene, camera.region)
         assert np.array_equal(frame.t.ravel(), defined.t), seed
         assert np.array_equal(frame.instance_index.ravel(), defined.instance), seed
