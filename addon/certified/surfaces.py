@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # What is in doubt about a candidate: nothing; the sign of an edge function or of D; the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
-PlaneOf = tuple[NDArray[np.float64], NDArray[np.float64]]  # a point and the normal, (3,) each
+PlaneOf = tuple[Floats, Floats]  # a point and the normal, (3,) each
 
 
 @dataclass(frozen=True, eq=False)
