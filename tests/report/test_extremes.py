@@ -119,7 +119,7 @@ def test_the_table_has_every_breaking_point_in_its_row_and_column(rows, drawn):
     assert len(cells) == len(points)
     for p in points:
         row = plot.text(BY_NAME[p.scenario].title).y
-        over = [t.x for t in plot.texts if t.words == Method(p.method).words]
+        over = [t.x for t in plot.texts if t.words == Method(p.method).record.words]
         [column] = [t.x for t in plot.texts if t.words == p.precision and t.x in over]
         [cell] = [t for t in plot.texts if abs(t.x - column) < 1 and abs(t.y - row) < 1]
         said = "never" if p.lost is None else written(p.lost)

@@ -178,7 +178,7 @@ def test_every_row_is_a_mark_where_the_axes_say(trade):
                 assert y(m.y) == pytest.approx(getattr(r, error), rel=1e-3)
             else:
                 assert y(m.y) < least and plot.text("none")
-            color = Method(r.method).color
+            color = Method(r.method).record.color
             assert m.attributes["stroke"] == color
             assert m.attributes["fill"] == ("white" if r.precision == "float32" else color)
             assert (float(m.attributes["r"]) > 10) == getattr(r, best)
