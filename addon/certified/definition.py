@@ -25,10 +25,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import Index
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
-from ..tracer.vector import Index
 from ..tracer.world import WorldTriangles, batches, world_triangles
 from .exact import IntegerBatch
 from .ties import seen_and_ties

@@ -24,11 +24,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Bools, Bytes, Floats, Index
 from ..certainty import Certainty, Reason
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics, Ties
 from ..tracer.progress import Work
-from ..tracer.vector import Bools, Floats, Index, occurring
+from ..tracer.vector import occurring
 from ..tracer.world import Pairs, WorldTriangles
 from . import exact, order
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
@@ -197,7 +198,7 @@ def sides(prepared: FromPoint | Parallel, row: Index, rays: Rays) -> tuple[Bools
 
 def in_range(
     fractions: Fractions, sure: Bools, start: float, end: float
-) -> tuple[Floats, Floats, Bools, NDArray[np.uint8]]:
+) -> tuple[Floats, Floats, Bools, Bytes]:
     """Return the ends of each t's interval, whether it certainly is clipped, and the doubt."""
     low, high = fractions.interval()
     inside = (low > start) & (high < end)
