@@ -34,53 +34,43 @@ class Paragraph(NamedTuple):
     srgb: str = ""
 
 
+Cell = str | Formula | Parts
+
+
 class Table(NamedTuple):
-    """Rows of text below a head."""
+    """Rows of cells below a head; `kind` is "text" or "numbers"."""
 
     head: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    kind: str = "text"
 
 
-class BlockRow(NamedTuple):
-    """A number's label, and for each float its digits and its error in ulp.
+Block = Heading | Paragraph | Table
+
+
+def numbers(quantities: tuple[Quantity, ...]) -> Table:
+    """Return a table of numbers in float32, float64 and exactly, a row for each component.
 
     The first of a vector's three has the vector's formula.
     """
-
-    label: str
-    formula: Formula | None
-    floats: tuple[tuple[Parts, str], ...]
-    exact: str
-
-
-class Numbers(NamedTuple):
-    """Numbers below one another, in float32, float64 and exactly."""
-
-    rows: tuple[BlockRow, ...]
-
-
-Block = Heading | Paragraph | Table | Numbers
-
-
-def numbers(quantities: tuple[Quantity, ...]) -> Numbers:
-    """Return a table of numbers, a row for each component."""
     rows = []
     for q in quantities:
         label = q.formula.label
         for k, part in enumerate([label] if q.count == 1 else [f"{label}.{c}" for c in "xyz"]):
             exact = q.exact(k)
-            values = [q.values[kind][k] for kind in FLOATS]
-            floats = tuple((marked(v, exact), off_text(ulps(v, exact))) for v in values)
-            truth = "undefined" if exact is None else exact_text(exact)
-            rows.append(BlockRow(part, None if k else q.formula, floats, truth))
-    return Numbers(tuple(rows))
+            cells: list[Cell] = ["" if k else q.formula, Formula(part)]
+            for kind in FLOATS:
+                value = q.values[kind][k]
+                cells += [marked(value, exact), off_text(ulps(value, exact))]
+            cells.append(Parts("undefined" if exact is None else exact_text(exact)))
+            rows.append(tuple(cells))
+    return Table(("", "", "float32", "off", "float64", "off", "exact"), tuple(rows), "numbers")
 
 
 # What would be markup where it stands; an index as in u_min and a "<" before a space would not.
 _ESCAPED = re.compile(
     r"([\\`*\[\]|~]|<(?=[a-zA-Z/!?])|&(?=#?\w+;)|(?<![a-zA-Z\d])_|_(?![a-zA-Z\d]))"
 )
-_HEAD = "| | | float32 | off | float64 | off | exact |\n|---|---|---|--:|---|--:|---|"
 _TONES = {"answer": "**{}**", "warning": "⚠ **{}**", "note": "*{}*"}
 
 
@@ -97,16 +87,13 @@ def markdown(block: Block) -> str:
         case Paragraph():
             return _TONES.get(block.tone, "{}").format(escaped(block.text))
         case Table():
-            rows = [map(escaped, row) for row in (block.head, *block.rows)]
-            lines = [f"| {' | '.join(row)} |" for row in rows]
-            return "\n".join([lines[0], f"| {' | '.join(['---'] * len(block.head))} |", *lines[1:]])
-        case Numbers():
-            return "\n".join([_HEAD, *map(_row, block.rows)])
+            head, *rows = [
+                f"| {' | '.join(map(_cell, row))} |" for row in (block.head, *block.rows)
+            ]
+            rule = " | ".join("--:" if name == "off" else "---" for name in block.head)
+            return "\n".join([head, f"| {rule} |", *rows])
     raise TypeError(type(block).__name__)
 
 
-def _row(row: BlockRow) -> str:
-    cells = [str(row.formula or ""), row.label]
-    for parts, off in row.floats:
-        cells += [parts.with_wrong("**{}**"), off]
-    return f"| {' | '.join([*cells, row.exact])} |"
+def _cell(cell: Cell) -> str:
+    return cell.with_wrong("**{}**") if isinstance(cell, Parts) else escaped(str(cell))

@@ -22,8 +22,8 @@ class Parts(NamedTuple):
     """A number's text: the digits that are right, those that are not, and the exponent."""
 
     right: str
-    wrong: str
-    exponent: str
+    wrong: str = ""
+    exponent: str = ""
 
     def __str__(self) -> str:
         return "".join(self)
@@ -99,7 +99,7 @@ def marked(value: np.floating, exact: Fraction | None) -> Parts:
     whole = digits_text(value)
     off = ulps(value, exact)
     if exact is None or not np.isfinite(value) or (off is not None and off <= 0.5):
-        return Parts(whole, "", "")
+        return Parts(whole)
     mantissa, mark, power = whole.partition("e")
     exponent = int(power) if mark else 0
     error = abs(Fraction(float(value)) - exact)
@@ -109,7 +109,7 @@ def marked(value: np.floating, exact: Fraction | None) -> Parts:
             place = point - at - 1 if at < point else point - at
             if 2 * error > Fraction(10) ** (place + exponent):
                 return Parts(mantissa[:at], mantissa[at:], mark + power)
-    return Parts(whole, "", "")
+    return Parts(whole)
 
 
 def off_text(off: float | None) -> str:

@@ -8,16 +8,17 @@ once.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from html import escape
 from pathlib import Path
 from string import Template
 
-from .blocks import Block, BlockRow, Heading, Numbers, Paragraph, Table
+from .blocks import Block, Cell, Heading, Paragraph, Table
 from .derivation import Derivation
+from .digits import Parts
 from .document import lecture
-from .formulas import VECTORS
+from .formulas import VECTORS, Formula
 
+_NUMBER = '<td class="derivation-number">'
 Part = tuple[Heading, list[Block]]  # a heading and what is below it
 
 _HERE = Path(__file__).parent
@@ -80,39 +81,32 @@ def _block(block: Block) -> str:
             color = f'<span class="derivation-swatch" style="background:{block.srgb}"></span>'
             return f"<p{kind}>{block.srgb and color}{escape(block.text)}</p>"
         case Table():
-            return _table(block.head, map(_cells, block.rows), "derivation-text")
-        case Numbers():
-            head = "", "", "float32", "off", "float64", "off", "exact"
-            return _table(head, map(_number, block.rows), "derivation-numbers")
+            head = "".join(f"<th>{escape(name)}</th>" for name in block.head)
+            return (
+                f'<div class="derivation-scroll"><table class="derivation-{block.kind}">'
+                f"<thead><tr>{head}</tr></thead>\n<tbody>\n"
+                + "\n".join(map(_row, block.rows))
+                + "\n</tbody></table></div>"
+            )
     raise TypeError(type(block).__name__)
 
 
-def _cells(row: tuple[str, ...]) -> str:
-    return f"<tr><th>{escape(row[0])}</th>{''.join(f'<td>{escape(c)}</td>' for c in row[1:])}</tr>"
+def _row(row: tuple[Cell, ...]) -> str:
+    first = ' class="derivation-first"' if isinstance(row[0], Formula) else ""
+    cells = (f"{_NUMBER if isinstance(c, Parts) else '<td>'}{_cell(c)}</td>" for c in row[1:])
+    return f"<tr{first}><th>{_cell(row[0])}</th>{''.join(cells)}</tr>"
 
 
-def _table(head: tuple[str, ...], rows: Iterable[str], kind: str) -> str:
-    names = "".join(f"<th>{escape(name)}</th>" for name in head)
-    return (
-        f'<div class="derivation-scroll"><table class="{kind}"><thead><tr>{names}</tr></thead>'
-        "\n<tbody>\n" + "\n".join(rows) + "\n</tbody></table></div>"
-    )
-
-
-def _number(row: BlockRow) -> str:
-    first, shown = "", ""
-    if row.formula:
-        first = ' class="derivation-first"'
-        shown = formula(str(row.formula._replace(remark="")))
-        if row.formula.remark:
-            shown += f'<span class="derivation-remark">{escape(row.formula.remark)}</span>'
-    marked = '<td class="derivation-number">{}</td><td class="derivation-off">{}</td>'
-    wrong = '<mark class="derivation-wrong">{}</mark>'
-    cells = "".join(marked.format(parts.with_wrong(wrong), off) for parts, off in row.floats)
-    return (
-        f"<tr{first}><th>{shown}</th><td>{formula(row.label)}</td>{cells}"
-        f'<td class="derivation-number">{row.exact}</td></tr>'
-    )
+def _cell(cell: Cell) -> str:
+    match cell:
+        case Formula():
+            shown = formula(str(cell._replace(remark="")))
+            remark = f'<span class="derivation-remark">{escape(cell.remark)}</span>'
+            return shown + (cell.remark and remark)
+        case Parts():
+            return cell.with_wrong('<mark class="derivation-wrong">{}</mark>')
+        case _:
+            return escape(cell)
 
 
 def formula(text: str) -> str:
