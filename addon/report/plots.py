@@ -121,6 +121,20 @@ def line(
     )
 
 
+def cell(x: float, y: float, width: float, height: float, color: str, title: str = "") -> str:
+    """Return a coloured rectangle, which says its title where it is pointed at."""
+    return element(
+        "rect",
+        said("title", title) if title else "",
+        x=x,
+        y=y,
+        width=width,
+        height=height,
+        fill=color,
+        shape_rendering="crispEdges",  # no seam between cells that touch
+    )
+
+
 class Scale(NamedTuple):
     """What a side of a plot stands for: the numbers at its ends, and those that are written."""
 
