@@ -120,7 +120,7 @@ class Frame:
 
     @property
     def t(self) -> Floats:
-        """Ray parameter, (h, w): the depth in metres (for a panorama, the distance); inf: no hit."""
+        """Ray parameter, (h, w): the depth in metres (a panorama's distance); inf: no hit."""
         return self.measures.of(slice(None))[0]
 
     depth = t  # as Blender's Z pass has it
