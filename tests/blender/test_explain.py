@@ -143,9 +143,13 @@ def test_what_the_user_puts_there_stays(suzanne):
     drawing.objects.link(mine)
     drawing.children.link(bpy.data.collections.new("My Collection"))
     ops.remove_ray()
-    assert mine.name in bpy.context.scene.collection.objects
-    assert "My Collection" in bpy.context.scene.collection.children
-    assert ray_objects.NAME not in bpy.data.collections
+    assert drawing.objects[:] == [mine]
+    assert drawing.children.keys() == ["My Collection"]
+    assert drawing.name in bpy.context.scene.collection.children
+    assert not ops.remove_ray.poll()
+    ops.draw_ray()
+    ops.remove_ray()
+    assert drawing.objects[:] == [mine]
 
 
 def test_what_is_left_of_a_deleted_collection_goes_too(suzanne):
