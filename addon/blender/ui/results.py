@@ -6,7 +6,6 @@ What the panels show is not stored in the .blend: it is about one moment.
 from __future__ import annotations
 
 import tempfile
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -21,7 +20,7 @@ from ...methods import Method
 if TYPE_CHECKING:
     from ...arrays import Colors
     from ...compare.comparison import Comparison
-    from ...study.extremes import BreakingPoint, ExtremesRow
+    from ...study.extremes import ExtremesRow
     from ...study.trade import Trade
 
 # A name: so the class of a result need not be imported.
@@ -72,7 +71,8 @@ def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
 
     page = _page("extremes", extremes_report.pictures(rows))
     points = tuple(breaking_points(rows))
-    lines = [_extremes_sentence(rows, points)]
+    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     keep(Kind.EXTREMES, tuple(rows), lines)
     return keep(Kind.BREAKING_POINTS, points, lines, page=page)
 
@@ -89,25 +89,6 @@ def _page(name: str, pictures: dict[str, str]) -> str:
 def session_folder() -> Path:
     """Return a folder that outlives this Blender, so that the browser can load a page again."""
     return Path(tempfile.mkdtemp(prefix="reference-tracer-"))
-
-
-def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoint]) -> str:
-    """Return whether the certified method is ever wrong, and which other holds most often."""
-    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
-    sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
-    plain = [p for p in points if Method(p.method).is_plain]
-    if not plain:
-        return sentence + "."
-    holds = Counter({(p.method, p.precision): 0 for p in plain})
-    holds.update((p.method, p.precision) for p in plain if p.never)
-    [((method, precision), count)] = holds.most_common(1)
-    total = len({p.scenario for p in plain})
-    if not count:
-        return f"{sentence}; every other method breaks in each of {total} sweeps."
-    return (
-        f"{sentence}; of the other methods, {Method(method).record.words} in {precision} holds in "
-        f"the most sweeps: {count} of {total}."
-    )
 
 
 def keep(
