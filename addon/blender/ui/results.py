@@ -6,7 +6,7 @@ What the panels show is not stored in the .blend: it is about one moment.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cache
@@ -123,10 +123,7 @@ def show(name: str, color: Colors) -> Any:
     import numpy as np
 
     height, width = color.shape[:2]
-    image: Any = next((i for i in bpy.data.images if i.get(MARK) == name), None)
-    if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
-        del image[MARK]
-        image = None
+    image = _ours(bpy.data.images, name, lambda i: i.source != "GENERATED")
     if image is None:
         image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
         image[MARK] = name
@@ -135,6 +132,15 @@ def show(name: str, color: Colors) -> Any:
     image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
     image.update()
     return image
+
+
+def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
+    """Return our image or text of a name, or None. One that the user has saved is theirs now."""
+    found = next((b for b in blocks if b.get(MARK) == name), None)
+    if found and is_saved(found):
+        del found[MARK]
+        return None
+    return found
 
 
 def show_in_editor(context: Any, image: Any) -> None:
@@ -149,10 +155,7 @@ def show_text(context: Any, name: str, content: str) -> Any:
 
     A text that the user has saved to a file is theirs, and is left as it is.
     """
-    text = next((t for t in bpy.data.texts if t.get(MARK) == name), None)
-    if text and text.filepath:
-        del text[MARK]
-        text = None
+    text = _ours(bpy.data.texts, name, lambda t: t.filepath)
     if text is None:
         text = bpy.data.texts.new(name)
         text[MARK] = name

@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
-from ...methods import MEASURED, PLAIN, Method
+from ...methods import PLAIN
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
 from .layout import NARROW, Part, both, draw_table, short_name, wrapped
@@ -170,21 +170,18 @@ class _Extremes(Part):
 def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
     """Draw a table: below each scenario's title, where each method breaks in a precision.
 
-    The certified method, which is float64, has a column only if it breaks, which it should not.
+    The certified method, which is float64, has none: a sentence says how it does.
     """
     from ...study.scenarios.sweeps import BY_NAME
 
-    proven = {p.scenario: p for p in points if p.method == Method.CERTIFIED}
-    holds = all(p.never for p in proven.values())
-    _cells(layout, [m.record.head for m in (PLAIN if holds else MEASURED)])
-    for name in proven:
+    _cells(layout, [m.record.head for m in PLAIN])
+    for name in dict.fromkeys(p.scenario for p in points):
         of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
-        cells = [_point(of[m]) for m in PLAIN] + ([] if holds else [_point(proven[name])])
         scenario = BY_NAME[name]
         column = layout.column(align=True)
         column.scale_y = 0.75
         column.label(text=f"{scenario.title}, {scenario.scale_name}")
-        _cells(column, cells)
+        _cells(column, [_point(of[m]) for m in PLAIN])
 
 
 def _cells(layout: Any, texts: list[str]) -> None:
