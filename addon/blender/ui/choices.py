@@ -127,10 +127,9 @@ def _listed(kind: str) -> tuple[Unstored, ...]:
     return tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS[kind])
 
 
-SWEEPS = _listed("scenario")
 EVERY = "ALL"  # in place of a scenario's name
 STUDIES = (
     (EVERY, "All", "Every scenario, and the maps of two scales at once"),
-    *SWEEPS,
+    *_listed("scenario"),
     *_listed("map"),
 )
