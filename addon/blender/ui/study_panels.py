@@ -160,7 +160,7 @@ class _Extremes(Part):
         layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
         if found := results.latest(Kind.BREAKING_POINTS, context.scene):
             wrapped(layout, context, found.lines[0], "INFO")
-            layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
+            layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
             if found.content:
                 wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
                 layout.row().prop(shown, "precision", expand=True)
