@@ -17,7 +17,7 @@ from zipfile import ZipFile
 
 import numpy as np
 
-from .arrays import Array, Floats, Index
+from .arrays import Array, Floats
 from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, UP, axes_of, framing, shown_points
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
@@ -27,7 +27,6 @@ Placed = tuple[Mesh, Floats]  # with its world_from_object, (4, 4)
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
 _SCHEMA = "reference_tracer.scene/1"
-_NO_FACES: Index = np.zeros((0, 3), np.int64)
 _ARRAYS = {  # the arrays of a .npz and their shapes, by what has them
     "mesh": {"vertices": "n3", "triangles": "n3", "slots": "n", "corner_colors": "n34"},
     "instance": {"world_from_object": "44", "colors": "n4"},
@@ -159,6 +158,8 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # trimesh's, of its own work
             kind = path.suffix.lower().lstrip(".")
+            if kind == "ply":
+                _refuse_strips(path)
             loaded: Any = trimesh.load(
                 path, file_type=kind, force="scene", process=False, skip_materials=True
             )
@@ -167,7 +168,7 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
     except Exception as error:  # each of trimesh's readers raises its own kinds
         why = str(error)
         if "unexpected length" in why:  # trimesh takes a PLY's first list for the length of all
-            why = "it is cut off, or its faces or strips differ in length: save it as triangles"
+            why = "it is cut off, or its faces differ in length: save it as triangles"
         raise SceneError(f"'{path}' cannot be read as a mesh: {why}") from error
     if is_y_up:
         out = [(mesh, np.stack((m[0], 0 - m[2], m[1], m[3]))) for mesh, m in out]
@@ -176,34 +177,21 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
     return out
 
 
+def _refuse_strips(path: Path) -> None:
+    """Raise a SceneError if a PLY has triangle strips, which trimesh would leave out."""
+    with path.open("rb") as file:
+        if b"element tristrips" in file.read(1 << 16):
+            raise SceneError("it holds triangle strips: save it as triangles")
+
+
 def _mesh_of(loaded: Any, node: str) -> Iterator[Placed]:
     """Yield the mesh of a node of a trimesh.Scene, if it has triangles."""
     matrix, name = loaded.graph[node]
     geometry = loaded.geometry[name]
-    faces = np.concatenate((getattr(geometry, "faces", _NO_FACES), _strips(geometry)))
+    faces = getattr(geometry, "faces", ())  # a point cloud has none
     if len(faces):
         vertices, keep = drop_non_finite(np.asarray(geometry.vertices), faces)
         yield Mesh(vertices, faces[keep], name=str(name)), np.array(matrix)
-
-
-def _strips(geometry: Any) -> Index:
-    """Return the triangles of a PLY's strips, (n, 3), which trimesh reads but does not show.
-
-    In a strip -1 begins another one; triangles that name a vertex twice only join strips.
-    """
-    from trimesh.util import triangle_strips_to_faces
-
-    read = geometry.metadata.get("_ply_raw", {}).get("tristrips", {})
-    if (rows := read.get("data")) is None:
-        return _NO_FACES
-    rows = rows[next(iter(read["properties"]))]
-    # In a binary file each row is beside its length.
-    rows = map(np.int32, rows["f1"] if rows.dtype.names else rows)
-    parts = [part[part != -1] for r in rows for part in np.split(r, np.flatnonzero(r == -1))]
-    faces = [triangle_strips_to_faces([part]) for part in parts if len(part) > 2]
-    corners = np.concatenate((_NO_FACES, *faces))
-    a, b, c = corners.T
-    return corners[(a != b) & (b != c) & (c != a)]
 
 
 def scene_of_meshes(
