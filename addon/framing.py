@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Floats
-from .projections import ORTHOGRAPHIC, PERSPECTIVE
+from .projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
 
@@ -53,10 +53,8 @@ def framing(
     SceneError
         If there is no point, or the picture has no pixel.
     """
-    check_size(width, height)
-    half = float(np.tan(np.radians(angle) / 2))
-    aspect = width / (tall * height)
-    slope = FILLED * np.array((half * aspect, half))  # of the sides that are to be touched
+    window = _window(_half(angle), width, height, tall)
+    slope = FILLED * np.array((window.right, window.top))  # of the sides that are to be touched
     center, ends = _extents(parts, axes, slope)
     high, low, right, left = ends[:8].reshape(4, 2)
     near, far = ends[8:] * (-1, 1)
@@ -65,7 +63,7 @@ def framing(
     at = center + axes @ (*((right - left) / 2), -eye)
     return Camera(
         _pose(axes, at),
-        _window(half, aspect),
+        window,
         width,
         height,
         PERSPECTIVE,
@@ -139,11 +137,10 @@ class Choice:
         SceneError
             If eye and target are one point, or the picture has no pixel.
         """
-        check_size(width, height)
-        projection = PERSPECTIVE if self.ortho_scale is None else ORTHOGRAPHIC
-        if self.ortho_scale is None:
-            half = float(np.tan(np.radians(self.angle or ANGLE) / 2))
-        else:
+        projection: Projection = PERSPECTIVE
+        half = _half(self.angle or ANGLE)
+        if self.ortho_scale is not None:
+            projection = ORTHOGRAPHIC
             half = self.ortho_scale / 2
         eye = np.asarray(self.eye, np.float64)
         target = (0, 0, 0) if self.target is None else self.target
@@ -153,7 +150,7 @@ class Choice:
             raise SceneError("--eye and --target are the same point: move one of them.")
         return Camera(
             _pose(axes_of(backward, UP), eye),
-            _window(half, width / (tall * height)),
+            _window(half, width, height, tall),
             width,
             height,
             projection,
@@ -171,9 +168,22 @@ def _pose(axes: Floats, at: Floats) -> Floats:
     return matrix
 
 
-def _window(half: float, aspect: float) -> ViewWindow:
-    """Return the window of a picture that is 2 `half` high, at depth 1 or in metres."""
-    return ViewWindow(-half * aspect, half * aspect, -half, half)
+def _half(angle: float) -> float:
+    """Return half the height of what an angle in degrees sees at depth 1."""
+    return float(np.tan(np.radians(angle) / 2))
+
+
+def _window(half: float, width: int, height: int, tall: float) -> ViewWindow:
+    """Return the window of a picture that is 2 `half` high, at depth 1 or in metres.
+
+    Raises
+    ------
+    SceneError
+        If the picture has no pixel.
+    """
+    check_size(width, height)
+    right = half * (width / (tall * height))
+    return ViewWindow(-right, right, -half, half)
 
 
 def axes_of(backward: ArrayLike, up: ArrayLike) -> Floats:

@@ -21,7 +21,6 @@ from .arrays import Array, Floats
 from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, UP, axes_of, framing, shown_points
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
-from .tracer.memory import free_memory
 
 Placed = tuple[Mesh, Floats]  # with its world_from_object, (4, 4)
 
@@ -115,8 +114,6 @@ def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> Array:
         size = math.prod(own) * dtype.itemsize
         if not size < info.file_size <= _DENSEST * (info.compress_size + 1):
             raise SceneError(f"{name} is not as long as it says: write the file again")
-        if size > 1 << 20 and size > (free_memory() or size):
-            raise SceneError(f"{name} takes {size / 2**30:.1f} GiB, more than is free")
         file.seek(0)
         return read.read_array(file, allow_pickle=False)
 
@@ -188,8 +185,8 @@ def _mesh_of(loaded: Any, node: str) -> Iterator[Placed]:
     """Yield the mesh of a node of a trimesh.Scene, if it has triangles."""
     matrix, name = loaded.graph[node]
     geometry = loaded.geometry[name]
-    faces = getattr(geometry, "faces", ())  # a point cloud has none
-    if len(faces):
+    faces = getattr(geometry, "faces", None)  # a point cloud has none
+    if faces is not None and len(faces):
         vertices, keep = drop_non_finite(np.asarray(geometry.vertices), faces)
         yield Mesh(vertices, faces[keep], name=str(name)), np.array(matrix)
 
@@ -218,7 +215,8 @@ def scene_of_meshes(
         Instance(k, k, matrix, np.array([[g, g, g, 1]], np.float32))
         for k, ((_, matrix), g) in enumerate(zip(meshes, greys, strict=True))
     )
-    shown, names = tuple(m for m, _ in meshes), tuple(m.name for m, _ in meshes)
+    shown = tuple(mesh for mesh, _ in meshes)
+    names = tuple(mesh.name for mesh in shown)
     if camera is None:
         points = shown_points(shown, instances)
         check_size(width, height)

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..framing import ANGLE, Choice
-from ..scene import Scene, SceneError, check_size
+from ..scene import Scene, SceneError
 from ..scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
 from ..tracer.settings import Settings
 from . import running
@@ -46,7 +46,6 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     if suffix in MESH_SUFFIXES:
         default = choice.default_size
         size = choice.width or default[0], choice.height or default[1]
-        check_size(*size)  # before a large file is read
         camera = choice.placed(*size) if choice.eye else None
         import_trimesh()
         meshes = load_meshes(path, choice.up)
