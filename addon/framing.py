@@ -14,6 +14,7 @@ from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
 
 ANGLE = 50.0  # vertical angle of view, degrees
+SIZE = 960, 540  # of a mesh's picture, pixels
 FILLED = 0.9  # share of the picture's width or height that is filled by what is framed
 # From what is framed towards the eye: the front, the right and above, as of a new Blender scene.
 BACKWARD = 0.66, -0.62, 0.42
@@ -122,10 +123,9 @@ class Choice:
     target: Sequence[float] | None = None  # where it looks; None for the origin
     angle: float | None = None  # vertical, degrees
     ortho_scale: float | None = None  # height of the picture, metres
-    # The picture, pixels; of a .blend, one follows from the other.
+    # The picture, pixels; of a .blend, one follows from the other; of a mesh, SIZE says the rest.
     width: int | None = None
     height: int | None = None
-    default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
     up: str | None = None  # which axis of a mesh's file is up
     opened: bool = False  # the file is open, in the Blender that runs this
 
