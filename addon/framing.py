@@ -18,7 +18,6 @@ SIZE = 960, 540  # of a mesh's picture, pixels
 FILLED = 0.9  # share of the picture's width or height that is filled by what is framed
 # From what is framed towards the eye: the front, the right and above, as of a new Blender scene.
 BACKWARD = 0.66, -0.62, 0.42
-UP = 0.0, 0.0, 1.0
 NEAREST = 0.01  # depth of the nearest point at least, in sizes of all that is framed
 
 
@@ -149,7 +148,7 @@ class Choice:
         if not distance:
             raise SceneError("--eye and --target are the same point: move one of them.")
         return Camera(
-            _pose(axes_of(backward, UP), eye),
+            _pose(axes_of(backward), eye),
             _window(half, width, height, tall),
             width,
             height,
@@ -186,14 +185,11 @@ def _window(half: float, width: int, height: int, tall: float) -> ViewWindow:
     return ViewWindow(-right, right, -half, half)
 
 
-def axes_of(backward: ArrayLike, up: ArrayLike) -> Floats:
-    """Return right, up and backward of a camera as columns, (3, 3).
+def axes_of(backward: ArrayLike) -> Floats:
+    """Return right, up and backward of a camera as columns, (3, 3), with Z up in the picture.
 
-    Parameters
-    ----------
-    backward, up : (3,) float
-        Towards the eye, and what is up in the picture, in world space; of any length. Where `up`
-        is along the view, it is the last of the axes that are most across it.
+    `backward` is towards the eye in world space, (3,) float, of any length. If it is along Z, then
+    Y is up.
 
     Raises
     ------
@@ -201,9 +197,9 @@ def axes_of(backward: ArrayLike, up: ArrayLike) -> Floats:
         If `backward` is zero or not finite.
     """
     back = np.asarray(backward, np.float64)
-    right = np.cross(np.asarray(up, np.float64), back)
+    right = np.cross((0.0, 0.0, 1.0), back)
     if not right.any():
-        right = np.cross(np.eye(3)[2 - int(np.argmin(np.abs(back[::-1])))], back)
+        right = np.cross((0.0, 1.0, 0.0), back)
     axes = np.stack((right, np.cross(back, right), back), axis=1)
     lengths = np.linalg.norm(axes, axis=0)
     if not (lengths.all() and np.isfinite(lengths).all()):

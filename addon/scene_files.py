@@ -19,7 +19,7 @@ import numpy as np
 
 from .arrays import Array, Floats
 from .checked_json import camera_of, whole
-from .framing import ANGLE, BACKWARD, UP, axes_of, framing, shown_points
+from .framing import ANGLE, BACKWARD, axes_of, framing, shown_points
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
 
 Placed = tuple[Mesh, Floats]  # with its world_from_object, (4, 4)
@@ -222,7 +222,7 @@ def scene_of_meshes(
         check_size(width, height)
         try:
             with np.errstate(all="ignore"):  # Camera refuses what is not finite
-                camera = framing(points, axes_of(BACKWARD, UP), width, height, angle)
+                camera = framing(points, axes_of(BACKWARD), width, height, angle)
         except SceneError as error:
             raise SceneError("it is too large to be framed: scale it down") from error
     return Scene(camera, shown, instances, objects=names)
