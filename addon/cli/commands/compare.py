@@ -179,9 +179,9 @@ def _manifest(path: Path, scene: Scene) -> Manifest:
 
 
 def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
-    used = [scene.meshes[i.mesh] for i in scene.instances if i.object == number]
+    used = [i.mesh for i in scene.instances if i.object == number]
     planes = sum(p.object == number for p in scene.planes)
-    own = {id(mesh): mesh for mesh in used}.values()
+    own = [scene.meshes[k] for k in set(used)]
     return ObjectEntry(
         name,
         "INFINITE_PLANE" if planes else "MESH",
@@ -190,5 +190,5 @@ def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
         triangles=sum(len(m.triangles) for m in own),
         vertices=sum(len(m.vertices) for m in own),
         instances=len(used) + planes,
-        traced_triangles=sum(len(m.triangles) for m in used),
+        traced_triangles=sum(len(scene.meshes[k].triangles) for k in used),
     )
