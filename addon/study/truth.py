@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Bools, Places
+from ..arrays import Bools, Index, Places
 from ..certainty import Certainty
 from ..certified.any_rays import decide
 from ..methods import Method
@@ -22,7 +22,6 @@ from ..tracer.frame import Frame
 from ..tracer.nearest import plan
 from ..tracer.progress import Work, scaled
 from ..tracer.settings import Precision, Settings
-from ..tracer.vector import Index
 from ..tracer.world import Pairs
 
 CERTIFIED = Settings(Method.CERTIFIED)

@@ -18,9 +18,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import DTypeLike
 
-from .vector import Floats, Index, Numbers, Vectors, cross, dot
+from ..arrays import Array, Floats, Index
+from .vector import Vectors, cross, dot
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region
@@ -46,7 +47,7 @@ class Rays:
             directions if directions.shape[1] == 1 else directions.take(index, axis=1),
         )
 
-    def at(self, t: NDArray[np.floating]) -> Vectors:
+    def at(self, t: Floats) -> Vectors:
         """Return the points o + t d, (3, n)."""
         return self.origins + t * self.directions
 
@@ -59,10 +60,10 @@ def pixel_size(camera: Camera) -> tuple[float, float]:
 
 def film_positions(
     tile: Region,
-    dx: NDArray[np.floating] | float = 0.0,
-    dy: NDArray[np.floating] | float = 0.0,
+    dx: Floats | float = 0.0,
+    dy: Floats | float = 0.0,
     pixel: Index | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
 
     In pixels of the whole picture. The rays are those of the tile's pixels, row by row from the
@@ -78,8 +79,8 @@ def film_positions(
 
 def camera_rays(
     camera: Camera,
-    px: Numbers,
-    py: Numbers,
+    px: Array,
+    py: Array,
     dtype: DTypeLike = np.float64,
 ) -> Rays:
     """Return the rays through film positions.
@@ -92,7 +93,7 @@ def camera_rays(
         In which every step is computed.
     """
 
-    def cast(value: object) -> Numbers:
+    def cast(value: object) -> Array:
         return np.asarray(value, dtype=dtype)
 
     width, height = pixel_size(camera)
@@ -105,7 +106,7 @@ def camera_rays(
         return Rays(*camera.projection.ray(origin, x, y, right, up, forward))
 
 
-def dual_axes(camera: Camera) -> NDArray[np.float64]:
+def dual_axes(camera: Camera) -> Floats:
     """Return the rows of the inverse of the axes right, up, forward, (3, 3)."""
     axes = np.stack((camera.right, camera.up, camera.forward))
     dual = np.stack([cross(axes[k - 2], axes[k - 1]) for k in range(3)])

@@ -10,8 +10,9 @@ from functools import cache, cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Bools, Bytes, Floats, Index
 from ..certainty import Certainty, Reason, sentences
-from .vector import Bools, Floats, Index, Vectors, groups, spread
+from .vector import Vectors, groups, spread
 
 NOTHING = -1  # instance and triangle where a ray hits nothing
 Names = NDArray[np.int32]  # (n,) instances, or triangles
@@ -179,7 +180,7 @@ class Hits:
 
     instance: NDArray[np.int32]
     triangle: NDArray[np.int32]
-    certainty: NDArray[np.uint8]
+    certainty: Bytes
     measures: Measures | FindMeasures
     ties: Ties = field(default_factory=Ties.none)
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ..arrays import Bools, Floats, Index
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
@@ -18,7 +19,6 @@ from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .triangle import TESTS
-from .vector import Bools, Floats, Index
 from .world import Pairs, batches, world_triangles
 
 # Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).

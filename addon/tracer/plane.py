@@ -7,13 +7,13 @@ is parallel to the plane and does not hit it.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Floats
 from .camera import Rays
 from .vector import Vectors, dot
 
 
-def intersect(rays: Rays, point: Vectors, normal: Vectors) -> NDArray[np.floating]:
+def intersect(rays: Rays, point: Vectors, normal: Vectors) -> Floats:
     """Return the t at which each ray meets the plane.
 
     Parameters

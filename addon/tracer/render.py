@@ -15,6 +15,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Floats
 from ..scene import Camera, Region, Scene
 from .camera import Rays, camera_rays, film_positions
 from .coloring import Color
@@ -155,7 +156,7 @@ class _Band:
             lambda: camera_rays(camera, *film_positions(self.region, *offset, pixel)), hits
         )
 
-    def _write(self, hits: Hits, color: NDArray[np.float64]) -> Steps[None]:
+    def _write(self, hits: Hits, color: Floats) -> Steps[None]:
         """Enter the band's colours, and what its centre rays met, in small steps.
 
         Without colours yet, t is found at once: the colours of the whole picture depend on it.

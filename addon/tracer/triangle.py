@@ -29,9 +29,10 @@ from collections.abc import Callable
 
 import numpy as np
 
+from ..arrays import Bools, Floats
 from ..methods import Method
 from .camera import Rays
-from .vector import Bools, Floats, Vectors, cross, dot
+from .vector import Vectors, cross, dot
 
 Intersection = tuple[Bools, Floats, Vectors]
 Sheared = list[tuple[Floats, Floats, Floats]]  # x, y and depth of each corner

@@ -119,7 +119,7 @@ def test_the_table_has_every_breaking_point_in_its_row_and_column(rows, drawn):
     assert len(cells) == len(points)
     for p in points:
         row = plot.text(BY_NAME[p.scenario].title).y
-        over = [t.x for t in plot.texts if t.words == Method(p.method).words]
+        over = [t.x for t in plot.texts if t.words == Method(p.method).record.words]
         [column] = [t.x for t in plot.texts if t.words == p.precision and t.x in over]
         [cell] = [t for t in plot.texts if abs(t.x - column) < 1 and abs(t.y - row) < 1]
         said = "never" if p.lost is None else written(p.lost)
@@ -148,7 +148,7 @@ def test_every_row_of_a_sweep_is_a_mark_where_its_axes_say(rows, drawn):
             found = [e for e in near if e.tag == "circle" and e.words]
             marks += len(found)
             for r in (r for r in swept if r.scenario == s.name):
-                name = f"{Method(r.method).words}, {r.precision}, {written(r.scale)}: "
+                name = f"{Method(r.method).record.words}, {r.precision}, {written(r.scale)}: "
                 [m] = [m for m in found if m.words.startswith(name)]
                 assert m.x == pytest.approx(along[written(r.scale)], abs=0.1)
                 assert y(m.y) == pytest.approx(100 * r.share, abs=0.1)

@@ -103,7 +103,7 @@ def test_the_page_has_every_row_and_column(trade):
     held = page_table(trade)
     assert held["head"][3:] == [c.head for c in COLUMNS]
     for cells, r in zip(held["rows"], trade.rows, strict=True):
-        assert cells[:3] == [Method(r.method).words, r.precision, r.size]
+        assert cells[:3] == [Method(r.method).record.words, r.precision, r.size]
         assert [c.removesuffix(" ★") for c in cells[3:]] == [c.show(r) for c in COLUMNS]
         assert sum("★" in c for c in cells) == r.best_pixels + r.best_coverage
 
@@ -170,7 +170,7 @@ def test_every_row_is_a_mark_where_the_axes_say(trade):
         assert len(marks) == len(rows)
         least = min(getattr(r, error) for r in rows if getattr(r, error))
         for r in rows:
-            name = f"{Method(r.method).words}, {r.precision}, {r.size}: "
+            name = f"{Method(r.method).record.words}, {r.precision}, {r.size}: "
             [m] = [m for m in marks if m.words.startswith(name)]
             assert all(f"{c.head} {c.show(r)}" in m.words for c in COLUMNS)
             assert x(m.x) == pytest.approx(r.seconds, rel=1e-3)
@@ -178,7 +178,7 @@ def test_every_row_is_a_mark_where_the_axes_say(trade):
                 assert y(m.y) == pytest.approx(getattr(r, error), rel=1e-3)
             else:
                 assert y(m.y) < least and plot.text("none")
-            color = Method(r.method).color
+            color = Method(r.method).record.color
             assert m.attributes["stroke"] == color
             assert m.attributes["fill"] == ("white" if r.precision == "float32" else color)
             assert (float(m.attributes["r"]) > 10) == getattr(r, best)

@@ -147,13 +147,11 @@ def export_camera(scene: Any) -> Camera:
     )
 
 
-def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate | None:
+def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate:
     """Return how far apart the camera exported of a scene and Blender's own see known points.
 
-    None for a panorama, of which Blender has no matrix.
+    Not of a panorama: Blender has no matrix of it.
     """
-    if not camera.projection.is_linear:
-        return None
     points = known_points(camera)
     return certify(camera, points, _film(scene, depsgraph, points))
 

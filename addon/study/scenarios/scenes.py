@@ -9,10 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays import Floats
 from ...projections import ORTHOGRAPHIC
 from ...scene import Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
-from ...tracer.vector import Floats
 from . import parts
 from .parts import BESIDE, TURNED, camera, generator, grid, scene, sheet, sphere
 
