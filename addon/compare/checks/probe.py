@@ -211,12 +211,17 @@ def by_parts(
     The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
     Only the pixels `asked` (h, w) are looked at, if given.
     """
-    parts = parts_of(made.scene, pixels.open & asked, FEW)
-    for number, (tile, rows, wanted) in enumerate(parts):
-        done, size = number / len(parts), 1 / len(parts)
-        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.5 * size)
-        for _ in look(Part.of(pixels.rows(rows), wanted, probe)):
-            yield done + 0.5 * size
+    r = made.scene.camera.region
+    asked = pixels.open & asked
+    height = len(asked)
+    for y0, y1 in groups(asked.sum(axis=1), FEW):
+        rows = slice(y0, y1)
+        tile = Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1)
+        if asked[rows].any():
+            finding = Probe.of(made, tile, asked[rows].ravel())
+            probe = yield from scaled(finding, y0 / height, 0.5 * (y1 - y0) / height)
+            for _ in look(Part.of(pixels.rows(rows), asked[rows], probe)):
+                yield 0.5 * (y0 + y1) / height
 
 
 def near_surfaces(
@@ -247,13 +252,3 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
     for color in colors:
         out |= ~(yield from other_color(picture, color))
     return out
-
-
-def parts_of(scene: Scene, open_: Bools, most: int) -> list[tuple[Region, slice, Bools]]:
-    """Return parts of whole rows with about `most` open pixels, as tiles and rows, and these."""
-    r = scene.camera.region
-    return [
-        (Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), slice(y0, y1), open_[y0:y1].copy())
-        for y0, y1 in groups(open_.sum(axis=1), most)
-        if open_[y0:y1].any()
-    ]
