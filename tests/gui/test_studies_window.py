@@ -48,13 +48,3 @@ def test_escape_leaves_nothing(name, noted):
     assert noted["render_result_kept"]
     assert not noted["found"]
     assert noted["can_begin"]
-
-
-@pytest.mark.story("extreme_scene")
-def test_a_scenario_is_opened_compared_and_undone(noted):
-    assert noted["pressed"] == ["FINISHED"]
-    assert noted["scene"] == noted["comparison"]["scene"]["scene"] != noted["user"]
-    assert set(noted["view"]) == {"CAMERA"}
-    wrong = {m["method"]: m["wrong_pixels"] for m in noted["comparison"]["methods"]}
-    assert wrong["certified"] == 0
-    assert noted["undone"] == [[sorted([noted["user"], noted["scene"]]), []], [[noted["user"]], []]]

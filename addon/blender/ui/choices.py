@@ -122,8 +122,8 @@ _SCENARIOS = tomllib.loads(
 )
 
 
-SWEEPS: tuple[Unstored, ...] = tuple(
-    (s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS["scenario"]
-)
 EVERY = "ALL"  # in place of a scenario's name
-STUDIES = ((EVERY, "All", "Every scenario"), *SWEEPS)
+STUDIES = (
+    (EVERY, "All", "Every scenario"),
+    *((s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS["scenario"]),
+)
