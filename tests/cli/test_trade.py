@@ -18,7 +18,7 @@ def test_trade(small_ball, tmp_path, capsys):
     assert main(["trade", small_ball, *TRADE, "--out", str(tmp_path / "new" / "out")]) == AGREE
     said = capsys.readouterr().out
     lines = said.splitlines()
-    assert "wrong pixels" in lines[0] and "12 x 7 pixels, 2 x 2 rays each" in lines
+    assert "wrong pixels" in lines[0] and "12 × 7, 2 × 2 rays" in said
     assert "certified, proven to have none" in said and lines[-1].startswith("written to")
     written = sorted(p.name for p in (tmp_path / "new" / "out").iterdir())
     assert written == ["tradeoff.json", "tradeoff.svg", "tradeoff.txt"]
@@ -56,9 +56,9 @@ def test_trade_takes_the_width_of_a_scene(make, tmp_path, capsys):
     """A scene has its own camera, but how wide its picture is can be chosen."""
     save_scene(tmp_path / "s.npz", make.scene(make.camera(10, 6), make.quad(-9, 0, -9, 9, -2)))
     assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1"]) == AGREE
-    assert "10 x 6 pixels, one ray each" in capsys.readouterr().out
+    assert "10 × 6 " in capsys.readouterr().out
     assert main(["trade", str(tmp_path / "s.npz"), "--samples", "1", "--width", "20"]) == AGREE
-    assert "20 x 12 pixels, one ray each" in capsys.readouterr().out
+    assert "20 × 12 " in capsys.readouterr().out
 
 
 def test_trade_help_says_whose_the_width_is(capsys):
