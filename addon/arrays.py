@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[Any]  # of any type
+Array = NDArray[Any]  # of any one type; of dtype object where they are fractions
 Bools = NDArray[np.bool_]
 Bytes = NDArray[np.uint8]
 Colors = NDArray[np.float32]  # (..., 4) linear RGBA, premultiplied alpha
-Floats = NDArray[np.floating]
+Floats = NDArray[np.floating]  # float64, but where a plain method is asked for float32
 Index = NDArray[np.integer]
 Integers = NDArray[np.int32]
 Places = NDArray[np.intp]  # what numpy's searches return

@@ -45,14 +45,27 @@ from .values import values_restored
 
 @dataclass(frozen=True)
 class Choices:
-    """How to compare; None means as the scene stores it."""
+    """How to compare."""
 
-    settings: Settings | None = None
-    judge: str | None = None  # its name in capitals, or AUTO
-    as_is: bool | None = None  # Blender draws with the shading that the scene has
-    identity: bool | None = None  # whose surface each pixel shows is found, too
-    self_check: bool | None = None  # the comparison is tried on known faults, too
+    settings: Settings
+    judge: str  # its name in capitals, or AUTO
+    as_is: bool  # Blender draws with the shading that the scene has
+    identity: bool  # whose surface each pixel shows is found, too
+    self_check: bool  # the comparison is tried on known faults, too
     tracer: Tracer | None = None  # what traces; by default, this process
+
+    @classmethod
+    def of(cls, scene: Any, given: dict[str, Any]) -> Choices:
+        """Return what is given; what is not, or is None, is as a `bpy.types.Scene` stores it."""
+        stored = scene.reference_tracer
+        own = cls(
+            stored.settings(),
+            stored.judge,
+            stored.shading == "AS_IS",
+            stored.identity,
+            stored.self_check,
+        )
+        return replace(own, **{name: value for name, value in given.items() if value is not None})
 
 
 def compared(case: Case) -> Work[Comparison]:
@@ -68,7 +81,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
     ----------
     context : bpy.types.Context
     **choices
-        The fields of :class:`Choices`.
+        Fields of :class:`Choices`; the others are as the scene stores them.
 
     Raises
     ------
@@ -77,17 +90,15 @@ def gather_case(context: Any, **choices: Any) -> Case:
     RuntimeError
         If Blender makes no picture of it.
     """
-    chosen = Choices(**choices)
     scene = context.scene
     layer = context.view_layer.name
-    stored = scene.reference_tracer
-    like_for_like = stored.shading == "LIKE_FOR_LIKE" if chosen.as_is is None else not chosen.as_is
+    chosen = Choices.of(scene, choices)
+    like_for_like = not chosen.as_is
     camera = export_camera(scene)  # first: its errors name the user's scene, say what to do
     is_panorama = not camera.projection.is_linear
-    judge = judge_named(chosen.judge or stored.judge, bpy.app.background, is_panorama)
+    judge = judge_named(chosen.judge, bpy.app.background, is_panorama)
     of_view = judge.needs_window and not like_for_like
     view_shading = solid_shading(context) if of_view else None
-    self_check = stored.self_check if chosen.self_check is None else chosen.self_check
     check_memory(
         camera.region.width, camera.region.height, COMPARED, 2 * ALWAYS
     )  # before Blender draws
@@ -103,23 +114,23 @@ def gather_case(context: Any, **choices: Any) -> Case:
             of_picture = of_shading(tmp, judge, used["anti_aliasing"])
             own = (replace(u, object=f"scene '{scene.name}'") for u in of_picture)
             manifest = replace(manifest, unmodelled=(*manifest.unmodelled, *own))
-        later = _a_frame_later(tmp, layer, judge) if self_check else None
+        later = _a_frame_later(tmp, layer, judge) if chosen.self_check else None
         snapping = snapping_of(judge)  # its drawing is the first, which may differ from the others
         planes = manifest.owners[len(exported.instances) :]
         with stand_ins(tmp, layer, exported, planes) as with_planes:
             pixels = picture(tmp, layer, judge, exported.camera, like_for_like)
     shown = _picture(pixels, judge, used, snapping)
     drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest)
-    if stored.identity if chosen.identity is None else chosen.identity:
+    if chosen.identity:
         shown = with_identity(drawing, shown)
     shown, manifest = with_what_draws_itself(drawing, shown)
     if there != [o.name_full for o in scene.objects]:
         manifest = replace(manifest, unmodelled=(*manifest.unmodelled, by_handlers(scene)))
-    settings = chosen.settings or stored.settings()
+    settings = chosen.settings
     if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
         settings = replace(settings, samples=1)
     case = Case(with_planes, manifest, settings, shown, certificate)
-    return replace(case, self_check=self_check, next_frame=later, tracer=chosen.tracer)
+    return replace(case, self_check=chosen.self_check, next_frame=later, tracer=chosen.tracer)
 
 
 def _prepared(tmp: Any, judge: Judge, like_for_like: bool, view_shading: Any) -> dict[str, Any]:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     Certified = tuple[Scene, Manifest, CameraCertificate | None]
 
 ENGINE = "REFERENCE_TRACER"
-SHOWN = 10.0  # seconds that the status bar shows a message
 SHOW_EVERY = 0.5  # seconds between showing rows, at least; it takes at most a tenth of the time
 
 # What the engine exported of temporary scenes, by their names, until it is asked for.
@@ -87,7 +86,8 @@ class ReferenceTracerEngine(bpy.types.RenderEngine):
         self._show(frame, layer, passes, slice(first, frame.shape[0]))
         if frame.cancelled:
             done = int(frame.rows_done.sum())
-            _say(f"Cancelled: {done} of {frame.shape[0]} rows are traced, the others are empty")
+            rows = f"{done} of {frame.shape[0]} rows are traced, the others are empty"
+            print(f"Reference Tracer: Cancelled: {rows}")  # Blender shows no report now
         else:
             self._tell(frame.statistics)
 
@@ -148,27 +148,14 @@ def _enabled(layer: Any) -> tuple[Pass, ...]:
     return PASSES[0], *(p for p in PASSES if p.label in chosen)
 
 
-def _say(text: str) -> None:
-    """Print a message and show it in the status bar: a cancelled render's reports are dropped."""
-    print(f"Reference Tracer: {text}")
-    if not bpy.app.background:
-        # Timers run in the main thread; a render does not.
-        bpy.app.timers.register(lambda: _set_status(text), first_interval=0.2)
-        bpy.app.timers.register(lambda: _set_status(None), first_interval=SHOWN)
-
-
-def _set_status(text: str | None) -> None:
-    manager: Any = bpy.context.window_manager
-    for window in manager.windows:
-        window.workspace.status_text_set(text)
-
-
 def export_certified(depsgraph: Any) -> Certified:
     """Return what :func:`.reading.export.export` does, and how close its camera is to Blender's."""
     from .reading.camera import certify_camera
     from .reading.export import export
 
     scene, manifest = export(depsgraph)
+    if not scene.camera.projection.is_linear:  # of which Blender has no matrix
+        return scene, manifest, None
     return scene, manifest, certify_camera(depsgraph.scene_eval, depsgraph, scene.camera)
 
 

@@ -29,14 +29,12 @@ def register() -> None:
     for module in MODULES:
         module.register()
     _register()
-    bpy.app.handlers.load_post.append(preferences.set_up_new_file)
     bpy.app.handlers.load_pre.append(_file_closes)
 
 
 def unregister() -> None:
     """Undo :func:`register`."""
     bpy.app.handlers.load_pre.remove(_file_closes)
-    bpy.app.handlers.load_post.remove(preferences.set_up_new_file)
     if LongWork.running:  # Blender tells no operator that its add-on is switched off
         context: Any = bpy.context
         window = context.window or context.window_manager.windows[0]

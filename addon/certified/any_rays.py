@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Floats
 from ..scene import Scene
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics
@@ -35,14 +35,12 @@ def trace_rays(scene: Scene, rays: Rays, settings: Settings, statistics: Statist
 class Decision:
     """What n rays make of n triangles, pair by pair: (n,) bool each."""
 
-    hit: NDArray[np.bool_]  # the ray, moved infinitesimally by the rule, meets it in the clip range
-    edge: NDArray[np.bool_]  # the ray as it is meets its edge or corner exactly
-    exact: NDArray[np.bool_]  # integers decided
+    hit: Bools  # the ray, moved infinitesimally by the rule, meets it in the clip range
+    edge: Bools  # the ray as it is meets its edge or corner exactly
+    exact: Bools  # integers decided
 
 
-def decide(
-    rays: Rays, corners: NDArray[np.float64], start: float = 0.0, end: float = np.inf
-) -> Decision:
+def decide(rays: Rays, corners: Floats, start: float = 0.0, end: float = np.inf) -> Decision:
     """Decide pairs of a ray and a triangle, each by itself.
 
     Parameters

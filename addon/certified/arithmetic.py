@@ -8,7 +8,8 @@ checked before anything is called certified.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from ..arrays import Floats
 
 
 class AssumptionError(RuntimeError):
@@ -46,7 +47,7 @@ def broken_assumptions() -> list[str]:
     return lacks
 
 
-def _floats(bits: int) -> NDArray[np.float64]:
+def _floats(bits: int) -> Floats:
     return np.full(_LENGTH, bits, np.int64).view(np.float64)
 
 

@@ -26,8 +26,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Floats, Index
 from ..tracer.camera import Rays
-from ..tracer.vector import Floats, Index, Vectors, cross, dot, largest
+from ..tracer.vector import Vectors, cross, dot, largest
 
 U = 2.0**-53  # the relative error of one rounding
 BOUND = 12 * U

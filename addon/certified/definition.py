@@ -1,21 +1,32 @@
-"""Says what a certified picture is, in integers: what is proven of every pixel.
+"""Defines the certified picture, in integers: what each pixel shows, which is what is proven.
 
-The theorem, for each stored ray, in exact arithmetic and within the camera's clip range:
+Each pixel has one stored ray. The ray, the triangles in world space and the infinite planes are
+float64 numbers. They are taken as exact, and nothing that follows is rounded but t, once. Only hits
+with clip start <= t <= clip end count, and none at t = 0 where clip start is 0.
 
-1. If the ray meets no edge or corner and no two surfaces at once before anything else, it sees the
-   one surface that it meets at the least t, or nothing where it meets none.
-2. Otherwise it is ambiguous: it sees what the ray sees that is moved infinitesimally by the rule of
-   `exact.py`, and of several surfaces in one plane the one of the lowest (instance, triangle).
-3. Its t = T / D is rounded once, to the nearest float64, ties to even.
+1. Clear rays. A ray is clear if, up to and including the first place where it meets anything, it
+   touches no edge or corner of a triangle and meets no two surfaces at the same t. It sees the
+   surface of the least t; or nothing, if it meets none.
+2. Ambiguous rays: all others. The ray's direction is moved by (x, x^2, x^3) for an infinitely small
+   x (`exact.py`), and the pixel shows what the moved ray sees, which may be nothing. Of several
+   surfaces in one plane it sees the lowest (instance, triangle); planes come after all instances.
+3. Depth. On the surface that is seen, the ray that was not moved has t = T / D, a fraction of two
+   integers. It is rounded once, to the nearest float64, ties to even.
 
-In Coq (`proofs/`), `certified_with_depth` is the theorem, about `plain.py`; `clearly_sees` there is
-1, and `moved_sees` is 2, both in real numbers. That the integers below compute just that:
-`integers_exact` (floats as integers), `seen_exact` (hits within the clip range), `t_rounded` (3),
-`met_rule_all` and `order_rule` (the ray that is moved).
+In Coq (`proofs/`), these are theorems about a model of `plain.py` whose arithmetic is recorded from
+the code; docs/proof.md says what the model leaves out:
 
-Nothing here is fast: every ray meets every surface. There are no candidates, no error bounds and no
-batches. `plain.py` is this definition with a filter, `sweep/` is the same sooner, and tests hold
-both equal to it.
+    certified_with_depth          all three; in it, `clearly_sees` is 1 and `moved_sees` is 2
+    integers_exact, seen_exact    the integers are the floats, and find the hits in the clip range
+    met_rule_all, order_rule      what the moved ray meets, and in which order
+    t_rounded                     3
+
+Not claimed: that a stored ray is the camera's ideal ray, or a corner its exact transform
+(`rounding.py` bounds both). Triangles that are not finite are left out, and counted.
+
+This file is slow on purpose: it tests every ray with every surface. `plain.py` has the same result,
+and uses integers only where floats leave a doubt; `sweep/` has it faster still. Tests hold both
+equal to this file.
 """
 
 from __future__ import annotations
@@ -25,10 +36,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import Index
 from ..scene import Scene
 from ..tracer.camera import camera_rays, film_positions
 from ..tracer.hits import NOTHING, NOWHERE, Name
-from ..tracer.vector import Index
 from ..tracer.world import WorldTriangles, batches, world_triangles
 from .exact import IntegerBatch
 from .ties import seen_and_ties
@@ -38,39 +49,45 @@ class Seen(NamedTuple):
     """What a ray sees."""
 
     name: Name  # instance and triangle; NOWHERE for nothing
-    t: float  # metres along the view axis; inf for nothing
-    ties: frozenset[Name]  # of an ambiguous ray, all that it may be said to see; else empty
-    crossings: int  # of the moved ray with surfaces, within the clip range
+    t: float  # the ray's parameter on it, of a camera's ray the depth in metres; inf for nothing
+    # All names that an ambiguous ray might show, this one included; empty for a clear ray.
+    ties: frozenset[Name]
+    crossings: int  # how many surfaces the moved ray crosses within the clip range
 
 
 def definition(scene: Scene, pixels: Index | None = None) -> Iterator[Seen]:
     """Yield what the rays of a camera's pixels see, row by row from the lowest.
 
-    `pixels` (n,) are the numbers of some of them; by default all.
+    `pixels` (n,) are numbers of pixels in the camera's region; by default all.
     """
     camera = scene.camera
     rays = camera_rays(camera, *film_positions(camera.region, pixel=pixels))
     triangles, names = _surfaces(scene)
     planes = [(plane.point, plane.normal) for plane in scene.planes]
     clip = camera.clip_start, camera.clip_end
-    surfaces = IntegerBatch(rays, triangles.corners, planes, *clip)
+    integers = IntegerBatch(rays, triangles.corners, planes, *clip)  # planes first, as in `names`
     for ray in range(rays.count):
-        exact = [surfaces.hit(ray, number) for number in range(len(names))]
-        met = [(name, hit) for name, hit in zip(names, exact, strict=True) if hit]
-        seen, ties = seen_and_ties(met)
-        name, t = NOWHERE, np.inf
-        if seen >= 0:
-            name, hit = met[seen]
-            t = surfaces.t(hit)
-        yield Seen(name, t, ties, sum(hit.is_hit() for _, hit in met))
+        # What the ray touches. Of these, the moved ray crosses those whose `is_hit` says so.
+        touched = []
+        for number, name in enumerate(names):
+            hit = integers.hit(ray, number)
+            if hit is not None:
+                touched.append((name, hit))
+        chosen, ties = seen_and_ties(touched)  # an index; -1 for nothing
+        crossings = sum(hit.is_hit() for _, hit in touched)
+        if chosen >= 0:
+            name, hit = touched[chosen]
+            yield Seen(name, integers.t(hit), ties, crossings)
+        else:
+            yield Seen(NOWHERE, np.inf, ties, crossings)
 
 
 def _surfaces(scene: Scene) -> tuple[WorldTriangles, list[Name]]:
-    """Return all triangles in world space, and the names of all planes, then of the triangles."""
+    """Return the finite triangles in world space; and the names of the planes, then of these."""
     every = [world_triangles(scene, batch, np.dtype(float)) for batch in batches(scene)]
     triangles = WorldTriangles.joined([WorldTriangles.none(), *every])
     triangles = triangles.take(np.flatnonzero(triangles.finite))
-    first = len(scene.instances)
-    names = [(first + number, NOTHING) for number in range(len(scene.planes))]
+    first_plane = len(scene.instances)
+    names = [(first_plane + number, NOTHING) for number in range(len(scene.planes))]
     names += zip(triangles.instance.tolist(), triangles.triangle.tolist(), strict=True)
     return triangles, names

@@ -31,8 +31,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..arrays import Array, Floats
 from ..tracer.camera import Rays
-from ..tracer.vector import Floats, Numbers
 from .integers import ZERO, Integers, cross, dot, integers, scaled, sub
 
 Triple = tuple[Integers, Integers, Integers]  # one vector for each of the edges ab, bc, ca
@@ -105,8 +105,8 @@ class IntegerBatch:
     def __init__(
         self,
         rays: Rays,
-        corners: Numbers,
-        planes: Sequence[tuple[Numbers, Floats]] = (),
+        corners: Array,
+        planes: Sequence[tuple[Array, Floats]] = (),
         start: float = 0.0,
         end: float = np.inf,
     ) -> None:

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..tracer.vector import Numbers
+from ..arrays import Array
 
 Integers = tuple[int, int, int]
 
 ZERO: Integers = (0, 0, 0)
 
 
-def integers(vectors: Numbers) -> tuple[list[Integers], int]:
+def integers(vectors: Array) -> tuple[list[Integers], int]:
     """Return vectors (3, n) as n triples of integers, and an exponent e: float = integer * 2^e.
 
     Fractions must have powers of two as denominators.

@@ -1,17 +1,15 @@
-"""Finds each ray's nearest surface with proof: error bound, then order of depths, then integers.
+"""Finds each ray's nearest surface with proof, in three steps: each is slower and decides more.
 
-Read from top to bottom. Each step decides what it can, and leaves the rest to the next, which costs
-more and decides more:
-
-1. **Error bound** (`Ladder.test`, `bounds.py`). A pair of a ray and a surface that the rounding
-   errors cannot make a hit is dropped. Every other one is a candidate, with an interval that holds
-   its t. A candidate that begins behind the end of a certain hit is dropped, too. A ray with one
-   candidate left, which certainly is a hit, is decided.
-2. **Order of depths** (`Decisions.by_order`, `order.py`). Where all candidates of a ray are certain
-   hits, only who is nearer is open. That depends on two surfaces alone, so that integers find it
-   once for many rays.
-3. **Integers** (`Decisions.by_integers`, `exact.py`, `ties.py`). Whatever is open is decided as
-   `definition.py` says.
+1. **Error bound** (`Ladder.test`, `bounds.py`). A pair of a ray and a surface is dropped if it is a
+   miss however the rounding errors fall. Every other one is a candidate, with an interval that
+   holds its t. A candidate whose interval begins beyond the end of a certain hit's is dropped, too.
+   A ray with one candidate left, which certainly is a hit, is decided.
+2. **Order of depths** (`Decisions.by_order`, `order.py`). If all candidates of a ray are certain
+   hits, only the order of their t is open. For rays with a common origin or direction it is the
+   sign of an expression whose coefficients belong to two surfaces: integers find these once, and
+   floats with an error bound decide each ray.
+3. **Integers** (`Decisions.by_integers`, `exact.py`, `ties.py`). Whatever is still open is decided
+   as `definition.py` says.
 """
 
 from __future__ import annotations
@@ -24,11 +22,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Bools, Bytes, Floats, Index
 from ..certainty import Certainty, Reason
 from ..tracer.camera import Rays
 from ..tracer.hits import Hits, Statistics, Ties
 from ..tracer.progress import Work
-from ..tracer.vector import Bools, Floats, Index, occurring
+from ..tracer.vector import occurring
 from ..tracer.world import Pairs, WorldTriangles
 from . import exact, order
 from .bounds import Fractions, FromPoint, Parallel, plane_fractions
@@ -45,7 +44,7 @@ BY_ORDER = 1 << 14
 BY_INTEGERS = 1 << 11
 
 Met = list[exact.Hit | None]
-# Returns how the first of two candidates lies to the second, (p,) each: codes of `order.py`.
+# Whether the first of two candidates is nearer or farther than the second: codes of `order.py`.
 Compare = Callable[[Index, Index], NDArray[np.int8]]
 # Finds the nearest candidate of each ray by comparing; see `one_by_one`.
 Nearest = Callable[[Compare, Index], tuple[Index, Bools, Bools]]
@@ -61,13 +60,14 @@ class Ladder:
     surfaces : Surfaces
         The infinite planes; triangles come with the pairs.
     clip : (start, end) float
-        Hits with start <= t <= end are seen, but none at t = 0 where start is 0.
+        Hits with start <= t <= end count, but none at t = 0 where start is 0.
     around : Rays, optional
-        Rays that share what these share, and whose components enclose those of these, which are
-        the default. Bounds for all rays at once are bounds for them: so how a ray is decided does
-        not depend on which others it is traced with.
+        Rays with the same common origin or direction as `rays`, whose components span a range that
+        contains theirs; by default `rays`. Bounds are computed for these, so that the result for a
+        ray does not depend on which others it is traced with.
     room : float
-        How far beside these rays, by component, what is said of planes also holds.
+        Widens the error bounds of planes, so that they hold for any ray whose components differ
+        by at most this.
     """
 
     def __init__(
@@ -100,14 +100,14 @@ class Ladder:
     def test(self, pairs: Pairs) -> None:
         """Find the candidates among pairs of a ray and a triangle, by the error bound.
 
-        Pairs of one batch of triangles follow one another.
+        Pairs of one batch of triangles should follow one another: its bounds are kept for the next.
         """
         if pairs.triangles is not self._batch:
             self._batch = pairs.triangles
             self._prepared = self._prepare(pairs.triangles.corners)
         rays, row, prepared = self._rays.take(pairs.pixel), pairs.row, self._prepared
         with np.errstate(all="ignore"):  # what overflows is not known, and goes to integers
-            if prepared is None:  # rays that share nothing: each pair by itself
+            if prepared is None:  # rays that share nothing: a triangle for each pair
                 prepared = FromPoint(rays.origins, np.abs(rays.directions), pairs.corners)
                 row = np.arange(len(row))
             sure, possible = sides(prepared, row, rays)
@@ -121,7 +121,7 @@ class Ladder:
     def hits(self, statistics: Statistics, nearest: Nearest | None = None) -> Work[Hits]:
         """Decide which surface is nearest to each ray, in small steps that all yield 1.
 
-        Counts in the statistics what integers were asked for. `nearest` finds the nearest of
+        Counts in the statistics why bounds did not decide. `nearest` finds the nearest of
         candidates by their order; `one_by_one` is the default.
         """
         hits = Hits.none(self._rays.count, Certainty.BOUND)
@@ -147,7 +147,7 @@ class Ladder:
         return hits
 
     def left(self) -> tuple[Candidates, Bools, Surfaces]:
-        """Return the candidates that are left, which the bound decides, and their surfaces."""
+        """Return the remaining candidates, which of them the bound decides, and the surfaces."""
         found = Candidates.joined(self._found)
         found = found.take(np.flatnonzero(found.low <= self._farthest[found.ray]))
         alone = np.bincount(found.ray, minlength=self._rays.count)[found.ray] == 1
@@ -165,7 +165,10 @@ class Ladder:
         self._found.append(found)
 
     def _prepare(self, corners: Floats) -> FromPoint | Parallel | None:
-        """Return what of triangles (3, 3, m) is the same for all the rays; None if nothing is."""
+        """Return the part of the edge test of triangles (3, 3, m) that all rays share, if any.
+
+        Vectors (3, 1) are one origin, or one direction, for all.
+        """
         o, d = self._around.origins, self._around.directions
         with np.errstate(all="ignore"):
             if o.shape[1] == 1:
@@ -178,7 +181,7 @@ class Ladder:
     def _candidates(
         self, ray: Index, surface: Index, fractions: Fractions, sure: Bools
     ) -> Candidates:
-        """Return what may be in the clip range, and not behind what certainly is."""
+        """Return the candidates: what may be in the clip range and not behind a certain hit."""
         low, high, outside, doubt = in_range(fractions, sure, *self._clip)
         certain = np.flatnonzero(doubt == SURE)
         np.minimum.at(self._farthest, ray[certain], high[certain])
@@ -187,7 +190,7 @@ class Ladder:
 
 
 def sides(prepared: FromPoint | Parallel, row: Index, rays: Rays) -> tuple[Bools, Index]:
-    """Return which of the pairs that may be hits certainly are, and which pairs may be."""
+    """Return which pairs may pass inside the triangle, after whether each of these surely does."""
     edges, error = prepared.edges(row, rays)
     low, high = edges.min(axis=0), edges.max(axis=0)
     possible = np.flatnonzero(~((low < -error) & (high > error)))
@@ -197,13 +200,16 @@ def sides(prepared: FromPoint | Parallel, row: Index, rays: Rays) -> tuple[Bools
 
 def in_range(
     fractions: Fractions, sure: Bools, start: float, end: float
-) -> tuple[Floats, Floats, Bools, NDArray[np.uint8]]:
-    """Return the ends of each t's interval, whether it certainly is clipped, and the doubt."""
+) -> tuple[Floats, Floats, Bools, Bytes]:
+    """Return the ends of each t's interval, whether it certainly is clipped, and the doubt.
+
+    The doubt is SURE, CLIP, or EDGE where an edge function or D leaves one.
+    """
     low, high = fractions.interval()
     inside = (low > start) & (high < end)
     doubt = np.where(sure & np.isfinite(high), np.where(inside, SURE, CLIP), EDGE).astype(np.uint8)
     outside = (high < start) | (low > end)
-    if start < 0:  # the interval leaves out what is behind the origin
+    if start < 0:  # where D is in doubt, the interval leaves out what is behind the origin
         outside &= np.isfinite(high)
         low = np.where(np.isfinite(high), low, -np.inf)
     return low, high, outside, doubt
@@ -222,41 +228,48 @@ class Decisions:
     ties: list[Ties] = field(default_factory=list)
 
     def by_bound(self, ray: Index, surface: Index) -> Iterator[None]:
-        """Enter the surfaces that rays certainly hit first: finds t and barycentrics, in steps."""
+        """Write the surfaces that rays certainly hit first, with t and barycentrics, in steps."""
         surfaces, surface = self.surfaces.only(surface)
         yield from Prepared(self.around, surfaces).enter(self.hits, ray, surface, self.rays.take)
 
     def by_order(self, found: Candidates, nearest: Nearest) -> Candidates:
-        """Decide rays that certainly hit all their candidates, where the order of these is known.
+        """Decide the rays that certainly hit all their candidates, if the order of these is known.
 
         All candidates of a ray come together. Returns those of the other rays.
         """
-        doubtful = np.zeros(len(self.hits), bool)
-        doubtful[found.ray[found.doubt != SURE]] = True
-        doubtful = doubtful[found.ray]
-        if not order.applies(self.around, self.clip[0]) or doubtful.all():
+        if not order.applies(self.around, self.clip[0]):
             return found
+        doubtful = np.isin(found.ray, found.ray[found.doubt != SURE])
         rest = found.take(np.flatnonzero(doubtful))
         found = found.take(np.flatnonzero(~doubtful))
+        if not len(found):
+            return rest
+        # Sorted by name: of several in one plane, the first, which stays, has the lowest name.
         found = found.take(np.lexsort((*self.surfaces.names(found.surface)[::-1], found.ray)))
         of_ray = np.cumsum(np.diff(found.ray, prepend=-1) != 0) - 1
-        first, decided, tied = nearest(self._compare(found), of_ray)
-        beaten = decided[of_ray]
-        rest = Candidates.joined((rest, found.take(np.flatnonzero(~beaten))))
-        beaten[first] = False
-        tied &= beaten
-        coplanar = int(tied.sum())
-        self.reasons[Reason.COPLANAR] += coplanar
-        self.reasons[Reason.CLOSE] += int(beaten.sum()) - coplanar
-        won = found.take(first[decided])
-        for _ in self.by_bound(won.ray, won.surface):
+        first, decided, coplanar = nearest(self._compare(found), of_ray)
+        is_decided = decided[of_ray]
+        losers = is_decided.copy()
+        losers[first] = False
+        coplanar &= is_decided
+        self._count_reasons(losers, coplanar)
+        winners = found.take(first[decided])
+        for _ in self.by_bound(winners.ray, winners.surface):
             pass
-        self.hits.certainty[won.ray] = Certainty.EXACT
-        tied[first[np.unique(of_ray[tied])]] = True
-        ties = found.take(np.flatnonzero(tied))  # what lies in one plane, sorted by ray
-        self.ties.append(Ties.of(ties.ray, *self.surfaces.names(ties.surface)))
-        self.hits.certainty[ties.ray] = Certainty.AMBIGUOUS
-        return rest
+        self.hits.certainty[winners.ray] = Certainty.EXACT
+        has_ties = np.bincount(of_ray, coplanar) > 1
+        self._enter_ties(found.take(np.flatnonzero(coplanar & has_ties[of_ray])))
+        return Candidates.joined((rest, found.take(np.flatnonzero(~is_decided))))
+
+    def _count_reasons(self, losers: Bools, coplanar: Bools) -> None:
+        same_plane = int((losers & coplanar).sum())
+        self.reasons[Reason.COPLANAR] += same_plane
+        self.reasons[Reason.CLOSE] += int(losers.sum()) - same_plane
+
+    def _enter_ties(self, tied: Candidates) -> None:
+        """Note candidates in one plane with the nearest of their ray, sorted by ray."""
+        self.ties.append(Ties.of(tied.ray, *self.surfaces.names(tied.surface)))
+        self.hits.certainty[tied.ray] = Certainty.AMBIGUOUS
 
     def _compare(self, found: Candidates) -> Compare:
         """Return what compares two candidates of one ray by their depths."""
@@ -301,7 +314,7 @@ class Decisions:
 
 
 def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
-    """Find the nearest of each ray's candidates by comparing it with one after the other.
+    """Find the nearest of each ray's candidates by comparing them one after the other.
 
     Parameters
     ----------
@@ -315,7 +328,7 @@ def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
     first : (r,) int
         The nearest candidate of each ray.
     decided : (r,) bool
-        Whether it is known to be.
+        Whether that is certain.
     tied : (c,) bool
         Which candidates lie in one plane with the nearest of their ray, itself included.
     """
@@ -333,4 +346,5 @@ def one_by_one(compare: Compare, of_ray: Index) -> tuple[Index, Bools, Bools]:
         coplanar_with[other[coplanar]] = first[ray[coplanar]]
         nearer = result == order.FARTHER  # the nearest so far is farther than this one
         first[ray[nearer]] = other[nearer]
+    # Who was coplanar with a nearest that was beaten since is not so with the one that is left.
     return first, decided, coplanar_with == first[of_ray]

@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Bools, Floats, Index
 from ..scene import Region, Scene
 from ..tracer.camera import Rays, camera_rays, corner_rays, film_positions
 from ..tracer.frame_measures import PIXELS
 from ..tracer.hits import NOTHING, Hits, Measures, Names
-from ..tracer.vector import Arrays, Bools, Floats, Index, Vectors, cross, gather, largest, parts
+from ..tracer.vector import Arrays, Vectors, cross, gather, largest, parts
 from ..tracer.world import WorldTriangles, world_corners
 from .arithmetic import check_assumptions
 from .quotient import Quotients

@@ -19,8 +19,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Index
 from ..tracer.camera import Rays
-from ..tracer.vector import Index, dot
+from ..tracer.vector import dot
 from .bounds import bound
 from .exact import IntegerBatch
 

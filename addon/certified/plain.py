@@ -1,8 +1,8 @@
-"""Finds the certified picture as `definition.py` says, with a filter: the ladder.
+"""Finds the certified picture that `definition.py` defines: most pixels by floats with bounds.
 
-For each tile of pixels, `candidates` proposes pairs of a pixel and a triangle, and leaves out none
-that is hit. The `Ladder` decides them: by error bounds where these leave no doubt, else by the
-order of depths, else in integers. `sweep/` finds the same sooner.
+For each tile of pixels, `candidates` proposes pairs of a pixel and a triangle: too many perhaps,
+but it leaves out none that is a hit. The `Ladder` decides them, by error bounds where these leave
+no doubt, else by the order of depths, else in integers. `sweep/` has the same result faster.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .ladder import Ladder
 if TYPE_CHECKING:
     from ..scene import Region, Scene
 
-_ROWS = 8  # of a tile
+_ROWS = 8  # rows of pixels in a tile
 
 
 def plain(
@@ -41,9 +41,9 @@ def plain(
     memory : int
         About how many bytes the pairs may take.
     dx, dy : float
-        Where each ray passes its pixel's centre, in pixels; at most half a pixel.
+        Offset of each ray from its pixel's centre, in pixels; at most half a pixel.
     statistics : Statistics, optional
-        To count in.
+        Counters to add to.
 
     Returns
     -------
@@ -52,7 +52,7 @@ def plain(
     """
     statistics = statistics or Statistics()
     plan = yield from cull(scene, np.dtype(np.float64), memory, max(abs(dx), abs(dy)))
-    around = corner_rays(scene.camera, dx, dy)
+    around = corner_rays(scene.camera, dx, dy)  # bounds for these hold for every tile
     found = []
     for y in range(region.y0, region.y1, _ROWS):
         tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
@@ -60,7 +60,7 @@ def plain(
         ladder = Ladder.of(scene, rays, around)
         statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
         for share, pairs in candidates(plan, tile):
-            if pairs is not None:
+            if pairs is not None:  # else only progress
                 statistics.pairs_tested += len(pairs.pixel)
                 ladder.test(pairs)
             yield share

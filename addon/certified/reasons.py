@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..arrays import Floats
 from ..certainty import Reason
 from ..tracer.camera import Rays
-from ..tracer.vector import Floats, Vectors, cross, largest
+from ..tracer.vector import Vectors, cross, largest
 from .bounds import BOUND, SLACK
 from .exact import Hit, sign_of_difference
 from .surfaces import CLIP, EDGE, SURE, Candidates, Surfaces

@@ -12,13 +12,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Floats, Index, Integers
 from ..scene import SceneError, ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
 from ..tracer.hits import NOTHING, Hits, Name
-from ..tracer.vector import Floats, Index, Vectors, rational
+from ..tracer.vector import Vectors, rational
 from ..tracer.world import reaches, world_corners
 from .arithmetic import check_assumptions
 from .bounds import BOUND
@@ -137,7 +137,7 @@ def _around(rays: Rays, aside: float) -> Rays:
 class _Found:
     """The pixels that would show another surface; `stored` (2, h, w) is what they show."""
 
-    def __init__(self, scene: Scene, stored: NDArray[np.int32]) -> None:
+    def __init__(self, scene: Scene, stored: Integers) -> None:
         self._scene = scene
         self._stored = stored
         self._asked = 0

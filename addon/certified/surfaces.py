@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bytes, Floats, Index, Integers
 from ..tracer.camera import Rays
 from ..tracer.hits import NOTHING
-from ..tracer.vector import Arrays, Floats, Index, occurring
+from ..tracer.vector import Arrays, occurring
 from ..tracer.world import WorldTriangles
 from . import exact
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # What is in doubt about a candidate: nothing; the sign of an edge function or of D; the clip range.
 SURE, EDGE, CLIP = 0, 1, 2
-PlaneOf = tuple[NDArray[np.float64], NDArray[np.float64]]  # a point and the normal, (3,) each
+PlaneOf = tuple[Floats, Floats]  # a point and the normal, (3,) each
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Candidates(Arrays):
     surface: Index
     low: Floats
     high: Floats
-    doubt: NDArray[np.uint8]
+    doubt: Bytes
 
     @classmethod
     def none(cls) -> Candidates:
@@ -78,9 +78,7 @@ class Surfaces:
         triangles = self.triangles.take(which[planes:] - planes)
         return replace(self, triangles=triangles), place[planes:]
 
-    def names(
-        self, surface: Index | slice = slice(None)
-    ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    def names(self, surface: Index | slice = slice(None)) -> tuple[Integers, Integers]:
         """Return instance and triangle of surfaces, (c,) each; by default of all."""
         count = len(self.planes)
         instance = np.r_[self.first_plane + np.arange(count), self.triangles.instance]

@@ -53,7 +53,9 @@ def _off(x: float, y: float, case: Case, _: Frame) -> Case:
     return _window(case, 1.0, x * width, y * height)
 
 
-def _sensor_fit(case: Case, _: Frame) -> Case:
+def _sensor_fit(case: Case, _: Frame) -> Case | None:
+    if not case.scene.camera.projection.is_linear:  # a panorama has no sensor to fit
+        return None
     w = case.scene.camera.window
     return _window(case, (w.right - w.left) / (w.top - w.bottom))
 

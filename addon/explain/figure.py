@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..tracer.vector import Floats
+from ..arrays import Floats
 from .derivation import Derivation, Test
 from .textbook import Arithmetic
 

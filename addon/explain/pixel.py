@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import Colors
+from ..arrays import Colors, Floats
 from ..certainty import Certainty
 from ..methods import Method
 from ..rendering import trace
@@ -20,7 +20,6 @@ from ..scene import Camera, Instance, Mesh, Plane, Scene, SceneError
 from ..tracer.camera import Rays, camera_rays
 from ..tracer.hits import NOTHING, NOWHERE, Name
 from ..tracer.settings import PLAIN_SETTINGS, Precision, Settings
-from ..tracer.vector import Floats
 from ..tracer.world import WorldTriangles
 
 

@@ -17,8 +17,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..arrays import Floats
-from .projection import Edges, Formulas, Projection, Vectors
+from ..arrays import Array, Floats
+from .projection import Edges, Formulas, Projection, Ray, Vectors
 from .sine import sine
 
 # Radians: far above the rounding of an angle that is found here, where it is not near pi / 2.
@@ -44,7 +44,7 @@ class Equirectangular(Projection):
         ),
     }
 
-    def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
+    def ray(self, eye: Array, x: Array, y: Array, right: Array, up: Array, forward: Array) -> Ray:
         """Return the eye, and directions of unit length."""
         east, north, ahead = _direction(x, y)
         return eye, east * right + north * up + ahead * forward
@@ -137,7 +137,7 @@ class Equirectangular(Projection):
         return kind | dict(zip(_RANGES, edges, strict=True))
 
 
-def _direction(x: Any, y: Any) -> tuple[Any, Any, Any]:
+def _direction(x: Array, y: Array) -> tuple[Array, Array, Array]:
     """Return what right, up and forward are multiplied by at longitudes x and latitudes y, (n,)."""
     level = sine(y, 1)
     return level * sine(x), sine(y), level * sine(x, 1)

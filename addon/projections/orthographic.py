@@ -8,8 +8,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..arrays import Floats
-from .projection import Edges, Formulas, Projection, shifts
+from ..arrays import Array, Floats
+from .projection import Edges, Formulas, Projection, Ray, shifts
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Orthographic(Projection):
         "d": ("forward", "the same for all pixels: t is the depth"),
     }
 
-    def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
+    def ray(self, eye: Array, x: Array, y: Array, right: Array, up: Array, forward: Array) -> Ray:
         """Return origins beside the eye, and the direction that all share."""
         return eye + (x * right + y * up), forward
 
@@ -57,7 +57,7 @@ class Orthographic(Projection):
         """Return depths spread evenly."""
         return rng.uniform(ends[0], ends[1], count)
 
-    def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Any:
+    def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Floats | float:
         """Return the step: all are equal."""
         return step
 

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from .projection import Edges, Formulas, Projection, shifts
+from ..arrays import Array
+from .projection import Edges, Formulas, Projection, Ray, shifts
 
 _SENSOR = 36.0  # millimetres; what Blender's own cameras have
 _LEAST_LENS = 1.0  # millimetres: Blender's least focal length
@@ -24,7 +25,7 @@ class Perspective(Projection):
         "d": ("u right + v up + forward", "not normalised: t is the depth"),
     }
 
-    def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
+    def ray(self, eye: Array, x: Array, y: Array, right: Array, up: Array, forward: Array) -> Ray:
         """Return the eye, and directions that are one unit deep."""
         return eye, x * right + y * up + forward
 

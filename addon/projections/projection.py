@@ -12,9 +12,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Array, Floats
 
 Vectors = Floats  # (3, ...)
+Ray = tuple[Array, Array]  # origins and directions
 Formulas = dict[str, tuple[str, str]]  # of "o" and "d": the right side, and a remark
 Edges = tuple[float, float, float, float]  # of a view window: left, right, bottom, top
 
@@ -35,7 +36,7 @@ class Projection:
     sees_behind: ClassVar[bool] = False  # the clip range may begin behind the camera
     farthest: ClassVar[float] = np.inf  # window units: the film ends before this
 
-    def ray(self, eye: Any, x: Any, y: Any, right: Any, up: Any, forward: Any) -> tuple[Any, Any]:
+    def ray(self, eye: Array, x: Array, y: Array, right: Array, up: Array, forward: Array) -> Ray:
         """Return origins and directions of the rays through film positions (x, y)."""
         raise NotImplementedError
 
@@ -134,7 +135,7 @@ class Projection:
         start, end = np.log(ends)
         return np.exp(rng.uniform(start, end, count))
 
-    def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Any:
+    def depth_step(self, step: float, depth: Floats, start: float, end: float) -> Floats | float:
         """Return the step of a depth buffer at a depth; `step` is that of equal steps, metres."""
         return step * depth**2 / (end * start)
 

@@ -1,15 +1,21 @@
 """Makes the rays of a camera: origins and directions in world space.
 
-A ray is x = o + t d. Directions come from the camera's own axes, d = x right + y up + forward,
-and are not normalised, so that t is the depth along the view axis. They are never the difference
-of a world-space pixel and the camera's position, which would lose most digits far from the origin.
-Other types of cameras are in `projections/`.
+A ray is x = o + t d. Directions come from the camera's own axes: in perspective,
+d = x right + y up + forward for a film position (x, y); `projections/` has each type of camera.
+They are not normalised, so that t is the depth along the view axis (for a panorama, the distance).
+They are never the difference of a world-space pixel and the camera's position, which would lose
+most digits far from the origin.
 
-The textbook (Exercise 1, perspective camera) has the length of a pixel as
-tan(opening angle) / (half the resolution), where the opening angle of the course's code is *half*
-the vertical angle of view, and samples at x - (width - 1) / 2: the pixel's centre. Both are the
-view window of `scene.Camera` with top = tan(opening angle). (Read as tan(angle / half the
-resolution), which the text also allows, the formula holds for small angles only.)
+The textbook (Exercise 1, perspective camera) has, for the pixel in column i,
+
+    pixel = tan(a) / (height / 2)                    x = (i - (width - 1) / 2) pixel
+
+where a, in the course's code, is *half* the vertical angle of view. Here it is
+
+    pixel = (right edge - left edge) / width         x = left edge + (i + 1/2) pixel
+
+with the edges of the view window of `scene.Camera`. They are the same where the top edge is tan(a).
+(The text can also be read as tan(a / (height / 2)), which holds for small angles only.)
 """
 
 from __future__ import annotations
@@ -18,9 +24,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import DTypeLike
 
-from .vector import Floats, Index, Numbers, Vectors, cross, dot
+from ..arrays import Array, Floats, Index
+from .vector import Vectors, cross, dot
 
 if TYPE_CHECKING:
     from ..scene import Camera, Region
@@ -46,7 +53,7 @@ class Rays:
             directions if directions.shape[1] == 1 else directions.take(index, axis=1),
         )
 
-    def at(self, t: NDArray[np.floating]) -> Vectors:
+    def at(self, t: Floats) -> Vectors:
         """Return the points o + t d, (3, n)."""
         return self.origins + t * self.directions
 
@@ -59,10 +66,10 @@ def pixel_size(camera: Camera) -> tuple[float, float]:
 
 def film_positions(
     tile: Region,
-    dx: NDArray[np.floating] | float = 0.0,
-    dy: NDArray[np.floating] | float = 0.0,
+    dx: Floats | float = 0.0,
+    dy: Floats | float = 0.0,
     pixel: Index | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Floats, Floats]:
     """Return where rays that pass their pixel's centre at (dx, dy) meet the film, (n,) each.
 
     In pixels of the whole picture. The rays are those of the tile's pixels, row by row from the
@@ -78,8 +85,8 @@ def film_positions(
 
 def camera_rays(
     camera: Camera,
-    px: Numbers,
-    py: Numbers,
+    px: Array,
+    py: Array,
     dtype: DTypeLike = np.float64,
 ) -> Rays:
     """Return the rays through film positions.
@@ -92,7 +99,7 @@ def camera_rays(
         In which every step is computed.
     """
 
-    def cast(value: object) -> Numbers:
+    def cast(value: object) -> Array:
         return np.asarray(value, dtype=dtype)
 
     width, height = pixel_size(camera)
@@ -105,7 +112,7 @@ def camera_rays(
         return Rays(*camera.projection.ray(origin, x, y, right, up, forward))
 
 
-def dual_axes(camera: Camera) -> NDArray[np.float64]:
+def dual_axes(camera: Camera) -> Floats:
     """Return the rows of the inverse of the axes right, up, forward, (3, 3)."""
     axes = np.stack((camera.right, camera.up, camera.forward))
     dual = np.stack([cross(axes[k - 2], axes[k - 1]) for k in range(3)])
@@ -153,7 +160,7 @@ def film_beside(camera: Camera, points: Vectors, px: Floats, py: Floats) -> Floa
 
 
 def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:
-    """Return camera-space coordinates of world points, and how far rounding may have moved them.
+    """Return camera-space coordinates of world points, and what bounds their rounding errors.
 
     The axes need not be orthonormal, so they are inverted through their dual basis:
     X = (v - o) . (up x forward) / det, and so on; Z is the depth, positive in front.

@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Floats, Index, Integers
 from .camera import pixel_size, project
 from .progress import Work
-from .vector import Bools, Floats, Index, Vectors, groups, spread
+from .vector import Vectors, groups, spread
 from .world import Batch, Pairs, WorldTriangles, batches, world_triangles
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def has_sound_axes(camera: Camera) -> bool:
 
 
 @np.errstate(all="ignore")  # what overflows has no bounds
-def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> NDArray[np.int32]:
+def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> Integers:
     """Return boxes of pixels outside which no ray of the camera truly hits a triangle.
 
     Parameters
@@ -121,12 +121,12 @@ def pixel_bounds(camera: Camera, corners: Vectors, reach: float = 0.0) -> NDArra
     return bounds
 
 
-def _pixel(value: Floats, low: int, high: int, unknown: int) -> NDArray[np.int32]:
+def _pixel(value: Floats, low: int, high: int, unknown: int) -> Integers:
     """Return pixels, clipped to low and high; `unknown` for NaN."""
     return np.where(np.isnan(value), unknown, np.clip(value, low, high)).astype(np.int32)
 
 
-def within(bounds: NDArray[np.int32], tile: Region) -> NDArray[np.int32]:
+def within(bounds: Integers, tile: Region) -> Integers:
     """Intersect boxes of pixels with a tile; both (4, m), as :func:`pixel_bounds` has them."""
     x0, x1, y0, y1 = bounds
     return np.stack(
@@ -163,7 +163,7 @@ def cull(
 
 def _bounds(
     scene: Scene, dtype: np.dtype[np.floating], reach: float, batch: Batch
-) -> tuple[WorldTriangles, NDArray[np.int32], int]:
+) -> tuple[WorldTriangles, Integers, int]:
     """Return a batch's finite triangles, their boxes of pixels, and how many are not finite."""
     triangles = world_triangles(scene, batch, dtype)
     finite = triangles.finite
@@ -199,7 +199,7 @@ def candidates(
 
 
 def pairs(
-    bounds: NDArray[np.int32], tile: Region, limit: int, before: Index | None = None
+    bounds: Integers, tile: Region, limit: int, before: Index | None = None
 ) -> Iterator[tuple[Index, Index]]:
     """List the pixels of boxes within a tile, about `limit` at most at a time.
 

@@ -13,6 +13,7 @@ from enum import StrEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Colors
 from ..images import curve_undone
 from ..scene import Scene
 from .camera import Rays
@@ -57,9 +58,7 @@ class Color(StrEnum):
     FACING = "facing"
     DEPTH = "depth"
 
-    def of(
-        self, scene: Scene, depths: Depths, rays: Callable[[], Rays], hits: Hits
-    ) -> NDArray[np.float32]:
+    def of(self, scene: Scene, depths: Depths, rays: Callable[[], Rays], hits: Hits) -> Colors:
         """Return the colours of n rays, (n, 4) linear RGBA; the background is the scene's."""
         out = colors(scene, hits)
         if shade := _SHADES.get(self):

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Bools, Bytes, Colors, Floats, Index, Integers
 from ..certainty import Certainty
 from ..scene import Region, Scene
 from . import shading
@@ -20,7 +20,6 @@ from .camera import camera_rays, film_positions
 from .frame_measures import FrameMeasures
 from .hits import NOTHING, Hits, Measures, Names, Statistics, Ties
 from .memory import TRACED, check_memory
-from .vector import Floats, Index, Numbers
 
 _PIXELS = 1 << 15  # of which something is computed together
 NO_HIT_DEPTH = 1e10  # what Blender's own depth pass has where nothing is hit
@@ -37,14 +36,14 @@ class Pass(NamedTuple):
     label: str = ""
     letters: str = "X"
     kind: str = "VALUE"
-    shown: Callable[[Numbers], Numbers] = np.asarray
+    shown: Callable[[Array], Array] = np.asarray
 
 
-def _finite(t: Numbers) -> Numbers:
+def _finite(t: Array) -> Array:
     return np.minimum(t, NO_HIT_DEPTH)
 
 
-def _from_1(index: Numbers) -> Numbers:
+def _from_1(index: Array) -> Array:
     return index + 1  # 0 is none
 
 
@@ -72,11 +71,11 @@ class Frame:
     """
 
     scene: Scene  # that is traced
-    color: NDArray[np.float32]  # (h, w, 4) linear RGBA, alpha premultiplied
-    instance_index: NDArray[np.int32]  # (h, w) instances, then planes; NOTHING: no hit
-    triangle_index: NDArray[np.int32]  # (h, w) index into Mesh.triangles; NOTHING: none
-    certainty: NDArray[np.uint8]  # (h, w) Certainty of the surface that is seen
-    rows_done: NDArray[np.bool_]  # (h,) False for rows that were not traced
+    color: Colors  # (h, w, 4) linear RGBA, alpha premultiplied
+    instance_index: Integers  # (h, w) instances, then planes; NOTHING: no hit
+    triangle_index: Integers  # (h, w) index into Mesh.triangles; NOTHING: none
+    certainty: Bytes  # (h, w) Certainty of the surface that is seen
+    rows_done: Bools  # (h,) False for rows that were not traced
     measures: FrameMeasures  # t and the barycentrics
     ties: Ties = field(default_factory=Ties.none)  # by the pixel's index, row by row
     cancelled: bool = False
@@ -106,10 +105,10 @@ class Frame:
         )
 
     def cancel(self) -> None:
-        """Have it end here: rows that are not done are empty, whatever was found of them."""
+        """End here: empty the rows that are not done, whatever was found of them."""
         self.cancelled = True
         height, width = self.shape
-        rows = slice(int(self.rows_done.sum()), height)  # as the lowest are the first
+        rows = slice(int(self.rows_done.sum()), height)  # the lowest are done first
         self.color[rows] = 0
         self.ties = self.ties.below(rows.start * width)
         self.enter(rows, Hits.none((height - rows.start) * width))
@@ -121,10 +120,10 @@ class Frame:
 
     @property
     def t(self) -> Floats:
-        """Ray parameter = depth along the view axis, (h, w) metres; inf: no hit."""
+        """Ray parameter, (h, w): the depth in metres (a panorama's distance); inf: no hit."""
         return self.measures.of(slice(None))[0]
 
-    depth = t  # as Blender's Z pass has it: directions are not normalised, for any camera
+    depth = t  # as Blender's Z pass has it
 
     @property
     def barycentrics(self) -> Floats:
@@ -142,7 +141,7 @@ class Frame:
         return self._by_rows(lambda rows: shading.normals(self.scene, self.hits(rows)))
 
     @property
-    def object_index(self) -> NDArray[np.int32]:
+    def object_index(self) -> Integers:
         """Index into `Scene.objects`, (h, w); NOTHING: no hit."""
         return self.scene.instance_objects[self.instance_index]
 
@@ -190,7 +189,7 @@ class Frame:
         t = self.t[np.isfinite(self.t)]
         return (float(np.min(t)), float(np.max(t))) if t.size else (0.0, 0.0)
 
-    def wrong_against(self, certified: Frame) -> NDArray[np.bool_]:
+    def wrong_against(self, certified: Frame) -> Bools:
         """Return which pixels, (h, w), see another surface than a certified frame of the scene.
 
         Where that is ambiguous, all that a ray moved infinitesimally may see is right.
@@ -203,6 +202,6 @@ class Frame:
         wrong.flat[pixel[certified.ties.may_see(pixel, *name)]] = False
         return wrong
 
-    def passes(self) -> dict[str, Numbers]:
+    def passes(self) -> dict[str, Array]:
         """Return every output by name, also those that are computed."""
         return {p.name: getattr(self, p.name) for p in PASSES}

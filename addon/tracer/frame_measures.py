@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Index, Integers
 from .hits import FindMeasures, Hits, Measures, no_measures
-from .vector import Index
 
 PIXELS = 1 << 17  # found together: a step of some ten milliseconds
 _KNOWN = -1  # of a row whose values are there
@@ -24,7 +23,7 @@ class FrameMeasures:
         The surface that each pixel shows. These are the frame's own arrays, which it still fills.
     """
 
-    def __init__(self, instance: NDArray[np.int32], triangle: NDArray[np.int32]) -> None:
+    def __init__(self, instance: Integers, triangle: Integers) -> None:
         self._instance = instance
         self._triangle = triangle
         self._height, self._width = instance.shape

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ..arrays import Bools, Floats, Index
 from ..scene import Camera, Region, Scene
 from . import plane
 from .camera import Rays, camera_rays, film_positions
@@ -18,7 +19,6 @@ from .hits import Hits, Statistics
 from .progress import Work
 from .settings import Settings
 from .triangle import TESTS
-from .vector import Bools, Floats, Index
 from .world import Pairs, batches, world_triangles
 
 # Finds the hits of a band's rays, which pass their pixels' centres at (dx, dy).
@@ -135,8 +135,10 @@ def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> 
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)
-    # numpy keeps the last of several writes to one index. So hits that are nearer than what was
-    # kept are written again, in the opposite order, since many are sorted from near to far.
+    # A pixel may occur several times, and of several writes to one index numpy keeps the last. So
+    # all that are nearer than what is stored are written, then those that are nearer still, and so
+    # on. Each round brings a pixel's hit nearer, so that it ends. The order is turned round each
+    # time, as a mesh is often sorted from near to far, or from far to near.
     while len(pixel):
         nearer = np.flatnonzero(_before(found, slice(None), hits, pixel))[::-1]
         pixel, found = pixel[nearer], found.take(nearer)

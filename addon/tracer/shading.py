@@ -9,17 +9,17 @@ from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Bools, Colors, Floats, Index, Places
 from ..runs import by_runs
 from ..scene import Mesh, Scene
 from .camera import Rays
 from .hits import NOTHING, Hits
-from .vector import Bools, Index, Vectors, cross, dot, largest
+from .vector import Vectors, cross, dot, largest
 from .world import world_corners
 
 
-def colors(scene: Scene, hits: Hits) -> NDArray[np.float32]:
+def colors(scene: Scene, hits: Hits) -> Colors:
     """Return the colour that each of n rays sees, (n, 4) linear RGBA; surfaces have an alpha of 1.
 
     A triangle has the colour of its material slot. Where its mesh has corner colours, the colour is
@@ -47,7 +47,7 @@ def interpolated(scene: Scene, instance: Index) -> Bools:
     return np.array([*of, *(False for _ in scene.planes), False])[instance]
 
 
-def normals(scene: Scene, hits: Hits) -> NDArray[np.float64]:
+def normals(scene: Scene, hits: Hits) -> Floats:
     """Return the geometric unit normals of n hits, (n, 3), world space; zero for NOTHING.
 
     A normal points to the side of (p2 - p1) x (p3 - p1) in *object* space, so that mirroring an
@@ -89,7 +89,7 @@ def positions(rays: Rays, hits: Hits) -> Vectors:
     return points.T
 
 
-def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, NDArray[np.intp]]]:
+def by_mesh(scene: Scene, instance: Index) -> Iterator[tuple[Mesh, Places]]:
     """Yield each mesh among instances (n,) with its rows of them; no planes, and not NOTHING."""
     on_mesh = np.flatnonzero((instance != NOTHING) & (instance < len(scene.instances)))
     meshes = scene.instance_meshes[instance[on_mesh]]

@@ -12,16 +12,15 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from functools import reduce
-from typing import Any, Self, TypeVar
+from typing import Self, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-Floats = NDArray[np.floating]  # float64, but where a plain method is asked for float32
+from ..arrays import Array, Floats, Index
+
 Vectors = NDArray[np.floating]  # (3, n), or (3, 1) where one vector serves all
-Index = NDArray[np.integer]
-Bools = NDArray[np.bool_]
-Numbers = NDArray[Any]  # of any one dtype; of dtype object where they are fractions
+
 D = TypeVar("D", bound=np.generic)
 
 # In numpy 1 `take` is half as fast as indexing row by row.
@@ -49,7 +48,7 @@ def gather(values: NDArray[D], index: Index) -> NDArray[D]:
 class Arrays:
     """A record of arrays whose last axis counts the same things."""
 
-    def arrays(self) -> list[Numbers]:
+    def arrays(self) -> list[Array]:
         """Return the arrays in the order of the record's fields."""
         return [getattr(self, field.name) for field in fields(self)]
 
@@ -148,7 +147,7 @@ def cross(a: Vectors, b: Vectors, out: Vectors | None = None) -> Vectors:
     return out
 
 
-def transform_points(target_from_source: Numbers, points: Numbers) -> Numbers:
+def transform_points(target_from_source: Array, points: Array) -> Array:
     """Return points in target space, (3, n).
 
     Parameters

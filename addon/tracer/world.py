@@ -12,10 +12,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, Bools, Floats, Index, Integers
 from .camera import project
-from .vector import Arrays, Bools, Index, Numbers, Vectors, rational, transform_points
+from .vector import Arrays, Vectors, rational, transform_points
 
 if TYPE_CHECKING:
     from ..scene import Scene
@@ -28,7 +28,7 @@ class Batch:
     """The triangles first <= i < last of a mesh, in each of several instances."""
 
     mesh: int
-    instances: NDArray[np.int32]
+    instances: Integers
     first: int
     last: int
 
@@ -38,8 +38,8 @@ class WorldTriangles(Arrays):
     """m triangles in world space: `corners` (corner, component, m), instance and triangle, (m,)."""
 
     corners: Vectors
-    instance: NDArray[np.int32]
-    triangle: NDArray[np.int32]
+    instance: Integers
+    triangle: Integers
 
     @property
     def finite(self) -> Bools:
@@ -69,12 +69,12 @@ class Pairs:
         return np.stack([corner.take(self.row, axis=1) for corner in self.triangles.corners])
 
     @property
-    def instance(self) -> NDArray[np.int32]:
+    def instance(self) -> Integers:
         """The instance of each triangle, (p,)."""
         return self.triangles.instance[self.row]
 
     @property
-    def triangle(self) -> NDArray[np.int32]:
+    def triangle(self) -> Integers:
         """The number of each triangle in its mesh, (p,)."""
         return self.triangles.triangle[self.row]
 
@@ -126,13 +126,13 @@ def world_triangles(
     return WorldTriangles(np.stack(corners), np.repeat(batch.instances, each), triangle)
 
 
-def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> Numbers:
+def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = float) -> Array:
     """Return the corners of named triangles in world space, (corner, component, m).
 
     In float64; as fractions where dtype is object.
     """
     cast = rational if dtype is object else np.asarray
-    out: Numbers = np.empty((3, 3, len(instance)), dtype)
+    out: Array = np.empty((3, 3, len(instance)), dtype)
     groups: list[Index | slice] = [slice(None)]
     if len(instance) and (instance[0] != instance).any():
         of = scene.instance_meshes[instance]
@@ -152,7 +152,7 @@ def world_corners(scene: Scene, instance: Index, triangle: Index, dtype: type = 
     return out
 
 
-def reaches(scene: Scene) -> NDArray[np.float64]:
+def reaches(scene: Scene) -> Floats:
     """Bound the sums of |terms| of world_from_object . vertex, metres, (3, instances)."""
     if not scene.instances:
         return np.zeros((3, 0))

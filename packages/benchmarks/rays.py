@@ -38,10 +38,11 @@ def rays_of(camera: Camera, every: int = 1) -> Rays:
     y = w.bottom + (np.arange(camera.height) + 0.5) / camera.height * (w.top - w.bottom)
     rows = slice(min(every // 2, camera.height - 1), None, every)
     y = y[rows]
-    across = x[None, :, None] * camera.right + y[:, None, None] * camera.up
     near = camera.clip_start
-    eye, directions = camera.projection.ray(camera.origin, across, camera.forward)
-    directions = np.broadcast_to(directions, across.shape)
+    film = x[None, :, None], y[:, None, None]
+    axes = camera.right, camera.up, camera.forward
+    eye, directions = camera.projection.ray(camera.origin, *film, *axes)
+    directions = np.broadcast_to(directions, (len(y), len(x), 3))
     origins = eye + near * directions
     pixels = camera.width * camera.height
     return Rays(_float32(origins), _float32(directions), camera.clip_end - near, pixels, rows)

@@ -18,7 +18,7 @@ from . import meshes
 from .meshes import Triangles
 
 Vector = tuple[float, float, float]
-CAMERAS = tuple(PROJECTIONS)  # by name
+CAMERAS = tuple(name for name, p in PROJECTIONS.items() if p.is_linear)  # which the sweep traces
 EVERYDAY, ADVERSARIAL, SCALING = "everyday", "adversarial", "scaling"
 SUZANNE_FILE = "monkey.npz"  # not a name that somebody exports a scene to
 

@@ -12,7 +12,9 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from reference_tracer.blender.reading.camera import export_camera
+from reference_tracer.blender.drawing.camera_object import add_camera
+from reference_tracer.blender.reading.camera import export_camera, window_of
+from reference_tracer.scene import Camera, ViewWindow
 from reference_tracer.tracer.camera import camera_rays, film_of
 
 SIZES = {"landscape": (192, 108), "portrait": (90, 160), "square": (128, 128)}
@@ -173,3 +175,13 @@ def test_a_lens_at_its_ends_still_projects_as_blender_does(build):
         np.testing.assert_allclose(
             np.array(film_of(exported, world)[:2]), expected, rtol=0, atol=96 * ROUNDING
         )
+
+
+def test_a_pixel_that_blender_cannot_have_is_the_nearest():
+    camera = Camera(np.eye(4), ViewWindow(-1, 1, -1e-6, 1e-6), 20, 10)
+    scene = bpy.context.scene
+    add_camera(scene, camera)
+    assert scene.render.pixel_aspect_x == 200
+    shown = window_of(scene)
+    assert (shown.left, shown.right) == pytest.approx((-1, 1))
+    assert shown.top == pytest.approx(2 / 20 * 10 / 200 / 2)

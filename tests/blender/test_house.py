@@ -75,7 +75,6 @@ def test_all_is_gone_when_the_add_on_is():
     try:
         assert not any(draw in drawing(menu) for menu, draw in menus.MENUS.items())
         assert not bpy.utils.preset_paths("reference_tracer")
-        assert preferences.set_up_new_file not in bpy.app.handlers.load_post
         assert not hasattr(bpy.types, "REFERENCE_TRACER_OT_export")
     finally:
         registration.register()
@@ -136,18 +135,6 @@ def preferred():
 
 def test_without_preferences_there_is_no_folder():
     assert preferences.default_folder("compare") == ""
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert bpy.context.scene.reference_tracer.method == "auto"
-
-
-def test_a_new_file_has_the_method_that_is_preferred(preferred, tmp_path):
-    own = str(tmp_path / "own.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=own)  # stores no method
-    preferred.method = "watertight"
-    bpy.ops.wm.open_mainfile(filepath=own)
-    assert bpy.context.scene.reference_tracer.method == "auto"
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert bpy.context.scene.reference_tracer.method == "watertight"
 
 
 @pytest.fixture
@@ -191,7 +178,7 @@ def test_export_says_what_is_wrong(solids, tmp_path):
     with pytest.raises(RuntimeError, match=r"must end in .npz"):
         bpy.ops.reference_tracer.export(filepath=str(tmp_path / "scene.obj"))
     solids.camera.data.type = "PANO"
-    with pytest.raises(RuntimeError, match="is of type pano"):
+    with pytest.raises(RuntimeError, match="Reference Tracer models perspective"):
         bpy.ops.reference_tracer.export(filepath=str(tmp_path / "scene.npz"))
     assert not list(tmp_path.iterdir())
     solids.camera = None

@@ -8,7 +8,6 @@ from urllib.request import url2pathname
 
 import bpy
 from story import (
-    compared,
     data_blocks,
     invoke,
     module,
@@ -126,32 +125,5 @@ def extremes_escape():
     yield from escape("extremes", EXTREMES)
 
 
-def extreme_scene():
-    """A scenario as a scene: it is seen through its camera, compared there, and undone."""
-    yield 1
-    user = window().scene.name
-    noted["pressed"] = list(invoke("extreme_scene", scenario="far_from_origin", scale="1e8"))
-    yield 2
-    noted["scene"] = window().scene.name
-    noted["view"] = [
-        a.spaces.active.region_3d.view_perspective
-        for a in window().screen.areas
-        if a.type == "VIEW_3D"
-    ]
-    yield from show_study("extremes", "extreme_scene")
-    invoke("compare")
-    yield from until(compared)
-    yield 1
-    screenshot("extreme_scene_compared")
-    noted["comparison"] = result().content.to_dict()
-    noted["undone"] = []
-    for _ in range(2):  # the comparison, the scene
-        with bpy.context.temp_override(window=window()):
-            bpy.ops.ed.undo()
-        yield 1
-        noted["undone"].append([[s.name for s in bpy.data.scenes], sorted(images())])
-    noted["user"] = user
-
-
 SCENE = "exercise_triangle"
-STORIES = (trade, extremes, trade_escape, extremes_escape, extreme_scene)
+STORIES = (trade, extremes, trade_escape, extremes_escape)

@@ -25,9 +25,9 @@ def test_trade_shows_its_table_and_has_its_plot(noted):
 
 
 @pytest.mark.story("extremes")
-def test_extremes_shows_its_table_and_has_its_plots(noted):
+def test_extremes_shows_its_table_and_has_its_plot(noted):
     assert_ran(noted, "extremes")
-    assert noted["plots"] == 5
+    assert noted["plots"] == 1
     assert "Certified gets no ray wrong" in noted["lines"][0]
     certified = [never for _, method, _, never in noted["points"] if method == "certified"]
     assert len(certified) > 15 and all(certified)
@@ -48,13 +48,3 @@ def test_escape_leaves_nothing(name, noted):
     assert noted["render_result_kept"]
     assert not noted["found"]
     assert noted["can_begin"]
-
-
-@pytest.mark.story("extreme_scene")
-def test_a_scenario_is_opened_compared_and_undone(noted):
-    assert noted["pressed"] == ["FINISHED"]
-    assert noted["scene"] == noted["comparison"]["scene"]["scene"] != noted["user"]
-    assert set(noted["view"]) == {"CAMERA"}
-    wrong = {m["method"]: m["wrong_pixels"] for m in noted["comparison"]["methods"]}
-    assert wrong["certified"] == 0
-    assert noted["undone"] == [[sorted([noted["user"], noted["scene"]]), []], [[noted["user"]], []]]

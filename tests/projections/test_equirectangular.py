@@ -8,13 +8,13 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import trimesh
+from reference_tracer.certified.definition import definition
 from reference_tracer.certified.rounding import check_rounding, rounding
 from reference_tracer.methods import Method
 from reference_tracer.projections import EQUIRECTANGULAR
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError, ViewWindow
 from reference_tracer.scene_files import load_scene, save_scene
-from reference_tracer.study.oracle import scene_sights
 from reference_tracer.tracer.camera import (
     camera_rays,
     corner_rays,
@@ -28,6 +28,7 @@ from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
 from reference_tracer.tracer.settings import Settings
 
+from ..oracle import scene_sights
 from ..tracer.hostile_scenes import brute_force
 from ..tracer.test_candidates import exact_depth, hits_outside
 from .test_sine import true_sine
@@ -48,11 +49,12 @@ def panorama(make, width=32, height=16, window=WHOLE, **options):
 
 def hostile_panorama(make, rng):
     """Return a camera of any scale, place, border and clip range that may see parts twice."""
-    window = WHOLE, BLENDERS, None, None
-    window = window[rng.integers(4)]
-    if window is None:
-        x, y = np.sort(rng.uniform(-7, 7, 2)), np.sort(rng.uniform(-2.2, 2.2, 2))
-        window = ViewWindow(*map(float, (*x, *y)))
+    kind = rng.integers(5)
+    x, y = np.sort(rng.uniform(-7, 7, 2)), np.sort(rng.uniform(-2.2, 2.2, 2))
+    if kind > 2:  # pixels that are small before the triangles
+        x, y = (v[0] + 10.0 ** rng.uniform(-4, -1) * np.array((0, 1)) for v in (x, y))
+    window = ViewWindow(*map(float, (*x, *y)))
+    window = (WHOLE, BLENDERS, window, window, window)[kind]
     scale, (width, height) = 10.0 ** rng.uniform(-6, 6), (int(n) for n in rng.integers(3, 17, 2))
     axes = turned(rng)
     if rng.integers(4) == 0:
@@ -73,7 +75,8 @@ def hostile_triangles(camera, scale, rng, count=30) -> np.ndarray:
     special = np.array([camera.up, -camera.up, -camera.forward]).T
     at = rng.random(count) < 0.4
     middle[:, at] = special[:, rng.integers(3, size=at.sum())]
-    size = 10.0 ** rng.uniform(-3, 0.5, count)
+    w = camera.window
+    size = 10.0 ** rng.uniform(-3, 0.5, count) * min(1, w.right - w.left, w.top - w.bottom)
     far = scale * 10.0 ** rng.uniform(-2, 2, (3, 1, count))
     corners = middle + size * rng.normal(size=(3, 3, count))
     on = rng.random(count) < 0.3  # a corner in a ray, an edge through one
@@ -248,6 +251,8 @@ def test_certified_is_what_the_integers_say(make, part):
             assert sight.seen == name, (seed, k)
             assert t == (np.inf if sight.t is None else float(sight.t)), (seed, k)
             rays, hits = rays + 1, hits + (name[0] != NOTHING)
+        names = [seen.name for seen in definition(scene)]
+        assert names == [sight.seen for sight in sights], seed
         defined = brute_force(scene, camera.region)
         assert np.array_equal(frame.t.ravel(), defined.t), seed
         assert np.array_equal(frame.instance_index.ravel(), defined.instance), seed

@@ -40,7 +40,8 @@ LEFT_OUT = {
     "ladder.py": {
         CALLS: "Ladder.__init__ Ladder.of Ladder.test Ladder._test_plane Decisions.by_bound "
         "Decisions.by_order Decisions._compare Decisions._compare.<locals>.compare "
-        "Decisions.by_integers",
+        "Decisions.by_integers Decisions._enter_ties",
+        WORDS: "Decisions._count_reasons",
         "as Ladder._candidates, with what is the farthest at the end": "Ladder.left Ladder.hits",
         "by whatever order.py says: Tournament.v has a model of it": "one_by_one",
     },

@@ -11,14 +11,12 @@ from ...scene import Camera
 from ...tracer.camera import pixel_size
 from ..versions import lens
 
-LEAST_CLIP = 1e-6  # metres: Blender's own limit
-
 
 def add_camera(scene: Any, camera: Camera) -> Any:
     """Add a camera to a Blender scene, make it the active one, and set the picture's size.
 
     Blender takes the nearest value that it can have, as for pixels of more than 200 to 1 or a clip
-    start below `LEAST_CLIP`: `window_of` says what is shown.
+    start below 1e-6 m: `window_of` says what is shown.
     """
     render = scene.render
     across, up = pixel_size(camera)

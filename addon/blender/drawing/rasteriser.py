@@ -8,8 +8,6 @@ drawing, whose edges may differ from those of all that follow.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
@@ -18,7 +16,9 @@ import numpy as np
 
 from ...arrays import Bools, Floats
 from ...compare.bounds import SNAPPING
-from ..reading.camera import export_camera
+from ...projections import ORTHOGRAPHIC
+from ...scene import Camera, ViewWindow
+from .camera_object import add_camera
 from .judge import Judge
 from .picture import picture, prepare_scene
 
@@ -53,37 +53,31 @@ def _covered(judge: Judge, moved: Floats) -> Bools:
     moved : (n,) float64
         Pixels by which each row's right edge lies beyond that centre.
     """
-    with _quads(moved) as scene:
+    rows = len(moved)
+    matrix = np.eye(4)
+    matrix[:3, 3] = _WIDTH / 2, rows / 2, 1.0
+    window = ViewWindow(-_WIDTH / 2, _WIDTH / 2, -rows / 2, rows / 2)
+    camera = Camera(matrix, window, _WIDTH, rows, ORTHOGRAPHIC, 0.1, 100.0)
+    scene = bpy.data.scenes.new("Reference Tracer Rasteriser")
+    mesh = _quads(moved)
+    scene.collection.objects.link(bpy.data.objects.new(mesh.name, mesh))
+    looking = add_camera(scene, camera).data
+    try:
         prepare_scene(scene, True)
-        shown = picture(scene, scene.view_layers[0].name, judge, export_camera(scene), True)
+        shown = picture(scene, scene.view_layers[0].name, judge, camera, True)
+    finally:
+        bpy.data.batch_remove([*scene.collection.objects, scene, mesh, looking])
     return shown[:, 1, 3] > 0.5
 
 
-@contextmanager
-def _quads(moved: Floats) -> Iterator[Any]:
-    """Give a scene with a row of pixels for each quad, for a while."""
-    rows = len(moved)
-    scene = bpy.data.scenes.new("Reference Tracer Rasteriser")
-    mesh = bpy.data.meshes.new(scene.name)
-    camera = bpy.data.cameras.new(scene.name)
-    try:
-        corners = [
-            (x, y, 0.0)
-            for row, right in enumerate(1.5 + moved)
-            for x, y in ((0.0, row), (right, row), (right, row + 1), (0.0, row + 1))
-        ]
-        faces = np.arange(4 * rows).reshape(rows, 4)
-        mesh.from_pydata(corners, [], faces.tolist())
-        eye = bpy.data.objects.new(scene.name, camera)
-        eye.location = (_WIDTH / 2, rows / 2, 1.0)
-        camera.type = "ORTHO"
-        camera.ortho_scale = max(_WIDTH, rows)
-        for obj in (eye, bpy.data.objects.new(scene.name, mesh)):
-            scene.collection.objects.link(obj)
-        scene.camera = eye
-        scene.render.resolution_x = _WIDTH
-        scene.render.resolution_y = rows
-        scene.render.resolution_percentage = 100
-        yield scene
-    finally:
-        bpy.data.batch_remove([*scene.collection.objects, scene, mesh, camera])
+def _quads(moved: Floats) -> Any:
+    """Return a Blender mesh with a quad for each row of pixels, one above the other."""
+    corners = [
+        (x, y, 0.0)
+        for row, right in enumerate(1.5 + moved)
+        for x, y in ((0.0, row), (right, row), (right, row + 1), (0.0, row + 1))
+    ]
+    faces = np.arange(len(corners)).reshape(-1, 4)
+    mesh = bpy.data.meshes.new("Reference Tracer Rasteriser")
+    mesh.from_pydata(corners, [], faces.tolist())
+    return mesh

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ...arrays import Floats
 from ...projections import ORTHOGRAPHIC, PERSPECTIVE
 from ...scene import Camera, Region, SceneError, ViewWindow
 from ...tracer.camera import film_of
@@ -91,18 +92,25 @@ def coarser(camera: Camera, factor: int) -> Camera:
     )
 
 
+def frame_in_view(camera: Camera, through: Any, scene: Any) -> tuple[Floats, Floats]:
+    """Return two corners of a Blender camera's frame in the view through it, (2,) in pixels.
+
+    The lower left one, and the upper right one; `camera` is the view's own.
+    """
+    corners = np.array(through.data.view_frame(scene=scene), np.float64).T
+    axes = camera.world_from_camera
+    film = np.array(film_of(camera, axes[:3, :3] @ corners + axes[:3, 3:])[:2])
+    return film.min(axis=1), film.max(axis=1)
+
+
 def _within_border(camera: Camera, through: Any, space: Any, scene: Any) -> Camera:
     """Return the camera with the part of its picture that a render border leaves."""
     owner, name = (scene.render, "border") if through else (space, "render_border")
     if not getattr(owner, f"use_{name}"):
         return camera
     ends = [[getattr(owner, f"{name}_{end}_{axis}") for axis in "xy"] for end in ("min", "max")]
-    if through:  # it is that of the camera's frame, whose corners are here:
-        corners = np.array(through.data.view_frame(scene=scene), np.float64).T
-        axes = camera.world_from_camera
-        film = np.array(film_of(camera, axes[:3, :3] @ corners + axes[:3, 3:])[:2])
-        low = film.min(axis=1)
-        extent = film.max(axis=1) - low
-        ends = (low + ends * extent) / (camera.width, camera.height)
+    if through:  # it is that of the camera's frame
+        low, high = frame_in_view(camera, through, scene)
+        ends = (low + ends * (high - low)) / (camera.width, camera.height)
     (x0, y0), (x1, y1) = np.clip(ends, 0, 1)
     return replace(camera, region=border_region(camera.width, camera.height, x0, x1, y0, y1))

@@ -67,7 +67,7 @@ def case_of(space: int, scene: Scene, settings: Settings) -> Case:
         Source(VIEWPORT.name, bpy.app.version_string),
         snapping=snapping,
         # Blender stores the view's own camera rounded again: its samples lie so far off.
-        sample_radius=certificate.largest,
+        sample_radius=certificate.largest if certificate else 0.0,
     )
     traced = replace(traced, background=exported.background)
     return Case(traced, manifest, settings, drawn_picture, certificate)

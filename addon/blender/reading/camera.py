@@ -48,16 +48,19 @@ def pixel_height(render: Any) -> float:
 
 def window_of(scene: Any) -> ViewWindow:
     """Return what the camera of a `bpy.types.Scene` shows, in its type's units."""
-    data, render = scene.camera.data, scene.render
+    data = scene.camera.data
+    render = scene.render
     width, height = resolution(render)
-    tall, vertical = pixel_height(render), data.sensor_fit == "VERTICAL"
+    tall = pixel_height(render)
+    vertical = data.sensor_fit == "VERTICAL"
     sensor = data.sensor_height if vertical else data.sensor_width
     if data.sensor_fit == "AUTO":
         # The products are float32 in Blender: at nearly square pictures they decide the side.
         across = np.float32(render.pixel_aspect_x) * np.float32(width)
         vertical = across < np.float32(render.pixel_aspect_y) * np.float32(height)
     fitted = tall * height if vertical else width  # length of that side, in pixel widths
-    x, y = data.shift_x * fitted, data.shift_y * fitted  # which are in lengths of that side
+    x = data.shift_x * fitted  # shifts are in lengths of that side
+    y = data.shift_y * fitted
 
     def around(extent: float) -> Edges:
         size = extent / fitted  # width of a pixel
@@ -127,7 +130,8 @@ def export_camera(scene: Any) -> Camera:
             "--frame-all), place one (--eye X Y Z), or make one active (--camera NAME)."
         )
     projection = projection_of(obj, scene)
-    data, render = obj.data, scene.render
+    data = obj.data
+    render = scene.render
     width, height = resolution(render)
     check_size(width, height)
     region = Region(0, 0, width, height)
@@ -147,20 +151,19 @@ def export_camera(scene: Any) -> Camera:
     )
 
 
-def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate | None:
+def certify_camera(scene: Any, depsgraph: Any, camera: Camera) -> CameraCertificate:
     """Return how far apart the camera exported of a scene and Blender's own see known points.
 
-    None for a panorama, of which Blender has no matrix.
+    Not of a panorama: Blender has no matrix of it.
     """
-    if not camera.projection.is_linear:
-        return None
     points = known_points(camera)
     return certify(camera, points, _film(scene, depsgraph, points))
 
 
 def _film(scene: Any, depsgraph: Any, points: Floats) -> Floats:
     """Return where world points (3, n) appear, (2, n) pixels of the whole picture."""
-    obj, render = scene.camera.evaluated_get(depsgraph), scene.render
+    obj = scene.camera.evaluated_get(depsgraph)
+    render = scene.render
     width, height = resolution(render)
     projection = obj.calc_matrix_camera(
         depsgraph, x=width, y=height, scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y

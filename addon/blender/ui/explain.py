@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -17,12 +16,9 @@ if TYPE_CHECKING:
     from ...explain.derivation import Derivation
 
 TEXT = "Reference Tracer Pixel"
-LIMIT = 8  # triangles that are shown
 
 
-def derive_here(
-    context: Any, x: int, y: int, source: str = "SCENE", limit: int = LIMIT
-) -> Derivation:
+def derive_here(context: Any, x: int, y: int, source: str) -> Derivation:
     """Derive a pixel of the context's scene.
 
     Parameters
@@ -32,8 +28,6 @@ def derive_here(
     source : {'SCENE', 'RENDER', 'COMPARISON'}
         The scene as *Trace and Compare* would export it now; as a render would; or as the latest
         comparison did. Without a comparison, it is the scene now.
-    limit : int
-        How many triangles are shown at most.
 
     Raises
     ------
@@ -50,7 +44,7 @@ def derive_here(
         judge = judge_named(context.scene.reference_tracer.judge, bpy.app.background)
         scene, _, _ = export_open_file(context, None if source == "RENDER" else judge)
     file = bpy.path.basename(bpy.data.filepath) or "the unsaved file"
-    return derive(scene, x, y, limit, file)
+    return derive(scene, x, y, source=file)
 
 
 @named
@@ -70,21 +64,9 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         items=choices.SOURCES,
         options={"SKIP_SAVE"},
     )
-    limit: IntProperty(
-        name="Triangles",
-        description="How many triangles are shown at most",
-        default=LIMIT,
-        min=1,
-    )
     draw_ray: BoolProperty(
         name="Draw the Ray",
         description="Also draw the ray, as objects in the 3D view",
-        options={"SKIP_SAVE"},
-    )
-    filepath: StringProperty(
-        name="File",
-        description="A file to write it to; its name ends in .md, .html or .json",
-        subtype="FILE_PATH",
         options={"SKIP_SAVE"},
     )
 
@@ -92,9 +74,7 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         from ...explain import document
         from . import ray_objects
 
-        found = derive_here(context, self.x, self.y, self.source, self.limit)
-        if self.filepath:
-            _write(self.filepath, found)
+        found = derive_here(context, self.x, self.y, self.source)
         said = document.answer_sentence(found)
         results.keep(Kind.PIXEL, found, [said], context.scene.name)
         results.show_text(context, TEXT, document.document_markdown(found))
@@ -103,16 +83,6 @@ class REFERENCE_TRACER_OT_explain(bpy.types.Operator):
         results.redraw(context)
         self.report({"INFO"}, f"({self.x}, {self.y}): {said}")
         return {"FINISHED"}
-
-
-def _write(filepath: str, found: Derivation, **other: Callable[[Derivation], str]) -> None:
-    """Write a derivation in the format of the file's ending; `other` formats have their writers."""
-    from ...explain.writers import WRITERS
-    from ...report import folders
-
-    writers = WRITERS | {f".{ending}": writer for ending, writer in other.items()}
-    path = with_ending(filepath, *writers)
-    folders.write_text(path, writers[path.suffix.lower()](found))
 
 
 class _OfLatest:
@@ -179,9 +149,17 @@ class REFERENCE_TRACER_OT_save_pixel(_OfLatest, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def execute(self, context: Any) -> Answer:
-        from ...explain import reproducer
+        from ...explain import document, html, reproducer
+        from ...report import folders
 
         found = results.content(Kind.PIXEL, context.scene)
-        _write(self.filepath, found, json=lambda found: reproducer.text(found.pixel))
+        path = with_ending(self.filepath, ".html", ".md", ".json")
+        if path.suffix.lower() == ".json":
+            text = reproducer.text(found.pixel)
+        elif path.suffix.lower() == ".md":
+            text = document.document_markdown(found)
+        else:
+            text = html.page(found)
+        folders.write_text(path, text)
         self.report({"INFO"}, f"Saved {self.filepath}")
         return {"FINISHED"}

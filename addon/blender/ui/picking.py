@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
 
 from ...scene import Camera, SceneError
+from ..live.camera import camera_of, frame_in_view
 from ..reading.camera import export_camera
 from . import results
 
@@ -88,14 +88,8 @@ def _of_view(context: Any, space: Any, region: Any, x: int, y: int) -> Pick:
             f"This 3D view looks through its own camera '{space.camera.name}'; the picture is that "
             f"of '{scene.camera.name}'"
         )
-    matrix = scene.camera.matrix_world.normalized()
-    corners = [matrix @ corner for corner in scene.camera.data.view_frame(scene=scene)]
-    shown = [location_3d_to_region_2d(region, view, corner) for corner in corners]
-    if any(place is None for place in shown):
-        raise SceneError("The camera's frame is not in this view")
-    places = np.array(shown)
-    low = places.min(axis=0)
-    u, v = (np.array((x + 0.5, y + 0.5)) - low) / (places.max(axis=0) - low)
+    low, high = frame_in_view(camera_of(region, view, space, scene), scene.camera, scene)
+    u, v = (np.array((x + 0.5, y + 0.5)) - low) / (high - low)
     if not (0 <= u < 1 and 0 <= v < 1):
         raise SceneError("That is outside of the camera's frame")
     return _within(camera, u, v, "SCENE")

@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, StringProperty
+from bpy.props import StringProperty
 
 from ..versions import RELATIVE
-from . import choices
 
 
 class ReferenceTracerPreferences(bpy.types.AddonPreferences):
@@ -23,25 +22,11 @@ class ReferenceTracerPreferences(bpy.types.AddonPreferences):
         subtype="DIR_PATH",
         options=RELATIVE,
     )
-    method: EnumProperty(
-        name="Method of New Files",
-        description="The method of scenes in new files. Files that are opened keep their own",
-        items=choices.METHODS,
-        default="auto",
-    )
 
     def draw(self, context: Any) -> None:
         layout: Any = self.layout
         layout.use_property_split = True
         layout.prop(self, "folder")
-        layout.prop(self, "method")
-
-
-def _preferences() -> Any:
-    """Return what the user prefers; None where the add-on is not one of Blender's."""
-    preferences: Any = bpy.context.preferences
-    addon = preferences.addons.get(ReferenceTracerPreferences.bl_idname)
-    return addon and addon.preferences
 
 
 def default_folder(operation: str) -> str:
@@ -49,22 +34,13 @@ def default_folder(operation: str) -> str:
 
     What is to lie beside the file goes nowhere until there is one.
     """
-    own = _preferences()
+    preferences: Any = bpy.context.preferences
+    addon = preferences.addons.get(ReferenceTracerPreferences.bl_idname)
+    folder = addon.preferences.folder if addon else ""  # none if a script registers it
     file = bpy.data.filepath
-    if not (own and own.folder) or (own.folder.startswith("//") and not file):
+    if not folder or (folder.startswith("//") and not file):
         return ""
-    return str(Path(bpy.path.abspath(own.folder), Path(file).stem or "unsaved", operation))
-
-
-@bpy.app.handlers.persistent
-def set_up_new_file(*_: Any) -> None:
-    """Give the scenes of a new file the method that is preferred; one that is stored stays."""
-    own = _preferences()
-    if own and own.method != "auto" and not bpy.data.filepath:
-        scenes: Any = bpy.data.scenes
-        for stored in (scene.reference_tracer for scene in scenes):
-            if not stored.is_property_set("method"):
-                stored.method = own.method
+    return str(Path(bpy.path.abspath(folder), Path(file).stem or "unsaved", operation))
 
 
 register, unregister = bpy.utils.register_classes_factory((ReferenceTracerPreferences,))

@@ -134,12 +134,6 @@ class ReferenceTracerWindow(bpy.types.PropertyGroup):
         items=choices.PRECISIONS,
         options={"SKIP_SAVE"},
     )
-    scenario: EnumProperty(
-        name="Scenario",
-        description="The scenario that the buttons below open as a scene",
-        items=choices.SWEEPS,
-        options={"SKIP_SAVE"},
-    )
     draw_ray: BoolProperty(
         name="Draw the Ray",
         description="With every click, draw the ray as objects in the 3D view",

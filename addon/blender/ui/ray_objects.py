@@ -41,34 +41,25 @@ def are_drawn() -> bool:
 def remove() -> int:
     """Remove what was drawn, wherever it is by now; return how many objects went.
 
-    What the user has put into the collection goes up to where the collection was.
+    A collection into which the user has put something stays, and is the user's from then on.
     """
     collections = _own(bpy.data.collections)
     own = _own(bpy.data.objects)
-    for collection in collections:
-        parent = _parent(collection)
-        for obj in collection.objects:
-            if not obj.get(DRAWN) and len(obj.users_collection) == 1:
-                parent.objects.link(obj)
-        for child in collection.children:
-            if child not in parent.children.values():
-                parent.children.link(child)
     users = Counter(o.data for o in own if o.type == "MESH")
     meshes = [mesh for mesh, count in users.items() if mesh.users == count]  # but for the user's
     materials = {m for mesh in meshes for m in mesh.materials if m and m.get(DRAWN)}
-    bpy.data.batch_remove([*own, *meshes, *materials, *collections])
-    return len(own)
+    count = len(own)
+    bpy.data.batch_remove([*own, *meshes, *materials])
+    for collection in collections:
+        if collection.objects or collection.children:
+            del collection[DRAWN]
+        else:
+            bpy.data.collections.remove(collection)
+    return count
 
 
 def _own(blocks: Any) -> list[Any]:
     return [b for b in blocks if b.get(DRAWN) and not b.library]
-
-
-def _parent(collection: Any) -> Any:
-    """Return a collection that this one is in; if there is none, that of the first scene."""
-    tops = [s.collection for s in bpy.data.scenes]
-    everywhere = [*tops, *bpy.data.collections]
-    return next((c for c in everywhere if collection in c.children.values()), tops[0])
 
 
 def _material(color: tuple[float, ...]) -> Any:

@@ -6,8 +6,7 @@ What the panels show is not stored in the .blend: it is about one moment.
 from __future__ import annotations
 
 import tempfile
-from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from functools import cache
@@ -21,7 +20,7 @@ from ...methods import Method
 if TYPE_CHECKING:
     from ...arrays import Colors
     from ...compare.comparison import Comparison
-    from ...study.extremes import BreakingPoint, ExtremesRow
+    from ...study.extremes import ExtremesRow
     from ...study.trade import Trade
 
 # A name: so the class of a result need not be imported.
@@ -61,27 +60,28 @@ def keep_trade(trade: Trade) -> Result:
     """Remember a trade, and write its plot for the browser."""
     from ...report import trade as trade_report
 
-    page = _page("trade", trade_report.pictures(trade))
+    page = _page("trade", trade_report.picture(trade))
     return keep(Kind.TRADE, trade, [trade.advice], trade.scene, page)
 
 
 def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
-    """Remember where each method breaks, and write the plots of it for the browser."""
+    """Remember where each method breaks, and write the plot of it for the browser."""
     from ...report import extremes as extremes_report
     from ...study.extremes import breaking_points
 
-    page = _page("extremes", extremes_report.pictures(rows))
+    page = _page("extremes", extremes_report.picture(rows))
     points = tuple(breaking_points(rows))
-    lines = [_extremes_sentence(rows, points)]
+    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
+    lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     keep(Kind.EXTREMES, tuple(rows), lines)
     return keep(Kind.BREAKING_POINTS, points, lines, page=page)
 
 
-def _page(name: str, pictures: dict[str, str]) -> str:
+def _page(name: str, drawn: str) -> str:
     from ...report import folders, plots
 
     path = session_folder() / f"{name}.html"
-    folders.write_text(path, plots.page(f"Reference Tracer {name}", pictures.values()))
+    folders.write_text(path, plots.page(f"Reference Tracer {name}", drawn))
     return path.as_uri()
 
 
@@ -89,25 +89,6 @@ def _page(name: str, pictures: dict[str, str]) -> str:
 def session_folder() -> Path:
     """Return a folder that outlives this Blender, so that the browser can load a page again."""
     return Path(tempfile.mkdtemp(prefix="reference-tracer-"))
-
-
-def _extremes_sentence(rows: Sequence[ExtremesRow], points: Sequence[BreakingPoint]) -> str:
-    """Return whether the certified method is ever wrong, and which other holds most often."""
-    wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
-    sentence = f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong"
-    plain = [p for p in points if Method(p.method).is_plain]
-    if not plain:
-        return sentence + "."
-    holds = Counter({(p.method, p.precision): 0 for p in plain})
-    holds.update((p.method, p.precision) for p in plain if p.never)
-    [((method, precision), count)] = holds.most_common(1)
-    total = len({p.scenario for p in plain})
-    if not count:
-        return f"{sentence}; every other method breaks in each of {total} sweeps."
-    return (
-        f"{sentence}; of the other methods, {Method(method).record.words} in {precision} holds in "
-        f"the most sweeps: {count} of {total}."
-    )
 
 
 def keep(
@@ -142,10 +123,7 @@ def show(name: str, color: Colors) -> Any:
     import numpy as np
 
     height, width = color.shape[:2]
-    image: Any = next((i for i in bpy.data.images if i.get(MARK) == name), None)
-    if image and image.source != "GENERATED":  # the user has saved it: it is theirs now
-        del image[MARK]
-        image = None
+    image = _ours(bpy.data.images, name, lambda i: i.source != "GENERATED")
     if image is None:
         image = bpy.data.images.new(name, width, height, alpha=True, float_buffer=True)
         image[MARK] = name
@@ -154,6 +132,15 @@ def show(name: str, color: Colors) -> Any:
     image.pixels.foreach_set(np.ascontiguousarray(color, dtype=np.float32).ravel())
     image.update()
     return image
+
+
+def _ours(blocks: Any, name: str, is_saved: Callable[[Any], object]) -> Any:
+    """Return our image or text of a name, or None. One that the user has saved is theirs now."""
+    found = next((b for b in blocks if b.get(MARK) == name), None)
+    if found and is_saved(found):
+        del found[MARK]
+        return None
+    return found
 
 
 def show_in_editor(context: Any, image: Any) -> None:
@@ -168,10 +155,7 @@ def show_text(context: Any, name: str, content: str) -> Any:
 
     A text that the user has saved to a file is theirs, and is left as it is.
     """
-    text = next((t for t in bpy.data.texts if t.get(MARK) == name), None)
-    if text and text.filepath:
-        del text[MARK]
-        text = None
+    text = _ours(bpy.data.texts, name, lambda t: t.filepath)
     if text is None:
         text = bpy.data.texts.new(name)
         text[MARK] = name

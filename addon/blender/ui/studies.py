@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, IntProperty
 
 from ...tracer.progress import Work
 from . import choices, results
-from .long_work import Answer, LongWork, named, say
+from .long_work import LongWork, named
 
 
 @named
@@ -77,12 +77,12 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
     )
 
     def begin(self, context: Any) -> Work[Any]:
-        """Return the work; the rows of a map are scenarios of its name."""
+        """Return the work."""
         from ...study.extremes import measure
-        from ...study.scenarios.sweeps import ALL
+        from ...study.scenarios.sweeps import SCENARIOS
 
         self._folder = self.folder()
-        scenarios = [s for s in ALL if self.scenario in (choices.EVERY, s.name)]
+        scenarios = [s for s in SCENARIOS if self.scenario in (choices.EVERY, s.name)]
         return measure(scenarios, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
@@ -93,37 +93,3 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
         [said] = results.keep_extremes(result).lines
         print(extremes_report.breaking_table(result), said, sep="\n")
         return "INFO", said
-
-
-@named
-class REFERENCE_TRACER_OT_extreme_scene(bpy.types.Operator):
-    bl_label = "Open Scenario as a Scene"
-    bl_description = (
-        "Build a scenario at one of its scales as a new scene with its camera and meshes, as "
-        "closely as Blender's float32 allows, to look at and to trace and compare there"
-    )
-    bl_options = {"UNDO"}
-
-    scenario: EnumProperty(
-        name="Scenario", description="The scenario to build", items=choices.SWEEPS
-    )
-    scale: StringProperty(
-        name="Scale",
-        description="A number, such as 1e8. If this is empty, the scenario's last and hardest",
-    )
-    width: IntProperty(
-        name="Width",
-        description="Width of the picture, in pixels; 0 for the study's own, one ray a pixel",
-        default=0,
-        min=0,
-        soft_max=1920,
-    )
-
-    def execute(self, context: Any) -> Answer:
-        from . import scenario_scene
-
-        scene = scenario_scene.open_scenario(context, self.scenario, self.scale, self.width)
-        changed = scene[scenario_scene.CHANGED].split("\n")
-        say(f"{scene.name}:", *changed)
-        self.report({"INFO"}, f"{scene.name}: {changed[0]}")
-        return {"FINISHED"}

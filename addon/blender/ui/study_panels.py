@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
-from ...methods import MEASURED, PLAIN, Method
+from ...methods import PLAIN
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
 from .layout import NARROW, Part, both, draw_table, short_name, wrapped
@@ -18,7 +18,6 @@ from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
 _DIGITS = 18  # of an exact number: what a sidebar has room for, with its exponent
-_COLUMNS = 3  # of buttons
 
 
 class _Inspector(Part):
@@ -155,62 +154,34 @@ class _Extremes(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        """Draw the button, the breaking points, and the way to each scene."""
-        from .scenario_scene import CHANGED
-
+        """Draw the button and the breaking points."""
         layout = self.layout
         shown = context.window_manager.reference_tracer
         layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
         if found := results.latest(Kind.BREAKING_POINTS, context.scene):
             wrapped(layout, context, found.lines[0], "INFO")
-            layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
+            layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
             if found.content:
                 wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
                 layout.row().prop(shown, "precision", expand=True)
                 _breaking_points(layout.box(), found.content, shown.precision)
-        _scene_buttons(layout.box(), context, shown)
-        if changed := context.scene.get(CHANGED):
-            wrapped(layout, context, "This scene is one of the study's, stored in float32:", "INFO")
-            for line in changed.split("\n"):
-                wrapped(layout, context, line)
-
-
-def _scene_buttons(box: Any, context: Any, shown: Any) -> None:
-    """Draw the choice of a scenario, and a button for the scene at each of its scales."""
-    from ...study.extremes import written
-    from ...study.scenarios.sweeps import BY_NAME
-
-    box.prop(shown, "scenario", text="")
-    scenario = BY_NAME[shown.scenario]
-    wrapped(box, context, scenario.explanation)
-    box.label(text=f"{iface_('Open as a Scene')} ({scenario.scale_and_unit}):")
-    grid = box.grid_flow(columns=_COLUMNS, row_major=True, align=True)
-    for scale in scenario.scales:
-        button = grid.operator(
-            studies.REFERENCE_TRACER_OT_extreme_scene.bl_idname, text=written(scale)
-        )
-        button.scenario = scenario.name
-        button.scale = repr(float(scale))
 
 
 def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
     """Draw a table: below each scenario's title, where each method breaks in a precision.
 
-    The certified method, which is float64, has a column only if it breaks, which it should not.
+    The certified method, which is float64, has none: a sentence says how it does.
     """
     from ...study.scenarios.sweeps import BY_NAME
 
-    proven = {p.scenario: p for p in points if p.method == Method.CERTIFIED}
-    holds = all(p.never for p in proven.values())
-    _cells(layout, [m.record.head for m in (PLAIN if holds else MEASURED)])
-    for name in proven:
+    _cells(layout, [m.record.head for m in PLAIN])
+    for name in dict.fromkeys(p.scenario for p in points):
         of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
-        cells = [_point(of[m]) for m in PLAIN] + ([] if holds else [_point(proven[name])])
         scenario = BY_NAME[name]
         column = layout.column(align=True)
         column.scale_y = 0.75
         column.label(text=f"{scenario.title}, {scenario.scale_name}")
-        _cells(column, cells)
+        _cells(column, [_point(of[m]) for m in PLAIN])
 
 
 def _cells(layout: Any, texts: list[str]) -> None:

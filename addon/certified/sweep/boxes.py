@@ -11,21 +11,11 @@ from dataclasses import dataclass, replace
 from functools import reduce
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Bytes, Floats, Index, Integers
 from ...scene import Region, Scene
 from ...tracer.candidates import pixel_bounds
-from ...tracer.vector import (
-    Bools,
-    Floats,
-    Index,
-    Vectors,
-    gather,
-    grouped,
-    largest,
-    parts,
-    transform_points,
-)
+from ...tracer.vector import Vectors, gather, grouped, largest, parts, transform_points
 from ...tracer.world import world_corners
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer
@@ -50,8 +40,8 @@ class InstanceBoxes:
 
     in_view: Bools
     depth: Floats
-    low: NDArray[np.int32]
-    high: NDArray[np.int32]
+    low: Integers
+    high: Integers
     nearest: Floats
 
     @classmethod
@@ -245,7 +235,7 @@ def by_depth(seen: Index, nearest: Floats, low: Index, high: Index) -> list[Inde
     last = np.max(near)
     scale = (BINS - 1) / (last - first) if last > first else 0.0
 
-    def depth(nearness: Floats) -> NDArray[np.uint8]:
+    def depth(nearness: Floats) -> Bytes:
         return np.clip((last - nearness) * scale, 0, BINS - 1).astype(np.uint8)
 
     before = np.cumsum(np.bincount(depth(near), area, BINS)) * (step / union)

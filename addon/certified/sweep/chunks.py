@@ -10,22 +10,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Bools, Floats, Index, Integers, Places
 from ...scene import Mesh, Scene
 from ...tracer.progress import Steps
-from ...tracer.vector import (
-    Bools,
-    Floats,
-    Index,
-    Vectors,
-    gather,
-    grouped,
-    groups,
-    occurring,
-    parts,
-    transform_points,
-)
+from ...tracer.vector import Vectors, gather, grouped, groups, occurring, parts, transform_points
 from .film import Film, Vertices
 from .small_triangles import SmallTriangles
 
@@ -39,7 +28,7 @@ class Chunk:
     Of `dense` instances only those that may cover a pixel (`small_triangles.py`).
     """
 
-    instances: NDArray[np.int32]
+    instances: Integers
     first: int = 0
     last: int | None = None
     dense: bool = False
@@ -53,12 +42,12 @@ class Names:
     `first` on. If `own` is given, k is the instance's triangle `own[k]`.
     """
 
-    instances: NDArray[np.int32]
-    starts: NDArray[np.intp]
+    instances: Integers
+    starts: Places
     first: int
-    own: NDArray[np.int32] | None = None
+    own: Integers | None = None
 
-    def of(self, triangle: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    def of(self, triangle: Index) -> tuple[Integers, Integers]:
         """Return instance and triangle of some of the chunk's triangles, (n,) each."""
         which = np.zeros(len(triangle), np.intp)
         if len(self.instances) > 1:
@@ -70,7 +59,7 @@ class Names:
 
 
 class Numbering:
-    """Numbers the surfaces of all chunks, one chunk after the other."""
+    """Array the surfaces of all chunks, one chunk after the other."""
 
     def __init__(self) -> None:
         self._names: list[Names] = []
@@ -83,7 +72,7 @@ class Numbering:
         self._starts = np.append(self._starts, start + names.starts[-1])
         return start
 
-    def names_of(self, surface: Index) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    def names_of(self, surface: Index) -> tuple[Integers, Integers]:
         """Return instance and triangle of surfaces, (n,) each."""
         if len(self._names) == 1:
             return self._names[0].of(surface)
@@ -101,7 +90,7 @@ class Expanded:
     """A chunk on the film: its vertices, and the vertices `corners` (3, m) of its triangles."""
 
     vertices: Vertices
-    corners: NDArray[np.int32]
+    corners: Integers
     names: Names
 
 
@@ -150,11 +139,11 @@ class _Part:
     """
 
     mesh: Mesh
-    instances: NDArray[np.int32]
+    instances: Integers
     counts: Index
-    corners: NDArray[np.int32]
+    corners: Integers
     used: Index
-    own: NDArray[np.int32] | None = None
+    own: Integers | None = None
 
     def world(self, scene: Scene) -> Iterator[tuple[int, Vectors]]:
         """Yield some thousand vertices in world space at a time, after the first one's number."""

@@ -15,9 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Bools, Floats, Index
 from ...scene import Camera, Region
 from ...tracer.hits import NOTHING
-from ...tracer.vector import Arrays, Bools, Floats, Index, gather
+from ...tracer.vector import Arrays, gather
 from ..bounds import U
 
 ROUNDING = 4 * U  # the relative error of a nearness that is computed from t

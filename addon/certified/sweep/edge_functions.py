@@ -35,7 +35,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...tracer.vector import Arrays, Bools, Floats, Index, gather, largest
+from ...arrays import Bools, Floats, Index
+from ...tracer.vector import Arrays, gather, largest
 from ..bounds import U
 from .film import Film, Vertices
 

@@ -18,10 +18,11 @@ from functools import cached_property
 
 import numpy as np
 
+from ...arrays import Bools, Floats, Index
 from ...scene import Camera
 from ...tracer.camera import dual_axes, pixel_size
 from ...tracer.candidates import SAFETY, has_sound_axes
-from ...tracer.vector import Bools, Floats, Index, Vectors, largest
+from ...tracer.vector import Vectors, largest
 
 _EPS = 2.0**-52
 _TINY = 2.0**-960  # added to a vertex's size: more than gradual underflow may lose

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...tracer.vector import Arrays, Bools, Floats, Index, gather, groups, parts, spread
+from ...arrays import Bools, Floats, Index
+from ...tracer.vector import Arrays, gather, groups, parts, spread
 from .depth_buffer import COARSE, FINE, DepthBuffer
 from .edge_functions import EdgeFunctions
 

@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...arrays import Bools, Index
 from ...certainty import Certainty
 from ...scene import Scene
 from ...tracer.camera import camera_rays, corner_rays, film_positions
 from ...tracer.frame_measures import PIXELS
 from ...tracer.hits import NOTHING, Hits, Statistics, Ties
 from ...tracer.progress import Steps, mapped
-from ...tracer.vector import Bools, Index, gather, grouped, groups, parts
+from ...tracer.vector import gather, grouped, groups, parts
 from ...tracer.world import Pairs, WorldTriangles, world_corners
 from ..ladder import Ladder
 from ..measures import Known, Measured

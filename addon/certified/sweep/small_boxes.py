@@ -37,7 +37,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...tracer.vector import Bools, Floats, Index, gather, largest, parts
+from ...arrays import Bools, Floats, Index
+from ...tracer.vector import gather, largest, parts
 from ..bounds import U
 from .chunks import Expanded
 from .depth_buffer import DepthBuffer

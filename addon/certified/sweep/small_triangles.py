@@ -24,9 +24,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Colors, Floats, Index, Integers
 from ...scene import Mesh, Region, Scene
 from ...tracer.camera import pixel_size
-from ...tracer.vector import Floats, Index, gather, largest, occurring, parts
+from ...tracer.vector import gather, largest, occurring, parts
 from .film import Film
 
 _PER_PIXEL = 2  # an instance with more triangles per pixel of its box is dense
@@ -42,13 +43,13 @@ _MARGIN = 0.25  # pixels: instances with a wider margin are not dense
 class Visible(NamedTuple):
     """Triangles of k instances of a mesh that may cover a pixel."""
 
-    instances: NDArray[np.int32]  # (k,)
+    instances: Integers  # (k,)
     counts: Index  # (k,) how many triangles of each
-    corners: NDArray[np.int32]  # (3, m) which of `used` their vertices are
+    corners: Integers  # (3, m) which of `used` their vertices are
     # (v,) those vertices: the number in the mesh, plus the mesh's number of vertices for each
     # instance before.
     used: Index
-    triangle: NDArray[np.int32]  # (m,) their numbers in the mesh, instance by instance
+    triangle: Integers  # (m,) their numbers in the mesh, instance by instance
 
 
 class SmallTriangles:
@@ -105,7 +106,7 @@ class SmallTriangles:
         known &= largest(most, np.full_like(most, far)) < _FARTHEST // 2
         self.is_dense = known & (counts > _PER_PIXEL * area)
 
-    def within(self, mesh: Mesh, members: NDArray[np.int32]) -> Iterator[Visible | None]:
+    def within(self, mesh: Mesh, members: Integers) -> Iterator[Visible | None]:
         """Find the triangles of instances `members` of a mesh that may cover a pixel.
 
         Yields those of some instances and triangles at a time, and None after each step in between.
@@ -135,7 +136,7 @@ class SmallTriangles:
                 counts = np.bincount(copy, minlength=len(some))
                 yield Visible(some, counts, at, used, (triangle + first).astype(np.int32))
 
-    def _ends(self, vertices: NDArray[np.float32], members: Index) -> NDArray[np.int64]:
+    def _ends(self, vertices: Colors, members: Index) -> NDArray[np.int64]:
         """Return the pixels that a triangle may cover at each vertex, (k, v), as 4 x 16 bits.
 
         These are highest x, highest y, -lowest x, -lowest y, within the region, plus 2^14, so that

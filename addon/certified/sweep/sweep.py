@@ -12,11 +12,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...arrays import Floats, Index
 from ...scene import Region, Scene
 from ...tracer.camera import camera_rays, film_positions
 from ...tracer.hits import NOTHING, Hits, Statistics
 from ...tracer.progress import Steps, Work, quiet, scaled, timed
-from ...tracer.vector import Floats, Index, gather, parts
+from ...tracer.vector import gather, parts
 from ..bounds import plane_fractions
 from .boxes import Boxed, InstanceBoxes, boxes_of, by_depth
 from .chunks import Chunk, Names, Numbering, chunks, expand

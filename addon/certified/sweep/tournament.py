@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...tracer.vector import Bools, Index
+from ...arrays import Bools, Index
 from ..ladder import Compare
 from ..order import COPLANAR, FARTHER, UNDECIDED
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Integers
+from ...arrays import Array, Floats, Index, Integers
 from ...runs import run_starts
 from ...scene import Scene
 from ...tracer import plane
@@ -23,7 +23,6 @@ from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.shading import by_mesh
 from ...tracer.triangle import textbook
-from ...tracer.vector import Floats, Index
 from ...tracer.world import world_corners
 
 _LEVEL = 1  # of zlib: 6 takes twice as long, for a page that is a fifth smaller

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Floats, Index
 from ...scene import Camera, Instance, Mesh, Scene, ViewWindow
 from ...tracer.camera import camera_rays
-from ...tracer.vector import Floats, Index
 
 SEED = 20240611
 ORIGIN = np.zeros(3)
