@@ -133,7 +133,8 @@ def _open(pixels: OpenPixels) -> Work[None]:
     pixels.band = yield from sample_band(scene, frame, blocks(frame.shape))
     pixels.band += pixels.picture.off_center
     ramp = shading.interpolated(scene, seen)
-    differ = yield from other_color(pixels.picture, frame.color, ramp)
+    finding = other_color(pixels.picture, frame.color, ramp)
+    differ = yield from scaled(finding, 1.0, 0.0)
     pixels.open[:] = differ | pixels.picture.other_object(seen)
     pixels.give(np.broadcast_to(~frame.rows_done[:, None], frame.shape), NOT_TRACED)
     # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
