@@ -25,7 +25,9 @@ def frames_named(text: str) -> range | None:
     if text == "all":
         return None
     if found := _NAMED.fullmatch(text):
-        first, last, step = int(found[1]), int(found[2] or found[1]), int(found[3] or 1)
+        first = int(found[1])
+        last = int(found[2] or first)
+        step = int(found[3] or 1)
         if -_LAST <= first <= last <= _LAST and step:
             return range(first, last + 1, step)
     raise ValueError(

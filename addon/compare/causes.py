@@ -29,7 +29,7 @@ from .checks.clip import CLIP_PLANE
 from .checks.color import COLOR
 from .checks.edges import DEPTH_TIE, EDGE
 from .checks.hidden import HIDDEN
-from .checks.probe import OpenPixels, blocks
+from .checks.probe import OpenPixels, blocks, other_color
 from .checks.unmodelled import NOT_MODELLED
 
 # All causes, in the order of the legend.
@@ -129,18 +129,16 @@ def _open(pixels: OpenPixels) -> Work[None]:
     """Find the band, and open the pixels that differ and can be decided."""
     scene = pixels.case.scene
     frame = pixels.frame
-    all_rows = blocks(frame.shape)
-    pixels.band = yield from sample_band(scene, frame, all_rows)
+    seen = frame.instance_index
+    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape))
     pixels.band += pixels.picture.off_center
-    for rows in all_rows:
-        part, seen = pixels.rows(rows), frame.instance_index[rows]
-        ramp = shading.interpolated(scene, seen)
-        differ = part.picture.other_color(frame.color[rows], ramp)
-        part.open[:] = differ | part.picture.other_object(seen)
-        part.give(~frame.rows_done[rows, None], NOT_TRACED)
-        # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
-        part.give(part.band > DECIDABLE, NOT_DECIDABLE, part.band, DECIDABLE)
-        yield 1.0
+    ramp = shading.interpolated(scene, seen)
+    finding = other_color(pixels.picture, frame.color, ramp)
+    differ = yield from scaled(finding, 1.0, 0.0)
+    pixels.open[:] = differ | pixels.picture.other_object(seen)
+    pixels.give(np.broadcast_to(~frame.rows_done[:, None], frame.shape), NOT_TRACED)
+    # Not only where the pictures differ: a pixel that agrees by accident proves nothing.
+    pixels.give(pixels.band > DECIDABLE, NOT_DECIDABLE, pixels.band, DECIDABLE)
 
 
 def _thin(open_: Bools, most: int) -> Places:

@@ -20,7 +20,7 @@ from ..tracer.progress import Work
 
 DISTINCT = 16  # the most colours of which all triples are tried
 ITERATIONS = 400  # of Frank and Wolfe: two colours need one, three a few, some very many
-STEP = 1 << 18  # numbers that the iterations of one step take, if there is more than one
+STEP = 1 << 18  # numbers, of all points, that one iteration takes
 
 
 def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
@@ -35,12 +35,8 @@ def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
     at, all_points = points[nearest, left], points
     weight = np.zeros(points.shape[:2])
     weight[nearest, left] = 1
-    worked = 0
     for _ in range(ITERATIONS):
-        worked += points.size
-        if worked > STEP:
-            worked = 0
-            yield 0.0
+        yield 0.0
         way = target[left] - at
         length = np.sqrt((way**2).sum(axis=-1))
         near = length <= allowed[left]

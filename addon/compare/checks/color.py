@@ -59,16 +59,16 @@ def check(pixels: OpenPixels) -> Work[None]:
         pixels.out.transform = found.name
         pixels.picture = replace(pixels.picture, transform=found.of)
     for rows in blocks(pixels.open.shape):
-        part = pixels.rows(rows)
-        picture, color = part.picture, pixels.frame.color[rows]
+        picture = pixels.picture.at(rows)
+        color = pixels.frame.color[rows]
         instance = pixels.frame.instance_index[rows]
         if picture.lit:
             left, _ = difference(color, picture.color)
-            same = part.open & picture.same_object(instance)
-            part.give(same, COLOR, np.max(left, axis=-1), 1.0)
+            same = picture.same_object(instance)
+            pixels.give(pixels.open[rows] & same, COLOR, np.max(left, axis=-1), 1.0, rows)
         else:
-            same = part.open & ~picture.other_color(color) & ~picture.other_object(instance)
-            part.give(same, COLOR, *picture.difference(color))
+            same = ~picture.other_color(color) & ~picture.other_object(instance)
+            pixels.give(pixels.open[rows] & same, COLOR, *picture.difference(color), rows)
         yield 1.0
 
 

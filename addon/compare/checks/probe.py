@@ -8,7 +8,7 @@ picture at a time, in steps of a bounded number of pixels and pairs.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,10 +48,16 @@ def blocks(shape: tuple[int, ...]) -> list[slice]:
     return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
 
 
-def other_color(picture: Picture, colors: Array) -> Work[Bools]:
-    """Return where a picture has another colour than the traced ones, (h, w, 4) or one (4,)."""
+def other_color(picture: Picture, colors: Array, ramp: Bools | bool = False) -> Work[Bools]:
+    """Return where a picture has another colour than the traced ones, (h, w, 4) or one (4,).
+
+    `ramp` (h, w) says where the traced colours are interpolated.
+    """
     colors = np.broadcast_to(colors, picture.color.shape)
-    return by_blocks(colors.shape[:2], lambda rows: picture.at(rows).other_color(colors[rows]))
+    ramp = np.broadcast_to(ramp, colors.shape[:2])
+    return by_blocks(
+        ramp.shape, lambda rows: picture.at(rows).other_color(colors[rows], ramp[rows])
+    )
 
 
 def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
@@ -91,23 +97,6 @@ class OpenPixels:
             (self.open, False),
         ):
             values[at] = np.where(new, given, values[at])
-
-    def rows(self, rows: slice) -> OpenPixels:
-        """Return those of some rows; their causes are written into the whole."""
-        out = replace(
-            self.out,
-            cause=self.out.cause[rows],
-            figure=self.out.figure[rows],
-            allowed=self.out.allowed[rows],
-            blind=self.out.blind[rows],
-        )
-        return replace(
-            self,
-            picture=self.picture.at(rows),
-            out=out,
-            open=self.open[rows],
-            band=self.band[rows],
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +158,7 @@ class Probe:
 class Part:
     """The n open pixels of a part of the picture, and the probe that asks about them."""
 
-    pixels: OpenPixels  # of the part's rows
+    pixels: OpenPixels
     at: tuple[Places, ...]  # the rows and columns of the n pixels
     scene: Scene  # the scene that is asked, with its camera's own clip range
     picture: Picture  # what the n pixels show
@@ -177,9 +166,8 @@ class Part:
     probe: Probe
 
     @classmethod
-    def of(cls, pixels: OpenPixels, wanted: Bools, probe: Probe) -> Part:
-        """Return the part of the pixels `wanted`, (rows, w), of some rows."""
-        at = np.nonzero(wanted)
+    def of(cls, pixels: OpenPixels, at: tuple[Places, ...], probe: Probe) -> Part:
+        """Return the part of the pixels in some rows and columns."""
         return cls(pixels, at, pixels.case.scene, pixels.picture.at(at), pixels.band[at], probe)
 
     @property
@@ -220,7 +208,8 @@ def by_parts(
         if asked[rows].any():
             finding = Probe.of(made, tile, asked[rows].ravel())
             probe = yield from scaled(finding, y0 / height, 0.5 * (y1 - y0) / height)
-            for _ in look(Part.of(pixels.rows(rows), asked[rows], probe)):
+            y, x = np.nonzero(asked[rows])
+            for _ in look(Part.of(pixels, (y + y0, x), probe)):
                 yield 0.5 * (y0 + y1) / height
 
 
@@ -251,4 +240,4 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
     out = np.zeros_like(pixels.open)
     for color in colors:
         out |= ~(yield from other_color(picture, color))
-    return out
+    return out & pixels.open

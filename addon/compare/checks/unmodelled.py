@@ -29,7 +29,7 @@ from ..cause import NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause
 from ..picture import Picture
 from . import edges
 from .hidden import traced_instead
-from .probe import OpenPixels, blocks
+from .probe import OpenPixels, other_color
 
 NOT_MODELLED = Cause(
     3,
@@ -158,16 +158,15 @@ def check_everywhere(pixels: OpenPixels) -> Work[None]:
 
 def name_drawn(pixels: OpenPixels) -> Work[None]:
     """Name what draws itself over pixels that were judged, and found to be right, beneath it."""
-    own, out = pixels.case.picture, pixels.out
-    for rows in blocks(out.cause.shape) if own.beneath is not None else ():
-        part = own.at(rows)
-        number = drawn_over(part)
-        over = (number != NOTHING) & part.other_color(pixels.frame.color[rows])
-        over &= ~np.isin(out.cause[rows], _FINAL)
-        out.cause[rows][over] = NOT_MODELLED
-        out.figure[rows][over] = number[over]
-        out.allowed[rows][over] = np.nan
-        yield 1.0
+    own = pixels.case.picture
+    out = pixels.out
+    if own.beneath is not None:
+        number = drawn_over(own)
+        over = yield from other_color(own, pixels.frame.color)
+        over &= (number != NOTHING) & ~np.isin(out.cause, _FINAL)
+        out.cause[over] = NOT_MODELLED
+        out.figure[over] = number[over]
+        out.allowed[over] = np.nan
 
 
 def covered(camera: Camera, bounds: Floats) -> Bools:
