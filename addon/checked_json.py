@@ -68,11 +68,11 @@ def numbers(content: Content, key: str, where: str, shape: tuple[int, ...] | Non
         raise SceneError(f"{where}{key} is missing")
     try:
         values = np.array(content[key])
-        values = values.astype(np.float64 if values.dtype.kind in "iuf" else "no numbers")
-    except (ValueError, TypeError, OverflowError):
-        values = np.array(np.nan)
-    if not np.isfinite(values).all() or (shape is not None and values.shape != shape):
+    except ValueError:  # lists of different lengths
+        values = np.array(None)
+    is_number = values.dtype.kind in "iuf" and np.isfinite(values).all()
+    if not is_number or (shape is not None and values.shape != shape):
         size = " x ".join(map(str, shape or ()))
         what = "a finite number" if shape == () else f"{size} finite numbers".lstrip()
         raise SceneError(f"{where}{key} must be {what}")
-    return values
+    return values.astype(np.float64)

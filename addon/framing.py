@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Floats
-from .projections import ORTHOGRAPHIC, PERSPECTIVE
+from .projections import ORTHOGRAPHIC, PERSPECTIVE, Projection
 from .scene import Camera, Instance, Mesh, SceneError, ViewWindow, check_size
 from .tracer.vector import transform_points
 
 ANGLE = 50.0  # vertical angle of view, degrees
+SIZE = 960, 540  # of a mesh's picture, pixels
 FILLED = 0.9  # share of the picture's width or height that is filled by what is framed
 # From what is framed towards the eye: the front, the right and above, as of a new Blender scene.
 BACKWARD = 0.66, -0.62, 0.42
-UP = 0.0, 0.0, 1.0
 NEAREST = 0.01  # depth of the nearest point at least, in sizes of all that is framed
 
 
@@ -53,10 +53,8 @@ def framing(
     SceneError
         If there is no point, or the picture has no pixel.
     """
-    check_size(width, height)
-    half = float(np.tan(np.radians(angle) / 2))
-    aspect = width / (tall * height)
-    slope = FILLED * np.array((half * aspect, half))  # of the sides that are to be touched
+    window = _window(_half(angle), width, height, tall)
+    slope = FILLED * np.array((window.right, window.top))  # of the sides that are to be touched
     center, ends = _extents(parts, axes, slope)
     high, low, right, left = ends[:8].reshape(4, 2)
     near, far = ends[8:] * (-1, 1)
@@ -65,7 +63,7 @@ def framing(
     at = center + axes @ (*((right - left) / 2), -eye)
     return Camera(
         _pose(axes, at),
-        _window(half, aspect),
+        window,
         width,
         height,
         PERSPECTIVE,
@@ -124,10 +122,9 @@ class Choice:
     target: Sequence[float] | None = None  # where it looks; None for the origin
     angle: float | None = None  # vertical, degrees
     ortho_scale: float | None = None  # height of the picture, metres
-    # The picture, pixels; of a .blend, one follows from the other.
+    # The picture, pixels; of a .blend, one follows from the other; of a mesh, SIZE says the rest.
     width: int | None = None
     height: int | None = None
-    default_size: tuple[int, int] = (960, 540)  # of a mesh's picture
     up: str | None = None  # which axis of a mesh's file is up
     opened: bool = False  # the file is open, in the Blender that runs this
 
@@ -139,11 +136,10 @@ class Choice:
         SceneError
             If eye and target are one point, or the picture has no pixel.
         """
-        check_size(width, height)
-        projection = PERSPECTIVE if self.ortho_scale is None else ORTHOGRAPHIC
-        if self.ortho_scale is None:
-            half = float(np.tan(np.radians(self.angle or ANGLE) / 2))
-        else:
+        projection: Projection = PERSPECTIVE
+        half = _half(self.angle or ANGLE)
+        if self.ortho_scale is not None:
+            projection = ORTHOGRAPHIC
             half = self.ortho_scale / 2
         eye = np.asarray(self.eye, np.float64)
         target = (0, 0, 0) if self.target is None else self.target
@@ -152,8 +148,8 @@ class Choice:
         if not distance:
             raise SceneError("--eye and --target are the same point: move one of them.")
         return Camera(
-            _pose(axes_of(backward, UP), eye),
-            _window(half, width / (tall * height)),
+            _pose(axes_of(backward), eye),
+            _window(half, width, height, tall),
             width,
             height,
             projection,
@@ -171,19 +167,29 @@ def _pose(axes: Floats, at: Floats) -> Floats:
     return matrix
 
 
-def _window(half: float, aspect: float) -> ViewWindow:
-    """Return the window of a picture that is 2 `half` high, at depth 1 or in metres."""
-    return ViewWindow(-half * aspect, half * aspect, -half, half)
+def _half(angle: float) -> float:
+    """Return half the height of what an angle in degrees sees at depth 1."""
+    return float(np.tan(np.radians(angle) / 2))
 
 
-def axes_of(backward: ArrayLike, up: ArrayLike) -> Floats:
-    """Return right, up and backward of a camera as columns, (3, 3).
+def _window(half: float, width: int, height: int, tall: float) -> ViewWindow:
+    """Return the window of a picture that is 2 `half` high, at depth 1 or in metres.
 
-    Parameters
-    ----------
-    backward, up : (3,) float
-        Towards the eye, and what is up in the picture, in world space; of any length. Where `up`
-        is along the view, it is the last of the axes that are most across it.
+    Raises
+    ------
+    SceneError
+        If the picture has no pixel.
+    """
+    check_size(width, height)
+    right = half * (width / (tall * height))
+    return ViewWindow(-right, right, -half, half)
+
+
+def axes_of(backward: ArrayLike) -> Floats:
+    """Return right, up and backward of a camera as columns, (3, 3), with Z up in the picture.
+
+    `backward` is towards the eye in world space, (3,) float, of any length. If it is along Z, then
+    Y is up.
 
     Raises
     ------
@@ -191,9 +197,9 @@ def axes_of(backward: ArrayLike, up: ArrayLike) -> Floats:
         If `backward` is zero or not finite.
     """
     back = np.asarray(backward, np.float64)
-    right = np.cross(np.asarray(up, np.float64), back)
+    right = np.cross((0.0, 0.0, 1.0), back)
     if not right.any():
-        right = np.cross(np.eye(3)[2 - int(np.argmin(np.abs(back[::-1])))], back)
+        right = np.cross((0.0, 1.0, 0.0), back)
     axes = np.stack((right, np.cross(back, right), back), axis=1)
     lengths = np.linalg.norm(axes, axis=0)
     if not (lengths.all() and np.isfinite(lengths).all()):

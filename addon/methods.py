@@ -85,8 +85,8 @@ RECORDS = {
         number=3,
         color="#009e73",
         description=(
-            "Woop, Benthin and Wald: two neighbours agree which of them a ray at their edge "
-            "hits, without a proof of anything else"
+            "Woop, Benthin and Wald: neighbours compute their common edge from the same numbers, "
+            "so that no ray slips between them; it may hit both"
         ),
     ),
     Method.CERTIFIED: MethodRecord(

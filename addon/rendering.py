@@ -42,7 +42,7 @@ def certified_tracer(
     find = sweep if scene.camera.projection.is_linear else plain.plain
     memory = settings.memory // 2
     return lambda band, dx, dy: find(scene, band, memory, dx, dy, statistics)
-    yield  # a generator, as all tracers are
+    yield  # never reached: it makes this function a generator, as `nearest.tracer` is
 
 
 # By method: what traces a picture's bands, and what traces any rays.

@@ -96,7 +96,11 @@ class Camera:
     name: str = "Camera"
 
     def __post_init__(self) -> None:
-        _store(self, "world_from_camera", _matrix(self.world_from_camera, f"camera '{self.name}'"))
+        _store(
+            self,
+            "world_from_camera",
+            _finite(self.world_from_camera, (4, 4), f"The matrix of camera '{self.name}'"),
+        )
         axes = self.world_from_camera[:3, :3]
         if np.abs(axes).max() > _LONGEST or abs(np.linalg.det(axes)) < 1 / _LONGEST:
             wrong = "are too long" if np.abs(axes).max() > _LONGEST else "lie in a plane"
@@ -167,10 +171,17 @@ class Camera:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the camera as files hold it, for JSON."""
-        matrix = {"world_from_camera": self.world_from_camera.tolist()}
-        own = {k: vars(v) if k in ("window", "region") else v for k, v in vars(self).items()}
-        own = own | matrix | {"projection": self.projection.in_files}
-        return {"orthographic" if k == "projection" else k: v for k, v in own.items()}
+        return {
+            "world_from_camera": self.world_from_camera.tolist(),
+            "window": vars(self.window),
+            "width": self.width,
+            "height": self.height,
+            "orthographic": self.projection.in_files,
+            "clip_start": self.clip_start,
+            "clip_end": self.clip_end,
+            "region": vars(self.region),
+            "name": self.name,
+        }
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,34 +205,21 @@ class Mesh:
     def __post_init__(self) -> None:
         what = f"Mesh '{self.name}'"
         vertices: Array = np.asarray(self.vertices)
-        if vertices.dtype not in (np.float32, np.float64):
-            vertices = vertices.astype(np.float64)
-        triangles: Array = np.asarray(self.triangles)
-        slots: Array = np.asarray(self.slots)
-        if self.slots is None:
-            slots = np.zeros(len(triangles), np.int32)
-        for name, array in (("triangles", triangles), ("slots", slots)):
-            if array.size and array.dtype.kind not in "iu":
-                raise SceneError(f"{what}: {name} must be integers, not {array.dtype}.")
-        for name, first, array in (("vertices", "v", vertices), ("triangles", "n", triangles)):
-            if array.shape[1:] != (3,):
-                raise SceneError(f"{what}: {name} must be ({first}, 3), not {array.shape}.")
-        if triangles.size and not (0 <= triangles.min() and triangles.max() < len(vertices)):
-            raise SceneError(f"{what}: a triangle names a vertex that is not there.")
-        if slots.shape != (len(triangles),) or ((slots < 0) | (slots >= 2**31)).any():
-            raise SceneError(f"{what}: slots must be (n,), from 0 to 2^31 - 1.")
+        if vertices.dtype != np.float32:
+            vertices = vertices.astype(np.float64, copy=False)
+        _store(self, "vertices", _shaped(vertices, (*vertices.shape[:1], 3), f"{what}: vertices"))
         if not np.isfinite(vertices).all():
             do = "leave out their triangles (scene.drop_non_finite does)"
             raise SceneError(f"{what} has vertices that are not finite: {do}.")
+        triangles = np.asarray(self.triangles)
+        count = len(triangles)
+        slots = np.zeros(count, np.int32) if self.slots is None else np.asarray(self.slots)
+        of_triangles = f"{what}: indices of triangles"
+        _store(self, "triangles", _indices(triangles, (count, 3), len(vertices), of_triangles))
+        _store(self, "slots", _indices(slots, (count,), 2**31, f"{what}: slots"))
         if self.corner_colors is not None:
-            colors = np.asarray(self.corner_colors, dtype=np.float32)
-            if colors.shape != (len(triangles), 3, 4):
-                raise SceneError(f"{what}: corner_colors must be (n, 3, 4), not {colors.shape}.")
-            _store(self, "corner_colors", _locked(colors))
-        triangles = triangles.astype(np.int32, copy=False)
-        slots = slots.astype(np.int32, copy=False)
-        for name, array in (("vertices", vertices), ("triangles", triangles), ("slots", slots)):
-            _store(self, name, _locked(array))
+            colors = np.asarray(self.corner_colors, np.float32)
+            _store(self, "corner_colors", _shaped(colors, (count, 3, 4), f"{what}: corner_colors"))
 
     @cached_property
     def bounds(self) -> Floats:
@@ -244,7 +242,11 @@ class Instance:
 
     def __post_init__(self) -> None:
         what = f"instance of object {self.object}"
-        _store(self, "world_from_object", _matrix(self.world_from_object, what))
+        _store(
+            self,
+            "world_from_object",
+            _finite(self.world_from_object, (4, 4), f"The matrix of {what}"),
+        )
         _store(self, "colors", _colors(self.colors, what))
 
 
@@ -258,11 +260,8 @@ class Plane:
     color: Colors = field(default_factory=lambda: np.array(GREY, np.float32))
 
     def __post_init__(self) -> None:
-        for name in ("point", "normal"):
-            value = np.array(getattr(self, name), dtype=np.float64)
-            if value.shape != (3,) or not np.isfinite(value).all():
-                raise SceneError(f"The {name} of an infinite plane must be three finite numbers.")
-            _store(self, name, _locked(value))
+        _store(self, "point", _finite(self.point, (3,), "The point of an infinite plane"))
+        _store(self, "normal", _finite(self.normal, (3,), "The normal of an infinite plane"))
         if not self.normal.any():
             raise SceneError("The normal of an infinite plane is zero: give its object a scale.")
         _store(self, "color", _colors([self.color], "infinite plane")[0])
@@ -377,35 +376,46 @@ def _store(instance: object, name: str, value: object) -> None:
     object.__setattr__(instance, name, value)  # the one way into a frozen dataclass
 
 
-def _locked(array: Array) -> Array:
+def _shaped(array: Array, shape: tuple[int, ...], what: str) -> Array:
+    """Return an array of this shape, read-only."""
+    if array.shape != shape:
+        raise SceneError(f"{what} must have the shape {shape}, not {array.shape}.")
     if array.flags.writeable:
         array = array.view()
         array.flags.writeable = False
     return array
 
 
-def _matrix(value: object, what: str) -> Floats:
-    matrix = np.array(value, dtype=np.float64)
-    if matrix.shape != (4, 4) or not np.isfinite(matrix).all():
-        raise SceneError(f"The matrix of {what} must be 4 x 4 finite numbers.")
-    return _locked(matrix)
+def _finite(value: object, shape: tuple[int, ...], what: str) -> Floats:
+    """Return a copy in float64 of this shape, read-only; its numbers must be finite."""
+    array = _shaped(np.array(value, np.float64), shape, what)
+    if not np.isfinite(array).all():
+        raise SceneError(f"{what} must be finite numbers.")
+    return array
+
+
+def _indices(array: Array, shape: tuple[int, ...], end: int, what: str) -> Integers:
+    """Return integers from 0 to below `end` as int32, of this shape, read-only."""
+    if array.size:
+        if array.dtype.kind not in "iu":
+            raise SceneError(f"{what} must be integers, not {array.dtype}.")
+        if array.min() < 0 or array.max() >= end:
+            raise SceneError(f"{what} must be at least 0 and below {end}.")
+    return _shaped(array.astype(np.int32, copy=False), shape, what)
 
 
 def _colors(value: object, what: str) -> Colors:
-    colors = np.array(value, dtype=np.float32)
-    if colors.ndim != 2 or colors.shape[1] != 4 or len(colors) < 1:
-        raise SceneError(f"The colours of {what} must be (k, 4) linear RGBA, not {colors.shape}.")
-    return _locked(colors)
+    """Return a copy of one linear RGBA or more, (k, 4), read-only."""
+    colors = np.array(value, np.float32, ndmin=1)
+    return _shaped(colors, (max(1, len(colors)), 4), f"The linear RGBA of {what}")
 
 
 def alike(first: Any, second: Any) -> bool:
     """Return whether two scenes, or parts of them, hold the same, but for memory."""
     if first is second or type(first) is not type(second):
         return first is second
-    if isinstance(first, np.ndarray):
-        return np.array_equal(first, second)
     if isinstance(first, tuple):
         return len(first) == len(second) and all(map(alike, first, second))
     if is_dataclass(first):
         return all(alike(getattr(first, f.name), getattr(second, f.name)) for f in fields(first))
-    return first == second
+    return np.array_equal(first, second)  # also of two numbers or texts

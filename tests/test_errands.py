@@ -132,10 +132,10 @@ assert found.whole[-1].hits > 9
 said = f"{found.whole[-1].hits} hit"
 held = trade.to_dict(found)
 assert held["units"]["hits"] == "pixels" and held["rows"][0]["hits"] == found.rows[0].hits
-page = trade.page_table(found)
+page = trade.text_cells(found)
 assert "hits" in page["head"] and any(said in row for row in page["rows"])
 assert " hits\\n" in trade.table(found) + "\\n" and said in trade.table(found)
-assert f"hits {said}" in trade.pictures(found)["tradeoff"]
+assert f"hits {said}" in trade.picture(found)
 """
 CAUSE = {
     "compare/checks/comet.py": (

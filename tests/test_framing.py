@@ -26,21 +26,19 @@ def spans(camera, points):
 @pytest.mark.parametrize("angle", [2.0, 50.0, 170.0])
 def test_what_is_framed_fills_nine_tenths_of_the_width_or_the_height(stretch, away, angle, rng):
     for width, height in SIZES:
-        backward, up = rng.normal(size=(2, 3))
+        backward = rng.normal(size=3)
         points = rng.normal(size=(50, 3)) * stretch + away * rng.normal(size=3)
         tall = rng.choice([1.0, 0.5, 3.0])
-        camera = framing(
-            np.split(points, [1, 7]), axes_of(backward, up), width, height, angle, tall
-        )
+        camera = framing(np.split(points, [1, 7]), axes_of(backward), width, height, angle, tall)
         both = np.array(spans(camera, points))
-        axes, rounding = axes_of(backward, up), 1e-9 * max(1, away)
+        axes, rounding = axes_of(backward), 1e-9 * max(1, away)
         assert np.abs(both - 0.5).max() <= FILLED / 2 + rounding
         # Else it is as near as may be: a point in front of all others would be where the eye is.
         nearest = NEAREST * np.ptp(points @ axes, axis=0).max()
-        if angle != 170 or 2 * camera.clip_start > 1.01 * nearest:
+        if 2 * camera.clip_start > 1.01 * nearest:
             assert np.ptp(both, axis=1).max() == pytest.approx(FILLED, abs=rounding)
         assert np.allclose(camera.forward, -backward / np.linalg.norm(backward))
-        assert abs(camera.right @ up) < 1e-9
+        assert abs(camera.right[2]) < 1e-9
         high, wide = camera.window.top / camera.window.right, width / height
         assert high * wide == pytest.approx(tall)
         assert camera.window.top == pytest.approx(np.tan(np.radians(angle) / 2))
@@ -63,14 +61,14 @@ def test_nothing_to_frame():
 
 def test_axes_are_a_right_handed_frame(rng):
     axes = np.eye(3)
-    for backward, up in [*rng.normal(size=(9, 2, 3)), *((s * a, a) for a in axes for s in (1, -2))]:
-        found = axes_of(backward, up)
+    for backward in [*rng.normal(size=(9, 3)), *(s * a for a in axes for s in (1, -2))]:
+        found = axes_of(backward)
         assert np.allclose(found.T @ found, axes) and np.linalg.det(found) == pytest.approx(1)
         assert np.allclose(found[:, 2], backward / np.linalg.norm(backward))
-        assert found[:, 1] @ up > -1e-9
+        assert found[2, 1] > -1e-9
     for wrong in ((0, 0, 0), (np.nan, 0, 1)):
         with pytest.raises(SceneError, match="zero or not finite"):
-            axes_of(wrong, (0, 0, 1))
+            axes_of(wrong)
 
 
 @pytest.mark.parametrize("scale", [None, 3.0])

@@ -189,8 +189,8 @@ def rewritten(scene, tmp_path):
     ("array", "says"),
     [
         (("mesh0_triangles", np.zeros((5, 3))), "triangles must be integers, not float64"),
-        (("mesh0_triangles", np.full((5, 3), 99)), "a triangle names a vertex that is not there"),
-        (("mesh0_triangles", np.full((5, 3), -1)), "a triangle names a vertex that is not there"),
+        (("mesh0_triangles", np.full((5, 3), 99)), "triangles must be at least 0 and below 9"),
+        (("mesh0_triangles", np.full((5, 3), -1)), "triangles must be at least 0 and below 9"),
         (("mesh0_slots", np.zeros(5)), "slots must be integers, not float64"),
         (("mesh0_slots", np.full(5, 2**32)), "slots must be"),
         (

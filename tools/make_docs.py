@@ -62,7 +62,7 @@ def main() -> None:
     pictures.write(DOCS / "images" / "lessons")
     if not options.files:  # it takes a minute
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
-        plot = PROJECT / "out" / "docs" / "extremes" / "breaking_points.svg"
+        plot = PROJECT / "out" / "docs" / "extremes" / "extremes.svg"
         shutil.copy(plot, DOCS / "images" / "extremes.svg")
     if not options.no_browser:
         from documents import browser

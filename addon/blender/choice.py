@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..framing import ANGLE, BACKWARD, UP, Choice, axes_of, framing, shown_points
+from ..framing import ANGLE, BACKWARD, Choice, axes_of, framing, shown_points
 from ..projections import ORTHOGRAPHIC
 from ..scene import Camera, SceneError, ViewWindow
 from .drawing.camera_object import place_camera
@@ -96,7 +96,7 @@ def frame_all(scene: Any, layer: Any, angle: float = ANGLE) -> Any:
     size = resolution(scene.render)
     tall = pixel_height(scene.render)
     points = shown_points(shown.meshes, shown.instances)
-    return place_camera(scene, framing(points, axes_of(BACKWARD, UP), *size, angle, tall))
+    return place_camera(scene, framing(points, axes_of(BACKWARD), *size, angle, tall))
 
 
 def _named(what: str, name: str | None, things: Iterable[Any]) -> Any:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from argparse import Namespace, _ActionsContainer
+from dataclasses import fields
 from pathlib import Path
-from typing import Any
 
-from ..framing import ANGLE, Choice
+from ..framing import ANGLE, SIZE, Choice
 from ..scene_files import MESH_SUFFIXES
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
@@ -14,7 +14,6 @@ from .parser import COUNT, FINITE, POSITIVE, Parser, number
 _OF_BLEND = "scene_name", "view_layer", "frame", "camera"
 _OF_MESH = "width", "height", "frame_all", "eye", "target", "angle", "ortho_scale", "up"
 CAMERA_OPTIONS = *_OF_MESH, *_OF_BLEND
-SIZE_OF_STUDY = 160, 90  # of a mesh's picture, pixels
 
 _DEGREES = number(float, lambda value: 0 < value < 180, "between 0 and 180 degrees")
 _FRAME = number(
@@ -22,27 +21,20 @@ _FRAME = number(
 )
 
 
-def add_camera(parser: Parser, of_study: bool = False) -> None:
-    """Add the options for the camera and its picture; a study has a --width of its own."""
+def add_camera(parser: Parser, with_size: bool = True) -> None:
+    """Add the options for the camera and the size of its picture."""
     group = parser.add_argument_group(
         "the camera and its picture (default: a scene's own, or one that frames the mesh)"
     )
-    width, height = SIZE_OF_STUDY if of_study else Choice.default_size
-    if not of_study:
-        group.add_argument(
-            "--width",
-            type=COUNT,
-            metavar="PIXELS",
-            help=f"width of the picture (default {width} for a mesh; a scene's own, or what "
-            "--height implies)",
-        )
-    implied = "" if of_study else "; a scene's own, or what --width implies"
-    group.add_argument(
-        "--height",
-        type=COUNT,
-        metavar="PIXELS",
-        help=f"height of the picture (default {height} for a mesh{implied})",
-    )
+    if with_size:
+        for name, other, size in zip(("width", "height"), ("height", "width"), SIZE, strict=True):
+            group.add_argument(
+                f"--{name}",
+                type=COUNT,
+                metavar="PIXELS",
+                help=f"{name} of the picture (default {size} for a mesh; a scene's own, or what "
+                f"--{other} implies)",
+            )
     group.add_argument(
         "--up",
         choices=["y", "z"],
@@ -101,7 +93,7 @@ def _add_parts_of_blend(parser: Parser) -> None:
     )
 
 
-def choice_from(given: Namespace, path: Path, of_study: bool = False) -> Choice:
+def choice_from(given: Namespace, path: Path) -> Choice:
     """Return what the options choose of a file.
 
     Raises
@@ -110,10 +102,6 @@ def choice_from(given: Namespace, path: Path, of_study: bool = False) -> Choice:
         If an option has no effect for such a file, or beside the others.
     """
     is_mesh = path.suffix.lower() in MESH_SUFFIXES
-    names = set(CAMERA_OPTIONS)
-    if of_study and not is_mesh:
-        refuse(given, ("height",), "is for meshes: --width sets the size of a scene's picture")
-        names.remove("width")
     _refuse_without_camera(given, is_mesh)
     if is_mesh:
         refuse(given, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")
@@ -121,11 +109,9 @@ def choice_from(given: Namespace, path: Path, of_study: bool = False) -> Choice:
         refuse(given, ("up",), "is for meshes: in a scene Z is up")
         if not is_blend(path):
             why = f"is for a .blend or a mesh: '{path}' has its own camera and its own picture"
-            refuse(given, sorted(names), why)
-    chosen: dict[str, Any] = {name: getattr(given, name) for name in names}
-    if of_study:
-        chosen["default_size"] = SIZE_OF_STUDY
-    return Choice(**chosen, opened=getattr(given, "opened", False))
+            refuse(given, CAMERA_OPTIONS, why)
+    known = [field.name for field in fields(Choice) if field.name in given]
+    return Choice(**{name: getattr(given, name) for name in known})
 
 
 def _refuse_without_camera(given: Namespace, is_mesh: bool) -> None:

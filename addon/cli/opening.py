@@ -12,8 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from ..framing import ANGLE, Choice
-from ..scene import Scene, SceneError, check_size
+from ..framing import ANGLE, SIZE, Choice
+from ..scene import Scene, SceneError
 from ..scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
 from ..tracer.settings import Settings
 from . import running
@@ -44,9 +44,7 @@ def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     if suffix == ".npz":
         return load_scene(path), Settings()
     if suffix in MESH_SUFFIXES:
-        default = choice.default_size
-        size = choice.width or default[0], choice.height or default[1]
-        check_size(*size)  # before a large file is read
+        size = choice.width or SIZE[0], choice.height or SIZE[1]
         camera = choice.placed(*size) if choice.eye else None
         import_trimesh()
         meshes = load_meshes(path, choice.up)

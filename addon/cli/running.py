@@ -182,9 +182,6 @@ def progress_bar() -> Iterator[Callable[[float], None]]:
     try:
         from tqdm import tqdm
     except ImportError:
-        if sys.stderr.isatty():
-            why = "no progress bar without tqdm, the extra `progress` of the Python package"
-            print(f"reftrace: {why}", file=sys.stderr)
         yield lambda share: check()
         return
     layout = "{percentage:3.0f} %|{bar}| {elapsed}, {remaining} left"

@@ -132,10 +132,9 @@ def differing(
 
     What is not finite differs from everything.
     """
-    size = np.maximum(np.abs(first), np.abs(second))
     apart, allowed = difference(first, second, interpolated, levels, sums, dither)
-    with np.errstate(invalid="ignore"):
-        return ~((apart <= allowed) & np.isfinite(size)).all(axis=-1)
+    finite = np.isfinite(first) & np.isfinite(second)
+    return ~((apart <= allowed) & finite).all(axis=-1)
 
 
 def difference(

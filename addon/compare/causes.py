@@ -19,7 +19,6 @@ from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
-from ..tracer.render import tiles
 from .bounds import DECIDABLE, sample_band
 from .case import Case
 from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
@@ -30,7 +29,7 @@ from .checks.clip import CLIP_PLANE
 from .checks.color import COLOR
 from .checks.edges import DEPTH_TIE, EDGE
 from .checks.hidden import HIDDEN
-from .checks.probe import OpenPixels
+from .checks.probe import OpenPixels, blocks
 from .checks.unmodelled import NOT_MODELLED
 
 # All causes, in the order of the legend.
@@ -128,9 +127,9 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
 
 def _open(pixels: OpenPixels) -> Work[None]:
     """Find the band, and open the pixels that differ and can be decided."""
-    scene, frame = pixels.case.scene, pixels.frame
-    region = scene.camera.region
-    all_rows = [slice(t.y0 - region.y0, t.y1 - region.y0) for t in tiles(scene.camera)]
+    scene = pixels.case.scene
+    frame = pixels.frame
+    all_rows = blocks(frame.shape)
     pixels.band = yield from sample_band(scene, frame, all_rows)
     pixels.band += pixels.picture.off_center
     for rows in all_rows:

@@ -54,7 +54,6 @@ class Comparison:
     pixels: dict[str, Any]  # see count_pixels
     metrics: dict[str, Any]  # see image_metrics
     methods: tuple[MethodRow, ...] = ()
-    textbook: Frame | None = None  # what the textbook makes of the scene, in float64
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
@@ -269,10 +268,10 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     tracing = steps(case.scene, case.settings, frame, case.tracer)
     yield from scaled(tracing, 0.0, rest * _TRACING)
     listing = list_methods(case.scene, case.settings, frame, case.tracer)
-    rows, textbook = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
+    rows = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
     done = rest * (_TRACING + _METHODS)
     found = yield from scaled(compare(case, frame), done, 1 - done)
-    return replace(found, methods=rows, textbook=textbook)
+    return replace(found, methods=rows)
 
 
 def compare(case: Case, frame: Frame) -> Work[Comparison]:

@@ -18,7 +18,6 @@ from ..scene import Camera, Instance, Mesh, Scene, ViewWindow
 from ..tracer.camera import pixel_size
 from ..tracer.frame import Frame
 from .case import Case
-from .picture import Picture
 
 Change = Callable[[Array], Array]
 
@@ -38,24 +37,20 @@ def _with_camera(case: Case, camera: Camera) -> Case:
     return case.with_scenes(lambda scene: replace(scene, camera=camera))
 
 
-def _window(case: Case, scale: float = 1.0, dx: float = 0.0, dy: float = 0.0) -> Case:
-    """Scale the view window, and move it by (dx, dy) pixels."""
+def _window(case: Case, scale: float, x: float = 0.0, y: float = 0.0) -> Case:
+    """Scale the view window, and move it by (x, y) of its own units."""
     camera = case.scene.camera
     w = camera.window
-    width, height = pixel_size(camera)
-    x, y = dx * width, dy * height
     window = ViewWindow(
         scale * w.left + x, scale * w.right + x, scale * w.bottom + y, scale * w.top + y
     )
     return _with_camera(case, replace(camera, window=window))
 
 
-def _half_pixel(case: Case, _: Frame) -> Case:
-    return _window(case, dx=0.5, dy=0.5)
-
-
-def _one_pixel(case: Case, _: Frame) -> Case:
-    return _window(case, dx=1.0)
+def _off(x: float, y: float, case: Case, _: Frame) -> Case:
+    """Move the view window by pixels."""
+    width, height = pixel_size(case.scene.camera)
+    return _window(case, 1.0, x * width, y * height)
 
 
 def _sensor_fit(case: Case, _: Frame) -> Case | None:
@@ -219,28 +214,17 @@ def _wrong_frame(case: Case, _: Frame) -> Case | None:
     return replace(wrong, picture=replace(case.picture, owner=None, owners=None))
 
 
-def _moved_picture(change: Change, case: Case, _: Frame) -> Case:
-    """Move the picture's pixels, with the objects that they show."""
-
-    def changed(values: Array | None) -> Array | None:
-        return None if values is None else np.ascontiguousarray(change(values))
-
-    own = _with_colors(change, case.picture)
-    moved = replace(own, owner=changed(own.owner), drawn=changed(own.drawn))
-    return replace(case, picture=moved)
+def _moved_rows(change: Change, case: Case, _: Frame) -> Case:
+    """Change the order of the picture's rows."""
+    rows = change(np.arange(len(case.picture.color)))
+    return replace(case, picture=case.picture.at(rows))
 
 
 def _recolored_picture(change: Change, case: Case, _: Frame) -> Case:
-    return replace(case, picture=_with_colors(change, case.picture))
-
-
-def _with_colors(change: Change, picture: Picture) -> Picture:
     """Change the picture's colours, and those beneath what draws itself."""
-    color = np.ascontiguousarray(change(picture.color))
-    if picture.beneath is None:
-        return replace(picture, color=color)
-    beneath = np.ascontiguousarray(change(picture.beneath))
-    return replace(picture, color=color, beneath=beneath)
+    picture = case.picture
+    beneath = None if picture.beneath is None else change(picture.beneath)
+    return replace(case, picture=replace(picture, color=change(picture.color), beneath=beneath))
 
 
 def _gamma(color: Array) -> Array:
@@ -251,8 +235,8 @@ def _gamma(color: Array) -> Array:
 
 # In the order in which a self-check makes them.
 FAULTS = (
-    Fault("half_pixel", "rays through the pixels' corners", _half_pixel),
-    Fault("one_pixel", "the camera off by a pixel to the right", _one_pixel),
+    Fault("half_pixel", "rays through the pixels' corners", partial(_off, 0.5, 0.5)),
+    Fault("one_pixel", "the camera off by a pixel to the right", partial(_off, 1.0, 0.0)),
     Fault(
         "mirrored_x",
         "the camera mirrored left to right",
@@ -285,9 +269,9 @@ FAULTS = (
     Fault(
         "border",
         "the border off by one row",
-        partial(_moved_picture, lambda values: np.roll(values, 1, axis=0)),
+        partial(_moved_rows, lambda rows: np.roll(rows, 1)),
     ),
-    Fault("rows", "the picture's rows from top to bottom", partial(_moved_picture, np.flipud)),
+    Fault("rows", "the picture's rows from top to bottom", partial(_moved_rows, np.flip)),
     Fault(
         "channels",
         "red and blue swapped",

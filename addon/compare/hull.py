@@ -46,18 +46,18 @@ def in_hull(target: Floats, points: Floats, allowed: Floats) -> Work[Bools]:
         near = length <= allowed[left]
         found[left[near]] = True
         ahead, behind, share, beyond = _pair(points, weight, way, at)
-        keep = np.flatnonzero(~near & (beyond <= allowed[left] * length))
-        if len(keep) < len(left):
-            left, at = left[keep], at[keep]
-            points, weight = points[:, keep], weight[:, keep]
-            ahead, behind = ahead[keep], behind[keep]
-            share = share[keep]
-        if not len(left):
-            break
         index = np.arange(len(left))
         at = at + share[:, None] * (points[ahead, index] - points[behind, index])
         weight[ahead, index] += share
         weight[behind, index] -= share
+        open_ = ~near & (beyond <= allowed[left] * length)
+        if not open_.any():
+            return found
+        if not open_.all():
+            left = left[open_]
+            at = at[open_]
+            points = points[:, open_]
+            weight = weight[:, open_]
     for n in left:
         distinct = np.unique(all_points[:, n], axis=0)[:DISTINCT]
         found[n] = distance_to_triangles(target[n], distinct) <= allowed[n]

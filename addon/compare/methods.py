@@ -39,29 +39,28 @@ class MethodRow(NamedTuple):
 
 def list_methods(
     scene: Scene, settings: Settings, frame: Frame, tracer: Tracer | None = None
-) -> Work[tuple[tuple[MethodRow, ...], Frame]]:
+) -> Work[tuple[MethodRow, ...]]:
     """Trace a scene with the textbook and certified, too; yields the share of the work done.
 
     Returns a row for the certified tracer (where numpy keeps what the proof assumes), one for the
-    textbook in float64, and one for `frame`, which was traced with `settings`, if it is neither;
-    and the textbook's frame.
+    textbook in float64, and one for `frame`, which was traced with `settings`, if it is neither.
     """
     own = Method(frame.statistics.method), Precision(settings.precision)
-    textbook = Method.TEXTBOOK, Precision.FLOAT64
     certified = Method.CERTIFIED, Precision.FLOAT64
-    wanted = [textbook] if broken_assumptions() else [certified, textbook]
-    missing = [way for way in wanted if way != own]
-    frames = {own: frame}
-    for number, way in enumerate(missing):
-        frames[way] = Frame.empty(scene)
-        tracing = steps(scene, Settings(*way), frames[way], tracer)
-        yield from scaled(tracing, number / len(missing), 1 / len(missing))
-    truth = frames.get(certified)
+    ways = {} if broken_assumptions() else {certified: 1}  # the samples of each
+    ways |= {(Method.TEXTBOOK, Precision.FLOAT64): 1, own: settings.samples}
+    truth: Frame | None = None
     rows = []
-    for way in dict.fromkeys([*wanted, own]):
-        samples = settings.samples if way == own else 1
-        rows.append(_row(way, samples, frames[way], truth))
-    return tuple(rows), frames[textbook]
+    for number, way in enumerate(ways):
+        traced = frame
+        if way != own:
+            traced = Frame.empty(scene)
+            tracing = steps(scene, Settings(*way), traced, tracer)
+            yield from scaled(tracing, number / len(ways), 1 / len(ways))
+        if way == certified:  # it comes first, and the others are held against it
+            truth = traced
+        rows.append(_row(way, ways[way], traced, truth))
+    return tuple(rows)
 
 
 def _row(

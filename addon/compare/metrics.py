@@ -49,7 +49,9 @@ def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) ->
     _same_shape(first, second)
     shortest = min(first.shape[:2])
     size = min(size, shortest - (1 - shortest % 2))
-    height, width, total = first.shape[0] - size + 1, first.shape[1] - size + 1, 0.0
+    height = first.shape[0] - size + 1
+    width = first.shape[1] - size + 1
+    total = 0.0
     for y in range(0, height, _ROWS):
         for x in range(0, width, _COLUMNS):
             rows, columns = min(_ROWS, height - y), min(_COLUMNS, width - x)
@@ -66,14 +68,17 @@ def ssim(first: Array, second: Array, data_range: float = 1.0, size: int = 7) ->
 
 def _similarity(first: Array, second: Array, data_range: float, size: int) -> Floats:
     """Return the similarity of every window and channel."""
-    x, y = first.astype(np.float64), second.astype(np.float64)
+    x = first.astype(np.float64)
+    y = second.astype(np.float64)
     samples = size * size
-    unbiased = samples / (samples - 1) if samples > 1 else 1.0  # of covariances
-    ux, uy = _window_mean(x, size), _window_mean(y, size)
+    unbiased = samples / max(samples - 1, 1)
+    ux = _window_mean(x, size)
+    uy = _window_mean(y, size)
     vx = unbiased * (_window_mean(x * x, size) - ux * ux)
     vy = unbiased * (_window_mean(y * y, size) - uy * uy)
     vxy = unbiased * (_window_mean(x * y, size) - ux * uy)
-    c1, c2 = (0.01 * data_range) ** 2, (0.03 * data_range) ** 2
+    c1 = (0.01 * data_range) ** 2
+    c2 = (0.03 * data_range) ** 2
     return ((2 * ux * uy + c1) * (2 * vxy + c2)) / ((ux**2 + uy**2 + c1) * (vx + vy + c2))
 
 
@@ -91,18 +96,19 @@ def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
 
     Returns RMSE, PSNR in decibels (None for infinite), SSIM, and the largest difference.
     """
-    a, b = np.empty_like(traced), np.empty_like(picture)
-    height, squares = len(a), 0.0
-    largest: dict[str, Any] = {"value": -1.0}
+    a = np.empty_like(traced)
+    b = np.empty_like(picture)
+    height = len(a)
+    squares = 0.0
+    largest = []  # of each block of rows
     for start in range(0, height, _ROWS):
-        rows = slice(start, min(start + _ROWS, height))
-        for made, of in ((a, traced), (b, picture)):
-            made[rows] = of[rows] if np.isfinite(of[rows]).all() else np.nan_to_num(of[rows])
-        squares += rmse(a[rows], b[rows]) ** 2 * (rows.stop - start)
+        rows = slice(start, start + _ROWS)
+        a[rows] = np.nan_to_num(traced[rows])
+        b[rows] = np.nan_to_num(picture[rows])
+        squares += rmse(a[rows], b[rows]) ** 2 * len(a[rows])
         found = largest_difference(a[rows], b[rows])
-        if found["value"] > largest["value"]:
-            x, y = found["pixel"]
-            largest = found | {"pixel": [x, y + start]}
+        found["pixel"][1] += start
+        largest.append(found)
         yield 0.2 * start / height
     error = float(np.sqrt(squares / height))
     similarity = yield from scaled(ssim(a, b), 0.2, 0.8)
@@ -110,7 +116,7 @@ def image_metrics(traced: Colors, picture: Colors) -> Work[dict[str, Any]]:
         "rmse": error,
         "psnr": psnr(error) if error else None,
         "ssim": similarity,
-        "largest_difference": largest,
+        "largest_difference": max(largest, key=lambda found: found["value"]),
     }
 
 

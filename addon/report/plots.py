@@ -91,9 +91,7 @@ def turned(at: Place, words: str, size: float, degrees: float, anchor: str) -> s
     return text(at, words, size, INK, anchor, transform=turn)
 
 
-def mark(
-    at: Place, radius: float, color: str, hollow: bool = False, title: str = "", opacity: float = 1
-) -> str:
+def mark(at: Place, radius: float, color: str, hollow: bool = False, title: str = "") -> str:
     """Return a round mark, which says its title where it is pointed at."""
     x, y = at
     return element(
@@ -105,7 +103,6 @@ def mark(
         fill="white" if hollow else color,
         stroke=color,
         stroke_width=0.3 * radius,
-        opacity=opacity,
     )
 
 
@@ -121,20 +118,6 @@ def line(
         fill="none",
         opacity=opacity,
         stroke_dasharray=f"{1.2 * width:g}" if dotted else "none",
-    )
-
-
-def cell(x: float, y: float, width: float, height: float, color: str, title: str = "") -> str:
-    """Return a coloured rectangle, which says its title where it is pointed at."""
-    return element(
-        "rect",
-        said("title", title) if title else "",
-        x=x,
-        y=y,
-        width=width,
-        height=height,
-        fill=color,
-        shape_rendering="crispEdges",  # no seam between cells that touch
     )
 
 
@@ -227,7 +210,6 @@ class Series(NamedTuple):
     hollow: bool = False  # hollow marks, a dotted line
     radius: float = 9
     width: float = 0
-    opacity: float = 1
 
     @property
     def sample(self) -> str:
@@ -244,24 +226,7 @@ def chart(axes: Axes, series: Iterable[Series]) -> str:
         if s.width:
             out += line(places, s.color, s.width, s.hollow)
         for at, (*_, words) in zip(places, s.points, strict=True):
-            out += mark(at, s.radius, s.color, s.hollow, words, s.opacity)
-    return out
-
-
-def named(axes: Axes, names: Mapping[str, Place]) -> str:
-    """Return names in a column to the right of axes, each joined to its place by a thin line."""
-    if not names:
-        return ""
-    step = min(34.0, axes.height / len(names))
-    left = axes.left + axes.width + 40
-    middle = sum(y for _, y in names.values()) / len(names)
-    half = step * len(names) / 2
-    top = min(max(middle, axes.top + half), axes.top + axes.height - half) - half
-    out = ""
-    for k, (words, at) in enumerate(sorted(names.items(), key=lambda n: (n[1][1], -n[1][0]))):
-        beside = left, top + step * (k + 0.5)
-        out += line([at, (left - 6, beside[1])], GREY, 1.2, opacity=0.5)
-        out += text(beside, words, 0.72 * step)
+            out += mark(at, s.radius, s.color, s.hollow, words)
     return out
 
 
@@ -279,8 +244,8 @@ def legend(entries: Mapping[str, str], y: float, size: float = LARGE[2]) -> str:
     return "".join(out)
 
 
-def page(title: str, pictures: Iterable[str]) -> str:
-    """Return pictures as one page for a browser; an SVG by itself may be opened by an editor."""
+def page(title: str, drawn: str) -> str:
+    """Return a picture as a page for a browser; an SVG by itself may be opened by an editor."""
     style = "svg { display: block; width: 100%; max-height: 100vh; }"
     head = '<meta charset="utf-8">' + said("title", title) + element("style", style)
-    return "<!doctype html>\n" + element("html", head, *pictures, lang="en")
+    return "<!doctype html>\n" + element("html", head, drawn, lang="en")

@@ -18,7 +18,6 @@ SCHEMA = "reference_tracer.tradeoff/1"
 TABLE, JSON, PLOT = "tradeoff.txt", "tradeoff.json", "tradeoff.svg"
 
 _NOTE = """
-
 * no other row beats it, as far as the rounds agree on which is faster: beside wrong
   pixels, in time and wrong pixels, of the same size; beside coverage, in time and
   coverage, of all. Coverage is the root mean square of RGBA's difference from
@@ -27,38 +26,21 @@ _NOTE = """
 
 
 def table(trade: Trade) -> str:
-    """Return the rows as text, a block for each size; a star marks those that no other beats."""
-    blocks: dict[str, list[list[str]]] = {}
-    for r in trade.rows:
-        rays = "one ray" if r.samples == 1 else f"{r.samples} x {r.samples} rays"
-        title = f"{r.width} x {r.height} pixels, {rays} each"
-        cells = (c.shown(r, wide=True) for c in COLUMNS)
-        blocks.setdefault(title, []).append([r.method, r.precision, *cells])
-    lines = [line for title, rows in blocks.items() for line in ("", title, *rows)]
-    head = ["method", "precision", *(c.head + "  " * bool(c.best) for c in COLUMNS)]
-    note = _NOTE.format(k=trade.converged)
-    return "\n".join([*columns([head, *lines], left=(0, 1, 3), gap=" "), note, trade.advice])
+    """Return the rows and the advice as text; a star marks what no other row beats."""
+    cells = text_cells(trade)
+    lines = columns([cells["head"], *cells["rows"]], left=(0, 1, 2))
+    return "\n".join([*lines, _NOTE.format(k=trade.converged), trade.advice])
 
 
-def page_table(trade: Trade) -> dict[str, Any]:
-    """Return the table that the page shows: its head, and the cells of each row."""
+def text_cells(trade: Trade) -> dict[str, list[Any]]:
+    """Return the head of the table, and the cells of each row."""
     return {
         "head": ["method", "precision", "picture", *(c.head for c in COLUMNS)],
         "rows": [
-            [
-                Method(r.method).record.words,
-                r.precision,
-                r.size,
-                *(c.shown(r, " ★") for c in COLUMNS),
-            ]
+            [Method(r.method).record.words, r.precision, r.size, *(c.shown(r) for c in COLUMNS)]
             for r in trade.rows
         ],
     }
-
-
-def _page_row(r: TradeRow) -> list[str]:
-    name = Method(r.method).record.words
-    return [name, r.precision, r.size, *(c.shown(r, " ★") for c in COLUMNS)]
 
 
 def to_dict(trade: Trade) -> dict[str, Any]:
@@ -90,94 +72,70 @@ def write(directory: str | Path, trade: Trade) -> None:
     with replacing(Path(directory), (TABLE, PLOT, JSON)) as new:
         (new / TABLE).write_text(table(trade) + "\n", encoding="utf-8")
         write_json(new / JSON, to_dict(trade))
-        (new / PLOT).write_text(pictures(trade)["tradeoff"], encoding="utf-8")
+        (new / PLOT).write_text(picture(trade), encoding="utf-8")
 
 
-def pictures(trade: Trade) -> dict[str, str]:
-    """Return the name and the SVG of the one picture that there is.
+def picture(trade: Trade) -> str:
+    """Return the plot, an SVG.
 
     Above, the wrong pixels of the methods side by side; below, the coverage error of all rows. In
     both a line joins the rows that no other beats.
     """
-    headline = textwrap.fill(f"{trade.scene or 'Trade'}: {trade.advice}", 100)
-    size = 28 * min(1.0, (plots.WIDTH - 40) / plots.width_of(headline, 28))
-    room = 35 * (1 + headline.count("\n"))
-    high = (plots.HEIGHT - 340 - room) / 2
+    headline = textwrap.fill(f"{trade.scene}: {trade.advice}", 100)
     first, k = trade.whole[0], trade.converged
     pixels, coverage = (c for c in COLUMNS if c.best)
-    inside = plots.text((20, 15 + room / 2), headline, size)
-    inside += _against(
+    drawn = plots.text((20, 80), headline, 26)
+    drawn += _against(
         f"Time against wrong pixels: {first.width} × {first.height} pixels, one ray each",
-        (190, 75 + room, 1080, high),
+        210,
         pixels,
-        {f"{_name(r)}{_found(r)}": r for r in trade.whole if r.best_pixels or not r.wrong_pixels},
         trade.whole,
     )
-    fastest_first = sorted(trade.rows, key=lambda r: r.seconds, reverse=True)
-    inside += _against(
+    drawn += _against(
         f"Time against coverage error: RMS of RGBA, against {k} × {k} rays a pixel",
-        (190, 215 + room + high, 1080, high),
+        650,
         coverage,
-        {r.size: r for r in fastest_first if r.best_coverage},
         [r for r in trade.rows if math.isfinite(r.coverage_error)],
     )
     entries = {m.record.words: plots.mark((0, 0), 13, m.record.color) for m in MEASURED}
     entries |= {p: plots.mark((0, 0), 13, plots.GREY, p == "float32") for p in Precision}
     entries["no other beats these"] = plots.line([(-16, 0), (16, 0)], plots.INK, 4)
-    inside += plots.legend(entries, plots.HEIGHT - 30)
+    drawn += plots.legend(entries, plots.HEIGHT - 30)
     title = "Time against wrong pixels, and time against coverage error, of every method"
-    return {"tradeoff": plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, inside)}
+    return plots.picture(plots.WIDTH, plots.HEIGHT, title, trade.advice, drawn)
 
 
-def _name(r: TradeRow) -> str:
-    return f"{Method(r.method).record.words}, {r.precision}"
-
-
-def _found(r: TradeRow) -> str:
-    count = f": {r.wrong_pixels:,}" if r.wrong_pixels else ""
-    return f"{count}{', proven' * (r.method == Method.CERTIFIED)}"
-
-
-def _against(
-    title: str, box: plots.Box, error: Column, names: dict[str, TradeRow], rows: list[TradeRow]
-) -> str:
+def _against(title: str, top: float, error: Column, rows: list[TradeRow]) -> str:
     """Draw time against an error; the rows without one stand below the others, at "none"."""
     found = [getattr(r, error.name) for r in rows if getattr(r, error.name)]
     least = min(found, default=1.0)
-    most = max(1.4 * max(found, default=1.0), 2 * least)
-    none = 0.6 * least
-    y, right = {}, 0
-    for r in sorted(rows, key=lambda r: r.seconds):
-        y[r] = getattr(r, error.name)
-        if not y[r]:
-            y[r] = none * (none / most) ** (0.08 * right)  # beside one another they would overlap
-            right += 1
-    low = 0.8 * min(y.values())
-    ticks = dict(plots.logarithmic(least, most).ticks) if found else {}
-    if right:
-        ticks[math.sqrt(none * min(y.values()))] = "none"
+    most = max(found, default=least)
+    most = max(most, 10 * least)
+    none = 0.5 * least * (least / most) ** 0.1  # far enough below for its word
+    ticks = dict(plots.logarithmic(least, most).ticks)
+    if len(found) < len(rows):
+        ticks[none] = "none"
+    up = plots.Scale(0.8 * none, 1.4 * most, ticks, log=True)
     fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
-    x = plots.logarithmic(0.9 * fastest, 1.1 * slowest)
-    axes = plots.Axes(*box, x, plots.Scale(low, most, ticks, log=True))
+    along = plots.logarithmic(0.9 * fastest, 1.1 * slowest)
+    axes = plots.Axes(190, top, 1690, 310, along, up)
     out = axes.drawn(title, "seconds; a bar is from the fastest round to the slowest", error.head)
+    best = []
     for r in rows:
-        bar = axes.at(r.fastest, y[r]), axes.at(r.slowest, y[r])
+        y = getattr(r, error.name) or none
+        bar = axes.at(r.fastest, y), axes.at(r.slowest, y)
         out += plots.line(bar, Method(r.method).record.color, 4, opacity=0.4)
-    best = [r for r in rows if getattr(r, error.best)]
-    out += plots.line(sorted(axes.at(r.seconds, y[r]) for r in best), plots.INK, 4)
-    others = [r for r in rows if r not in best]
-    out += plots.chart(axes, [_mark(r, y[r], r in best) for r in others + best])
-    return out + plots.named(
-        axes, {n: axes.at(r.seconds, y[r]) for n, r in names.items() if r in y}
-    )
+        out += plots.chart(axes, [_mark(r, y, getattr(r, error.best))])
+        if getattr(r, error.best):
+            best.append(axes.at(r.seconds, y))
+    return out + plots.line(sorted(best), plots.INK, 4)
 
 
 def _mark(r: TradeRow, y: float, best: bool) -> plots.Series:
-    said = ", ".join(f"{c.head} {c.shown(r)}" for c in COLUMNS)
+    said = ", ".join(f"{c.head} {c.show(r)}" for c in COLUMNS)
     return plots.Series(
         Method(r.method).record.color,
-        [(r.seconds, y, f"{_name(r)}, {r.size}: {said}")],
+        [(r.seconds, y, f"{Method(r.method).record.words}, {r.precision}, {r.size}: {said}")],
         hollow=r.precision == Precision.FLOAT32,
         radius=14 if best else 9,
-        opacity=1 if best else 0.7,
     )

@@ -24,8 +24,8 @@ from ..tracer.progress import Work, result_of, scaled
 from ..tracer.settings import PLAIN_SETTINGS, Settings
 from ..tracer.triangle import TESTS
 from ..tracer.world import Pairs
-from .scenarios.sweeps import ALL, Scenario
-from .truth import CERTIFIED, Truth, crossings, keys, largest_t_error, pixel_rays, sample, truth_of
+from .scenarios.sweeps import SCENARIOS, Scenario
+from .truth import CERTIFIED, Truth, crossings, largest_t_error, pixel_rays, sample, truth_of
 
 JUDGED = 16  # rays of a scene, with every triangle: a tenth of a second
 
@@ -45,14 +45,11 @@ class ExtremesRow:
     # ray meets an edge, all that the certified ray may be said to see is right.
     wrong: int
     refused: int  # triangles and rays that are not finite in this precision, and so are left out
-    order: int = 0  # those of the wrong that see what is truly crossed, but is not the nearest
     # In ulp of the certified t (float64), over rays that see the same surface; None without one.
     # For the certified row, against the exact t, rounded once: 0.
     largest_t_error: float | None = None
     exact: float | None = None  # certified: share of the pairs that integers decided
     judged: int = 0  # certified: rays that were held against the definition
-    seen: int = 0  # rays whose certified ray sees a surface
-    across: float | None = None  # the second scale of a map's row
 
     @property
     def lost(self) -> int:
@@ -88,14 +85,10 @@ class BreakingPoint(NamedTuple):
 
 
 def breaking_points(rows: Sequence[ExtremesRow]) -> list[BreakingPoint]:
-    """Return where each method first goes wrong in each sweep, in the order of the rows.
-
-    Rows of a map have two scales, and no first one: they are left out.
-    """
+    """Return where each method first goes wrong in each sweep, in the order of the rows."""
     sweeps: dict[tuple[str, str, str], list[ExtremesRow]] = {}
     for row in rows:
-        if row.across is None:
-            sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
+        sweeps.setdefault((row.scenario, row.method, row.precision), []).append(row)
 
     def first(rows: list[ExtremesRow], count: str) -> float | None:
         return next((r.scale for r in rows if getattr(r, count)), None)
@@ -118,7 +111,7 @@ def written(scale: float | None) -> str:
 
 
 def measure(
-    scenarios: Sequence[Scenario] = ALL,
+    scenarios: Sequence[Scenario] = SCENARIOS,
     rays: int | None = None,
     judged: int = JUDGED,
     every: Every | None = None,
@@ -178,17 +171,14 @@ def _plain_row(scenario: Scenario, scale: float, truth: Truth, settings: Setting
         hit, t, _ = TESTS[settings.method](rays, *pairs.corners)
         return hit & within_clip(camera, t)
 
-    _, count = result_of(crossings(scene, settings, test))
+    count = result_of(crossings(scene, settings, test))
     off = frame.wrong_against(truth.frame).ravel()
     found = frame.triangle_index.ravel() != NOTHING
-    wrong = np.flatnonzero(off & found)
-    names = frame.instance_index.flat[wrong], frame.triangle_index.flat[wrong]
     return replace(
         _row(scenario, scale, truth, frame, settings),
         missed=int((off & ~found).sum()),
         doubled=int((count > truth.count).sum()),
-        wrong=len(wrong),
-        order=int(np.isin(keys(scene, wrong, *names), truth.crossed).sum()),
+        wrong=int((off & found).sum()),
         largest_t_error=largest_t_error(frame, truth.frame, in_ulp=True),
     )
 
@@ -210,8 +200,6 @@ def _row(
         doubled=0,
         wrong=0,
         refused=frame.statistics.refused + int((~finite).sum()),
-        across=scenario.across,
-        seen=int((truth.frame.instance_index != NOTHING).sum()),
     )
 
 

@@ -79,7 +79,11 @@ class Column:
     timed: bool  # whether it is another number in every run and on every machine
     show: Callable[[TradeRow], str]
     unit: str = ""  # what its number is, for the reader of the JSON; empty: the JSON leaves it out
+<<<<<<< HEAD
     share: Callable[[TradeRow], str] | None = None  # what stands behind it in a wide table
+=======
+    short: str = ""  # the head where there is little room
+>>>>>>> main
     best: str = ""  # the field that says that no other row beats this one here
 
     def __post_init__(self) -> None:
@@ -87,12 +91,14 @@ class Column:
         if not {self.name, self.best or self.name} <= names:
             raise ValueError(f"a column is of {self.name} and {self.best}; rows have {names}")
 
-    def shown(self, row: TradeRow, star: str = " *", wide: bool = False) -> str:
-        """Return its number in a row as text, with a star if no other row beats this one."""
-        more = f" {self.share(row):>8}" if wide and self.share else ""
-        room = " " * len(star) * wide  # so that the numbers stay below one another
-        marked = star if self.best and getattr(row, self.best) else room if self.best else ""
-        return f"{self.show(row)}{more}{marked}"
+    def shown(self, row: TradeRow) -> str:
+        """Return its number in a row as text, with a star if no other row beats this one.
+
+        Without one there is room for it, so that the numbers stand below one another.
+        """
+        if not self.best:
+            return self.show(row)
+        return self.show(row) + (" *" if getattr(row, self.best) else "  ")
 
 
 def _t_error(row: TradeRow) -> str:
@@ -114,7 +120,11 @@ COLUMNS = (
         False,
         lambda r: f"{r.wrong_pixels:,}",
         unit="pixels that see another surface than the certified picture does",
+<<<<<<< HEAD
         share=lambda r: f"({r.wrong_pixels / r.pixels:.2%})",
+=======
+        short="Wrong",
+>>>>>>> main
         best="best_pixels",
     ),
     Column(

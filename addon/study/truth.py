@@ -1,4 +1,4 @@
-"""Finds a scene's certified picture, and every triangle that each certified ray crosses.
+"""Finds a scene's certified picture, and how many triangles each certified ray crosses.
 
 A sample of the rays is held against the definition, in integers, with every surface.
 """
@@ -29,10 +29,9 @@ CERTIFIED = Settings(Method.CERTIFIED)
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """A scene's certified picture, and every triangle that a certified ray crosses."""
+    """A scene's certified picture, and how many triangles each certified ray crosses."""
 
     frame: Frame
-    crossed: Index  # (k,) the `keys` of the pairs
     count: Index  # (n,) of each ray
 
 
@@ -47,42 +46,31 @@ def truth_of(scene: Scene) -> Work[Truth]:
         CERTIFIED,
         lambda rays, p: decide(rays, p.corners.astype(float, copy=False), *clip).hit,
     )
-    return Truth(frame, *(yield from scaled(counting, 0.5, 0.5)))
+    return Truth(frame, (yield from scaled(counting, 0.5, 0.5)))
 
 
 def crossings(
     scene: Scene, settings: Settings, test: Callable[[Rays, Pairs], Bools]
-) -> Work[tuple[Index, Index]]:
-    """Find all that the camera's n rays cross, whether it is the nearest or not.
+) -> Work[Index]:
+    """Count the triangles that each of the camera's rays crosses, (n,), near or far.
 
     `test` takes p rays and p pairs, and returns which are crossed within the clip range, (p,) bool.
-    Returns the `keys` of what is crossed, (k,), and its count for each ray, (n,).
     """
     region = scene.camera.region
     rays = pixel_rays(scene.camera, settings.precision)
-    pixel: list[Index] = [np.zeros(0, np.int64)]
-    found: list[Index] = [np.zeros(0, np.int64)]
+    count = np.zeros(region.width * region.height, np.int64)
     made = yield from plan(scene, settings, reach=0.0)
     for share, some in candidates(made, region):
         yield share
         if some is not None:
-            hit = np.flatnonzero(test(rays.take(some.pixel), some))
-            pixel.append(some.pixel[hit])
-            found.append(keys(scene, pixel[-1], some.instance[hit], some.triangle[hit]))
-    count = np.bincount(np.concatenate(pixel), minlength=region.width * region.height)
-    return np.concatenate(found), count
+            crossed = some.pixel[test(rays.take(some.pixel), some)]
+            count += np.bincount(crossed, minlength=len(count))
+    return count
 
 
 def pixel_rays(camera: Camera, precision: Precision) -> Rays:
     """Return the rays through the centres of the camera's pixels, row by row from the lowest."""
     return camera_rays(camera, *film_positions(camera.region, 0.0, 0.0), precision.dtype)
-
-
-def keys(scene: Scene, pixel: Index, instance: Index, triangle: Index) -> Index:
-    """Return one number for each pair of a pixel and a triangle of an instance."""
-    counts = [len(scene.meshes[i.mesh].triangles) for i in scene.instances]
-    first = np.concatenate(([0], np.cumsum(counts)))[instance]
-    return pixel.astype(np.int64) * max(1, scene.triangle_count) + first + triangle
 
 
 def largest_t_error(frame: Frame, certified: Frame, in_ulp: bool = False) -> float | None:

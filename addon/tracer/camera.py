@@ -1,15 +1,21 @@
 """Makes the rays of a camera: origins and directions in world space.
 
-A ray is x = o + t d. Directions come from the camera's own axes, d = x right + y up + forward,
-and are not normalised, so that t is the depth along the view axis. They are never the difference
-of a world-space pixel and the camera's position, which would lose most digits far from the origin.
-Other types of cameras are in `projections/`.
+A ray is x = o + t d. Directions come from the camera's own axes: in perspective,
+d = x right + y up + forward for a film position (x, y); `projections/` has each type of camera.
+They are not normalised, so that t is the depth along the view axis (for a panorama, the distance).
+They are never the difference of a world-space pixel and the camera's position, which would lose
+most digits far from the origin.
 
-The textbook (Exercise 1, perspective camera) has the length of a pixel as
-tan(opening angle) / (half the resolution), where the opening angle of the course's code is *half*
-the vertical angle of view, and samples at x - (width - 1) / 2: the pixel's centre. Both are the
-view window of `scene.Camera` with top = tan(opening angle). (Read as tan(angle / half the
-resolution), which the text also allows, the formula holds for small angles only.)
+The textbook (Exercise 1, perspective camera) has, for the pixel in column i,
+
+    pixel = tan(a) / (height / 2)                    x = (i - (width - 1) / 2) pixel
+
+where a, in the course's code, is *half* the vertical angle of view. Here it is
+
+    pixel = (right edge - left edge) / width         x = left edge + (i + 1/2) pixel
+
+with the edges of the view window of `scene.Camera`. They are the same where the top edge is tan(a).
+(The text can also be read as tan(a / (height / 2)), which holds for small angles only.)
 """
 
 from __future__ import annotations
@@ -154,7 +160,7 @@ def film_beside(camera: Camera, points: Vectors, px: Floats, py: Floats) -> Floa
 
 
 def project(camera: Camera, points: Vectors) -> tuple[Vectors, Vectors]:
-    """Return camera-space coordinates of world points, and how far rounding may have moved them.
+    """Return camera-space coordinates of world points, and what bounds their rounding errors.
 
     The axes need not be orthonormal, so they are inverted through their dual basis:
     X = (v - o) . (up x forward) / det, and so on; Z is the depth, positive in front.

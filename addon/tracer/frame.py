@@ -105,10 +105,10 @@ class Frame:
         )
 
     def cancel(self) -> None:
-        """Have it end here: rows that are not done are empty, whatever was found of them."""
+        """End here: empty the rows that are not done, whatever was found of them."""
         self.cancelled = True
         height, width = self.shape
-        rows = slice(int(self.rows_done.sum()), height)  # as the lowest are the first
+        rows = slice(int(self.rows_done.sum()), height)  # the lowest are done first
         self.color[rows] = 0
         self.ties = self.ties.below(rows.start * width)
         self.enter(rows, Hits.none((height - rows.start) * width))
@@ -120,10 +120,10 @@ class Frame:
 
     @property
     def t(self) -> Floats:
-        """Ray parameter = depth along the view axis, (h, w) metres; inf: no hit."""
+        """Ray parameter, (h, w): the depth in metres (a panorama's distance); inf: no hit."""
         return self.measures.of(slice(None))[0]
 
-    depth = t  # as Blender's Z pass has it: directions are not normalised, for any camera
+    depth = t  # as Blender's Z pass has it
 
     @property
     def barycentrics(self) -> Floats:

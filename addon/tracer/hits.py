@@ -32,11 +32,11 @@ class Statistics:
     triangles: int = 0  # over all instances
     refused: int = 0  # of those, left out as a corner is not finite in world space
     pairs_tested: int = 0  # (ray, triangle or plane)
-    rounding: str = ""  # how far it goes before that, in words
+    rounding: str = ""  # how far rounding moves rays and corners before any test; certified only
     reasons: Counter[Reason] = field(default_factory=Counter)  # pairs that were decided exactly
     notes: list[str] = field(default_factory=list)  # what a user should know of how it was traced
     seconds: float = 0.0
-    stages: dict[str, float] = field(default_factory=dict)  # seconds of the parts of certified work
+    stages: dict[str, float] = field(default_factory=dict)  # seconds by part of the work
     # Of the sweep: triangles with a pixel in their box (boxed), not dropped as a whole (reached);
     # pixels in which they were evaluated (computed), and that it did not decide (left).
     culling: Counter[str] = field(default_factory=Counter)

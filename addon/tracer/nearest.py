@@ -135,8 +135,10 @@ def _keep_nearest(hits: Hits, after: Hits | None, pixel: Index, found: Hits) -> 
     if after is not None:
         behind = np.flatnonzero(_before(after, pixel, found, slice(None)))
         pixel, found = pixel[behind], found.take(behind)
-    # numpy keeps the last of several writes to one index. So hits that are nearer than what was
-    # kept are written again, in the opposite order, since many are sorted from near to far.
+    # A pixel may occur several times, and of several writes to one index numpy keeps the last. So
+    # all that are nearer than what is stored are written, then those that are nearer still, and so
+    # on. Each round brings a pixel's hit nearer, so that it ends. The order is turned round each
+    # time, as a mesh is often sorted from near to far, or from far to near.
     while len(pixel):
         nearer = np.flatnonzero(_before(found, slice(None), hits, pixel))[::-1]
         pixel, found = pixel[nearer], found.take(nearer)

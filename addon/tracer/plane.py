@@ -1,7 +1,7 @@
 """Finds where rays meet an infinite plane, by the textbook.
 
 The plane is (x - p) . n = 0. With x = o + t d: t = -((o - p) . n) / (d . n). If d . n = 0 the ray
-is parallel to the plane and does not hit it.
+is parallel to the plane and does not hit it. t may be negative: `nearest.py` tests the clip range.
 """
 
 from __future__ import annotations

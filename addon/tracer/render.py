@@ -1,6 +1,6 @@
 """Renders a scene into a frame, band by band: traces rays, shades what they see, reports progress.
 
-`steps` is the one loop. A render engine, a modal operator and a script drive it, each with its own
+`steps` is the loop. A render engine, a modal operator and a script drive it, each with its own
 way to show progress and to stop. A step takes some ten milliseconds. How rays are traced is left to
 a `Tracer`: `nearest.tracer` for the textbook and the other plain methods.
 """
@@ -35,15 +35,15 @@ RAYS = 1 << 23  # of a band where a pixel has many certified ones: a second or t
 BYTES_PER_PIXEL = 224  # of a band: depth buffer, fragments, hits
 WHOLE = 0.999  # of the progress, until the picture is whole
 
-# Prepares to trace the bands of a scene's picture: by settings whose method is one, for rays that
-# pass their pixels' centres within a reach in pixels, counting in the statistics.
+# Prepares to trace the bands of a picture by the settings' method, which is not `auto`. No ray
+# passes farther from its pixel's centre than a reach, in pixels. It counts in the statistics.
 Tracer = Callable[[Scene, Settings, float, Statistics], Work[TraceBand]]
 Offset = tuple[float, float]  # where a ray passes its pixel's centre, in pixels
 Shade = Callable[[Callable[[], Rays], Hits], NDArray[np.float32]]
 
 
 @dataclass(frozen=True)
-class Pass:
+class Round:
     """One time that a picture is gone through: what is traced of each pixel, and shaded.
 
     The colour is the mean over the rays at `offsets`, else that of the ray through the centre.
@@ -51,7 +51,7 @@ class Pass:
 
     offsets: tuple[Offset, ...]
     color: Color | None  # none: only what the centre rays meet is found
-    is_traced: bool = False  # the centre rays are known from the pass before
+    is_traced: bool = False  # the centre rays are known from the round before
 
     def rays(self) -> list[Offset]:
         """Return where the rays that are traced pass their pixels' centres, in their order."""
@@ -78,20 +78,20 @@ def steps(
             yield share
 
 
-def passes(settings: Settings) -> list[Pass]:
+def rounds(settings: Settings) -> list[Round]:
     """Return how often a picture is gone through, and for what."""
     offsets = tuple(sample_offsets(settings.samples)) if settings.samples > 1 else ()
     if settings.color is Color.DEPTH:  # its greys lie between the nearest and the farthest hit
-        return [Pass((), None), Pass(offsets, settings.color, is_traced=True)]
-    return [Pass(offsets, settings.color)]
+        return [Round((), None), Round(offsets, settings.color, is_traced=True)]
+    return [Round(offsets, settings.color)]
 
 
-def traced(camera: Camera, settings: Settings) -> Iterator[tuple[Region, Offset]]:
+def rays_in_order(camera: Camera, settings: Settings) -> Iterator[tuple[Region, Offset]]:
     """Yield the bands of rays that a picture is made of, in the order in which they are traced.
 
     Whoever traces them elsewhere can walk them ahead of `steps`.
     """
-    for each in passes(settings):
+    for each in rounds(settings):
         for band in bands(camera, settings):
             for offset in each.rays():
                 yield band, offset
@@ -101,13 +101,13 @@ def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> It
     statistics = frame.statistics
     statistics.method = settings.method.value
     statistics.triangles = scene.triangle_count
-    every_pass = passes(settings)
-    reach = max((abs(v) for each in every_pass for at in each.offsets for v in at), default=0.0)
+    every_round = rounds(settings)
+    reach = max((abs(v) for each in every_round for at in each.offsets for v in at), default=0.0)
     trace_band = yield from tracer(scene, settings, reach, statistics)
     every_band = bands(scene.camera, settings)
-    share = WHOLE / (len(every_pass) * len(every_band))
+    share = WHOLE / (len(every_round) * len(every_band))
     done = 0.0
-    for each in every_pass:
+    for each in every_round:
         depths = frame.depths() if each.is_traced else (0.0, 0.0)
         shade = partial(each.color.of, scene, depths) if each.color else None
         for band in every_band:
@@ -118,16 +118,16 @@ def _steps(scene: Scene, settings: Settings, frame: Frame, tracer: Tracer) -> It
 
 @dataclass(frozen=True, eq=False)
 class _Band:
-    """A band of a frame in one pass."""
+    """A band of a frame in one round."""
 
     frame: Frame
     region: Region
-    wanted: Pass
+    wanted: Round
     shade: Shade | None
 
     @property
     def rows(self) -> slice:
-        """The frame's rows that these are."""
+        """The rows of the frame that the band covers."""
         first = self.frame.scene.camera.region.y0
         return slice(self.region.y0 - first, self.region.y1 - first)
 
@@ -173,7 +173,7 @@ class _Band:
         frame.rows_done[rows] = self.shade is not None
         if not self.shade:
             for _ in frame.measures.steps(rows):
-                yield "rounding"
+                yield "measures"
 
 
 def sample_offsets(samples: int) -> list[Offset]:

@@ -1,10 +1,11 @@
 """Tests rays with triangles: by the textbook, by it literally, Möller–Trumbore, watertight.
 
+`nearest.py` calls these tests for the plain methods; `certified` has its own, in `certified/`.
 Each function takes n rays and n triangles, pair by pair, and returns
     hit : (n,) bool      whether the ray's line meets the triangle
     t   : (n,)           ray parameter where it does
     s   : (3, n)         barycentrics of p1, p2, p3: x = s1 p1 + s2 p2 + s3 p3
-in the precision of its input. The clip range is not tested here.
+in the precision of its input. t may be negative: `nearest.py` tests the clip range.
 
 The textbook (Exercise 1, triangle):
     n = (p3 - p1) x (p2 - p1)                     t = -((o - p1) . n) / (d . n),  x = o + t d
@@ -15,12 +16,14 @@ Two errata:
 1. n_s2 vanishes on the edge p1 p2, and n_s3 on the edge p3 p1. So s2 as printed weighs p3 and s3
    weighs p2, the opposite of x = s1 p1 + s2 p2 + s3 p3. Constant shading never shows it;
    interpolation would. The functions here return them in the order of the corners.
-2. The three always sum to 1: x cancels out of n_s1 + n_s2 + n_s3, so in exact arithmetic the last
-   condition says nothing, not even that x lies in the plane. In floating point, `sum == 1` fails
-   for about every second hit by a rounding error (measured: 49 % in float32, 52 % in float64).
-   `textbook_literal` keeps it, for its picture; `textbook` allows the sum SUM_TOLERANCE, so that it
+2. The three always sum to 1: x cancels out of n_s1 + n_s2 + n_s3, and what is left is n, so that
+   the sum is n . n / |n|^2 = 1, whatever x is. In exact arithmetic the last condition says nothing,
+   not even that x lies in the plane. In floating point, `sum == 1` fails for about every second hit
+   by a rounding error (measured: 49 % in float32, 52 % in float64). `textbook_literal` keeps the
+   condition, to show the holes that it makes; `textbook` allows the sum SUM_TOLERANCE, so that it
    rejects only needles whose weights have lost their digits by cancelling.
-Neither rule treats the edge between two triangles as belonging to exactly one of them.
+
+Neither test gives the edge between two triangles to exactly one of them.
 """
 
 from __future__ import annotations
@@ -59,7 +62,7 @@ def _textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection
 
 
 def textbook_literal(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
-    """Test exactly as printed, with a sum that equals 1: loses about half of all hits."""
+    """Test as printed, with a sum that equals 1 (added as s1 + s3 + s2): loses half of all hits."""
     inside, t, s = _textbook(rays, p1, p2, p3)
     with np.errstate(invalid="ignore", over="ignore"):
         return inside & (s[0] + s[1] + s[2] == 1), t, s
@@ -74,7 +77,11 @@ def textbook(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
 
 
 def moller_trumbore(rays: Rays, p1: Vectors, p2: Vectors, p3: Vectors) -> Intersection:
-    """Solve o + t d = p1 + s2 (p2 - p1) + s3 (p3 - p1) by Cramer's rule.
+    """Solve o + t d = p1 + s2 e1 + s3 e2 by Cramer's rule, for e1 = p2 - p1 and e2 = p3 - p1.
+
+    With q = (o - p1) x e1 and the determinant e1 . (d x e2),
+
+        s2 = (o - p1) . (d x e2) / det,  s3 = d . q / det,  t = e2 . q / det
 
     Both faces are seen. There is no epsilon for the determinant: it would be a length to the third.
 

@@ -124,6 +124,20 @@ def _mark(at: plots.Place, size: float, color: str, shape: str) -> str:
     return plots.element("polygon", points=points, fill=color)
 
 
+def _cell(x: float, y: float, width: float, height: float, color: str, title: str = "") -> str:
+    """Return a coloured rectangle, which says its title where it is pointed at."""
+    return plots.element(
+        "rect",
+        plots.said("title", title) if title else "",
+        x=x,
+        y=y,
+        width=width,
+        height=height,
+        fill=color,
+        shape_rendering="crispEdges",  # no seam between cells that touch
+    )
+
+
 def _stages(rows: list[Row]) -> str:
     """Draw what each stage takes of every scene, as bars."""
     names = list(dict.fromkeys(name for r in rows for name in r.stages))
@@ -144,10 +158,10 @@ def _stages(rows: list[Row]) -> str:
         for name, seconds in (r.stages | {"other": whole - sum(r.stages.values())}).items():
             (begin, y), (end, _) = axes.at(start, middle), axes.at(start + seconds, middle)
             title = f"{r.scene}, {name}: {seconds:.3g} s"
-            out += plots.cell(begin, y - 0.35 * high, end - begin, 0.7 * high, colors[name], title)
+            out += _cell(begin, y - 0.35 * high, end - begin, 0.7 * high, colors[name], title)
             start += seconds
         out += plots.text((end + 8, y), f"{whole:.3g} s", size)
-    entries = {name: plots.cell(-14, -14, 28, 28, color) for name, color in colors.items()}
+    entries = {name: _cell(-14, -14, 28, 28, color) for name, color in colors.items()}
     return out + plots.legend(entries, plots.HEIGHT - 75)
 
 

@@ -24,7 +24,7 @@ from reference_tracer.scene_files import save_scene
 from reference_tracer.tracer.hits import Hits, Statistics, Ties
 from reference_tracer.tracer.nearest import TraceBand
 from reference_tracer.tracer.progress import Work, scaled
-from reference_tracer.tracer.render import Tracer, passes, traced
+from reference_tracer.tracer.render import Tracer, rays_in_order, rounds
 from reference_tracer.tracer.settings import Settings
 
 from . import checks, tasks
@@ -90,10 +90,10 @@ class Picture:
         r = self.scene.camera.region
         self._camera = camera_json(self.scene)
         self._threads = sum(self.cluster.workers().values())
-        times = sum(len(each.rays()) for each in passes(self.settings))
+        times = sum(len(each.rays()) for each in rounds(self.settings))
         rows = r.height * times  # each takes a look at every triangle: few are best
         self._rows = max(1, min(-(-rows // (EACH * self._threads)), MOST // r.width))
-        every = traced(self.scene.camera, self.settings)
+        every = rays_in_order(self.scene.camera, self.settings)
         self._todo = ((part, *at) for band, at in every for part in self._parts(band))
         self._ahead: deque[Asked] = deque()
 

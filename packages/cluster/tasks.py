@@ -19,7 +19,7 @@ from reference_tracer.rendering import TRACERS, resolved
 from reference_tracer.scene import Region, Scene
 from reference_tracer.scene_files import load_scene
 from reference_tracer.study import extremes, tradeoff
-from reference_tracer.study.scenarios.sweeps import ALL
+from reference_tracer.study.scenarios.sweeps import BY_NAME
 from reference_tracer.tracer.hits import Statistics
 from reference_tracer.tracer.progress import Work
 from reference_tracer.tracer.settings import Settings
@@ -118,6 +118,5 @@ def trade_row(scene: str, camera: str, settings: str, truth: str) -> bytes:
 @_named
 def extremes_rows(scenario: str, scale: float, rays: int | None, judged: int) -> bytes:
     """Return the rows of a scenario at a scale, as JSON."""
-    [wanted] = (s for s in ALL if s.name == scenario)
-    rows = _done(extremes.rows_of(wanted, scale, rays, judged))
+    rows = _done(extremes.rows_of(BY_NAME[scenario], scale, rays, judged))
     return packed(np.array(json.dumps([asdict(row) for row in rows])))

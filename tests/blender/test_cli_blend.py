@@ -185,7 +185,7 @@ def test_a_scene_that_cannot_be_traced(command, build, tmp_path, reftrace):
     out = tmp_path / {"compare": "out", "export": "scene.npz", "trace": "picture.png"}[command]
     done = reftrace(command, path, "--out", out)
     assert done.returncode == 4
-    assert "reftrace: Camera 'All Around' is of type pano" in done.stderr
+    assert "reftrace: Camera 'All Around' is of type fisheye" in done.stderr
     assert "Traceback" not in done.stderr
 
 

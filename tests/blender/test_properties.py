@@ -57,7 +57,7 @@ def test_what_is_offered_is_what_there_is():
     assert [i[0] for i in choices.SHOWS] == list(SHOWS)
     bits = {p.label: 2**k for k, p in enumerate(PASSES) if p.label and p.label != "Combined"}
     assert {i[0]: i[-1] for i in choices.PASSES} == bits
-    names = [m.name for m in (*sweeps.SCENARIOS, *sweeps.MAPS)]
+    names = [s.name for s in sweeps.SCENARIOS]
     assert [i[0] for i in choices.STUDIES] == [choices.EVERY, *names]
     trade = bpy.ops.reference_tracer.trade.get_rna_type().properties
     defaults = trade["width"].default, trade["samples"].default

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.slow
 
 @pytest.fixture
 def one_scenario(monkeypatch):
-    real, some = extremes.measure, extremes.ALL[:1]
+    real, some = extremes.measure, extremes.SCENARIOS[:1]
     monkeypatch.setattr(extremes, "measure", lambda rays: real(some, rays, judged=1))
 
 
@@ -24,7 +24,7 @@ def test_extremes(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "certified" in said and "First scale" in said
     written = {p.name for p in (tmp_path / "out").iterdir()}
-    assert {"extremes.json", "extremes.txt", "breaking_points.svg"} <= written
+    assert {"extremes.json", "extremes.txt", "extremes.svg"} <= written
     held = json.loads((tmp_path / "out" / "extremes.json").read_text(encoding="utf-8"))
     assert {r["method"] for r in held["rows"]} >= {"certified", "watertight", "textbook"}
 

@@ -13,7 +13,7 @@ from reference_tracer.study.trade import TIMED, TradeRow
 from reference_tracer_cluster.studies import _facts, _row
 
 ROW = TradeRow("textbook", "float32", 1, 8, 6, 0.5, 3, None, 1 << 20, 0.25, (0.5, 0.6, 0.7))
-OTHER = ExtremesRow("needles", 4, "textbook", "float32", 9, 1, 2, 3, 4, across=0.5)
+OTHER = ExtremesRow("needles", 4, "textbook", "float32", 9, 1, 2, 3, 4, exact=0.5)
 
 
 @pytest.mark.parametrize("row", [ROW, OTHER])

@@ -29,7 +29,7 @@ def listed(scene, *settings):
     settings = Settings(*settings)
     frame = render(scene, settings)
     shares = []
-    rows, _ = result_of(list_methods(scene, settings, frame), shares.append)
+    rows = result_of(list_methods(scene, settings, frame), shares.append)
     assert shares == sorted(shares) and all(0 <= s <= 1 for s in shares)
     return {(r.method, r.precision): r for r in rows}, frame
 

@@ -48,7 +48,7 @@ def read(path: Path, thorough: bool) -> None:
         if thorough:
             document.document_markdown(derive_pixel(pixel))
     else:
-        scene, _ = load(path, Choice(default_size=(8, 8)))
+        scene, _ = load(path, Choice(width=8, height=8))
         for mesh in scene.meshes:
             assert np.isfinite(mesh.vertices).all()
         if thorough:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from reference_tracer.methods import Method
-from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
+from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.tracer.progress import result_of
 from reference_tracer_grading.extremes import extreme_scenes, plain
 from reference_tracer_grading.picture import EXCUSED, Mark, look
@@ -55,4 +55,4 @@ def test_the_literal_textbook_is_blamed(scenes):
 
 @pytest.mark.torture
 def test_sound_methods_are_never_blamed_at_all_scales():
-    assert blamed(result_of(extreme_scenes(ALL))) == []
+    assert blamed(result_of(extreme_scenes(SCENARIOS))) == []

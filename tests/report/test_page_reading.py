@@ -145,7 +145,7 @@ def test_studies_are_shown_with_their_plots(show, differing):
     tab = show(differing, held=held)
     assert "where methods break" in tab.locator("#tables").inner_text()
     plots = tab.locator("#tables svg")
-    assert plots.count() == 3 and trade.advice in plots.first.inner_html()
+    assert plots.count() == 2 and trade.advice in plots.first.inner_html()
     assert all(box["width"] > 1000 for box in (p.bounding_box() for p in plots.all()))
     # No word is wider than is allowed for, without a font, where all are laid out.
     wide = plots.locator("text").evaluate_all(

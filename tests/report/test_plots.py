@@ -58,10 +58,10 @@ def test_words_are_words_whatever_they_hold(words):
     assert kept.strip("\ufffe") in root[0].text.replace("\ufffd", "")
 
 
-def test_a_page_of_plots_is_read_by_a_browser():
+def test_a_page_of_a_plot_is_read_by_a_browser():
     one = plots.picture(99, 99, "t", "a", "")
-    held = plots.page("<b>", [one, one])
-    assert held.count("<svg") == 2 and "<title>&lt;b&gt;</title>" in held
+    held = plots.page("<b>", one)
+    assert held.count("<svg") == 1 and "<title>&lt;b&gt;</title>" in held
 
 
 def test_a_legend_is_as_small_as_it_must_be():

@@ -10,7 +10,7 @@ from reference_tracer.certainty import Certainty
 from reference_tracer.methods import Method
 from reference_tracer.study import extremes
 from reference_tracer.study.extremes import ExtremesRow, breaking_points, measure, written
-from reference_tracer.study.scenarios.sweeps import ALL, SCENARIOS
+from reference_tracer.study.scenarios.sweeps import SCENARIOS
 from reference_tracer.study.truth import sample, truth_of
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of
@@ -31,12 +31,12 @@ def at(name, *scales, judged=2):
 
 @pytest.fixture(scope="module")
 def rows():
-    """Every scenario and map, in small pictures at three scales."""
+    """Every scenario, in small pictures at three scales."""
     return result_of(measure(quick()))
 
 
 def faults(rows):
-    return [(r.scenario, r.scale, r.across) for r in rows if r.lost or r.doubled]
+    return [(r.scenario, r.scale) for r in rows if r.lost or r.doubled]
 
 
 def certified(rows):
@@ -46,12 +46,12 @@ def certified(rows):
 def test_a_row_for_every_scene_method_and_precision(rows):
     plain = {(m.value, p.value) for m in Method if m.is_plain for p in Precision}
     expected = {
-        (s.name, s.across, scale, *choice)
+        (s.name, scale, *choice)
         for s in quick()
         for scale in s.scales
         for choice in plain | {("certified", "float64")}
     }
-    assert {(r.scenario, r.across, r.scale, r.method, r.precision) for r in rows} == expected
+    assert {(r.scenario, r.scale, r.method, r.precision) for r in rows} == expected
     assert len(rows) == len(expected)
 
 
@@ -67,7 +67,7 @@ def test_certified_is_never_wrong(rows):
 def test_certified_is_never_wrong_at_any_scale():
     every = result_of(measure(judged=64))
     assert faults(certified(every)) == []
-    assert len(certified(every)) == sum(len(s.scales) for s in ALL)
+    assert len(certified(every)) == sum(len(s.scales) for s in SCENARIOS)
     for method in Method:
         if method.is_plain:
             assert faults([r for r in every if r.method == method])
@@ -75,7 +75,6 @@ def test_certified_is_never_wrong_at_any_scale():
 
 def test_counts_fit(rows):
     for r in rows:
-        assert 0 <= r.order <= r.wrong and r.missed <= r.seen <= r.rays
         assert r.missed + r.wrong <= r.rays and r.doubled <= r.rays
         assert (r.exact is None) == (r.method != "certified") == (r.judged == 0)
 
@@ -125,15 +124,6 @@ def test_true_ties_are_doubled_but_not_wrong():
         for (method, _, _), r in at(name, 4).items():
             assert (r.doubled > 20) == (method != "certified")
             assert r.wrong == 0 or method == "textbook_literal"
-
-
-def test_wrong_order_is_told_from_a_wrong_triangle():
-    found = at("close_planes", 1.0)
-    r = found["watertight", "float64", 1.0]
-    assert r.order == r.wrong > 0
-    found = at("needles", 1e7)
-    r = found["watertight", "float32", 1e7]
-    assert r.wrong > 0 == r.order
 
 
 def test_half_of_all_rays_are_lost_by_the_literal_textbook():
@@ -224,15 +214,13 @@ def test_the_number_of_rays_can_be_chosen():
         assert rays / 1.2 <= row.rays <= 1.2 * rays
 
 
-def row(scale, missed=0, wrong=0, doubled=0, scenario="tiny", across=None, method="watertight"):
-    return ExtremesRow(
-        scenario, scale, method, "float64", 200, missed, doubled, wrong, 0, across=across
-    )
+def row(scale, missed=0, wrong=0, doubled=0, scenario="tiny", method="watertight"):
+    return ExtremesRow(scenario, scale, method, "float64", 200, missed, doubled, wrong, 0)
 
 
 def test_breaking_points():
     rows = [row(1.0), row(0.1, doubled=1), row(0.01, wrong=2), row(1e-3, missed=1), row(1e-4)]
-    rows += [row(1.0, method="certified"), row(5.0, missed=1, across=2.0)]
+    rows += [row(1.0, method="certified")]
     first, second = breaking_points(rows)
     assert (first.doubled, first.wrong, first.missed, first.lost) == (0.1, 0.01, 1e-3, 0.01)
     assert second.never and not first.never and second.method == "certified"

@@ -122,14 +122,8 @@ _SCENARIOS = tomllib.loads(
 )
 
 
-def _listed(kind: str) -> tuple[Unstored, ...]:
-    """Return the study's scenarios of a kind."""
-    return tuple((s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS[kind])
-
-
 EVERY = "ALL"  # in place of a scenario's name
 STUDIES = (
-    (EVERY, "All", "Every scenario, and the maps of two scales at once"),
-    *_listed("scenario"),
-    *_listed("map"),
+    (EVERY, "All", "Every scenario"),
+    *((s["name"], s["title"], s["explanation"].rstrip(".")) for s in _SCENARIOS["scenario"]),
 )

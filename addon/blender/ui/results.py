@@ -60,25 +60,30 @@ def keep_trade(trade: Trade) -> Result:
     """Remember a trade, and write its plot for the browser."""
     from ...report import trade as trade_report
 
-    page = _page("trade", trade_report.pictures(trade))
+    page = _page("trade", trade_report.picture(trade))
     return keep(Kind.TRADE, trade, [trade.advice], trade.scene, page)
 
 
 def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
-    """Remember where each method breaks, and write the plots of it for the browser."""
+    """Remember where each method breaks, and write the plot of it for the browser."""
     from ...report import extremes as extremes_report
 
+<<<<<<< HEAD
     page = _page("extremes", extremes_report.pictures(rows))
+=======
+    page = _page("extremes", extremes_report.picture(rows))
+    points = tuple(breaking_points(rows))
+>>>>>>> main
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     return keep(Kind.EXTREMES, tuple(rows), lines, page=page)
 
 
-def _page(name: str, pictures: dict[str, str]) -> str:
+def _page(name: str, drawn: str) -> str:
     from ...report import folders, plots
 
     path = session_folder() / f"{name}.html"
-    folders.write_text(path, plots.page(f"Reference Tracer {name}", pictures.values()))
+    folders.write_text(path, plots.page(f"Reference Tracer {name}", drawn))
     return path.as_uri()
 
 

@@ -77,12 +77,12 @@ class REFERENCE_TRACER_OT_extremes(LongWork, bpy.types.Operator):
     )
 
     def begin(self, context: Any) -> Work[Any]:
-        """Return the work; the rows of a map are scenarios of its name."""
+        """Return the work."""
         from ...study.extremes import measure
-        from ...study.scenarios.sweeps import ALL
+        from ...study.scenarios.sweeps import SCENARIOS
 
         self._folder = self.folder()
-        scenarios = [s for s in ALL if self.scenario in (choices.EVERY, s.name)]
+        scenarios = [s for s in SCENARIOS if self.scenario in (choices.EVERY, s.name)]
         return measure(scenarios, self.rays or None)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from argparse import BooleanOptionalAction, Namespace
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,102 +11,21 @@ import numpy as np
 
 from ... import images
 from ...compare import engines
-from ...compare.animation import frames_named
 from ...compare.case import Case
 from ...compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ...compare.picture import Picture, Source
 from ...diagnosis import diagnosed
-from ...framing import Choice
 from ...manifest import Manifest, ObjectEntry
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
 from ...scene import Camera, Scene, SceneError
 from ...tracer.progress import Work, result_of
-from ..arguments import (
-    GivenSettings,
-    Place,
-    add_settings,
-    is_blend,
-    place_from,
-    refuse,
-    settings_from,
-)
-from ..camera_options import add_camera, choice_from
+from ..arguments import is_blend
+from ..compare_options import CompareOptions, add_options
 from ..opening import import_trimesh, load, open_blend
-from ..parser import AT_LEAST_0, EXIT_CODES_HELP, Parser
+from ..parser import EXIT_CODES_HELP, Parser
 from ..running import progress_bar
-
-# A frame of an animation stays the same whatever these are.
-_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "place"
-
-
-@dataclass(frozen=True)
-class CompareOptions:
-    """The options of `reftrace compare`."""
-
-    scene: Path
-    out: Path
-    settings: GivenSettings
-    choice: Choice
-    # Blender's picture; None for what the scene stores.
-    judge: str | None
-    as_is: bool
-    identity: bool | None
-    self_check: bool | None
-    frames: str | None  # of an animation, as they are typed
-    # Another picture, in place of Blender's.
-    against: Path | None
-    filter: float | None  # pixels
-    dither: float | None  # levels of 255
-    # What the page shows besides.
-    trade: bool
-    extremes: bool
-    place: Place
-
-    @classmethod
-    def parsed(cls, given: Namespace) -> CompareOptions:
-        """Return what was parsed; raises SceneError if options contradict one another."""
-        _refuse_beside_frames(given)
-        if given.against is None:
-            refuse(given, ("filter", "dither"), "is for a picture of --against")
-        else:
-            why = "is for Blender's picture, not for one of --against"
-            refuse(given, ("judge", "identity", "as_is"), why)
-        return cls(
-            scene=given.scene,
-            out=given.out,
-            settings=settings_from(given),
-            choice=choice_from(given, given.scene),
-            judge=given.judge,
-            as_is=given.as_is,
-            identity=given.identity,
-            self_check=given.self_check,
-            frames=given.frames,
-            against=given.against,
-            filter=given.filter,
-            dither=given.dither,
-            trade=given.trade,
-            extremes=given.extremes,
-            place=place_from(given),
-        )
-
-    def of_a_frame(self) -> dict[str, str]:
-        """Return the options that a frame's comparison depends on, in words that can be stored."""
-        return {k: str(v) for k, v in vars(self).items() if k not in _NOT_OF_A_FRAME}
-
-
-def _refuse_beside_frames(given: Namespace) -> None:
-    if given.frames is None:
-        return
-    why = "is for one frame, not for --frames"
-    refuse(given, ("frame", "against", "trade", "extremes"), why)
-    if given.judge == "all":
-        raise SceneError("--judge all is for one frame: name one judge with --frames")
-    try:
-        frames_named(given.frames)
-    except ValueError as error:
-        raise SceneError(f"--frames {error}") from error
 
 
 def add(parser: Parser) -> None:
@@ -117,85 +35,7 @@ def add(parser: Parser) -> None:
         "  reftrace compare scene.npz --against student.png --out out/"
     )
     parser.runs(lambda given: compare(CompareOptions.parsed(given)), examples, EXIT_CODES_HELP)
-    parser.add_scene("scene.blend; with --against also scene.npz or a mesh")
-    parser.add_argument(
-        "--out", required=True, type=parser.path, metavar="DIR", help="folder for what is found"
-    )
-    add_settings(parser)
-    _add_blenders_picture(parser)
-    _add_page(parser)
-    _add_against(parser)
-    add_camera(parser)
-
-
-def _add_blenders_picture(parser: Parser) -> None:
-    from ...blender.drawing.judges import choices
-
-    group = parser.add_argument_group("Blender's picture (default: as the scene says)")
-    group.add_argument(
-        "--judge",
-        choices=["auto", *choices(), "all"],
-        help="the engine of Blender that draws the picture to compare with; all makes a table of "
-        "all engines (and of the viewport, in a window)",
-    )
-    group.add_argument(
-        "--as-is",
-        action="store_true",
-        help="leave Blender's shading as the scene has it, not like for like",
-    )
-    group.add_argument(
-        "--identity",
-        action=BooleanOptionalAction,
-        help="draw once more, with one colour for each object, to know which one a pixel shows",
-    )
-    group.add_argument(
-        "--self-check",
-        action="store_true",
-        default=None,
-        help="also make known faults (a pixel off, mirrored, an object left out...) and see that "
-        "each is found",
-    )
-    group.add_argument(
-        "--frames",
-        metavar="FRAMES",
-        help="compare an animation: 1-250, 1-250:5 for every fifth, 7, or all; frames that an "
-        "earlier run with the same file and options has finished in DIR are not done again",
-    )
-
-
-def _add_page(parser: Parser) -> None:
-    group = parser.add_argument_group("the page (page.html in DIR)")
-    group.add_argument(
-        "--trade",
-        action="store_true",
-        help="also measure what each method costs on this scene: half a minute",
-    )
-    group.add_argument(
-        "--extremes", action="store_true", help="also find where every method breaks: two minutes"
-    )
-
-
-def _add_against(parser: Parser) -> None:
-    group = parser.add_argument_group("another picture, in place of Blender's")
-    group.add_argument(
-        "--against",
-        type=parser.path,
-        metavar="PICTURE",
-        help="a .png (sRGB) or .exr (linear) of the same camera and size; a background of its own, "
-        "of one colour or transparent, is named and does not count as a difference",
-    )
-    group.add_argument(
-        "--filter",
-        type=AT_LEAST_0,
-        metavar="PIXELS",
-        help="how far its anti-aliasing reaches (default 0: one sample in each pixel's centre)",
-    )
-    group.add_argument(
-        "--dither",
-        type=AT_LEAST_0,
-        metavar="LEVELS",
-        help="noise in a .png, in levels of 255 (default what the .blend says, else 0)",
-    )
+    add_options(parser)
 
 
 def compare(options: CompareOptions) -> int:
@@ -339,9 +179,9 @@ def _manifest(path: Path, scene: Scene) -> Manifest:
 
 
 def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
-    used = [scene.meshes[i.mesh] for i in scene.instances if i.object == number]
+    used = [i.mesh for i in scene.instances if i.object == number]
     planes = sum(p.object == number for p in scene.planes)
-    own = {id(mesh): mesh for mesh in used}.values()
+    own = [scene.meshes[k] for k in set(used)]
     return ObjectEntry(
         name,
         "INFINITE_PLANE" if planes else "MESH",
@@ -350,5 +190,5 @@ def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
         triangles=sum(len(m.triangles) for m in own),
         vertices=sum(len(m.vertices) for m in own),
         instances=len(used) + planes,
-        traced_triangles=sum(len(m.triangles) for m in used),
+        traced_triangles=sum(len(scene.meshes[k].triangles) for k in used),
     )

@@ -14,7 +14,7 @@ from ...study import tradeoff
 from ...tracer.progress import result_of
 from ...tracer.settings import Settings
 from ..arguments import GivenSettings, Place, place_from
-from ..camera_options import SIZE_OF_STUDY, add_camera, choice_from
+from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, COUNT, Parser
 from ..running import progress_bar
@@ -39,8 +39,8 @@ class TradeOptions:
             scene=given.scene,
             out=given.out,
             samples=most.samples,
-            width=given.width,
-            choice=choice_from(given, given.scene, of_study=True),
+            width=given.largest,
+            choice=choice_from(given, given.scene),
             place=place_from(given),
         )
 
@@ -63,12 +63,13 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument(
         "--width",
+        dest="largest",
         type=COUNT,
         metavar="PIXELS",
-        help="width of the largest picture, of a scene or a mesh; a scene's height follows "
-        f"(default {SIZE_OF_STUDY[0]}, or the scene's own width where that is less)",
+        help="width of the largest picture, whose height follows "
+        f"(default {tradeoff.WIDTH}, or the scene's own width where that is less)",
     )
-    add_camera(parser, of_study=True)
+    add_camera(parser, with_size=False)
 
 
 def trade(options: TradeOptions) -> int:

@@ -82,7 +82,7 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
         rest = np.flatnonzero(~found & owner & (seen != seen[0]).any(axis=(0, 2)))
         seen = seen[:, rest]
         color = picture.color[rest, : seen.shape[-1]]
-        found[rest] = yield from is_mix(color, seen, picture.sums, _opposite(len(mixed)))
+        found[rest] = yield from is_mix(color, seen, picture.sums, np.arange(len(mixed)) ^ 1)
         part.give(found, ANTI_ALIASING, reach, radius)
     if density == DENSITIES[-1] and not found.all():
         left = np.flatnonzero(~found & owner)
@@ -91,26 +91,19 @@ def _look(part: Part, radius: float, density: tuple[int, int]) -> Work[None]:
 
 
 def _ring(ring: int, density: tuple[int, int], radius: float) -> Iterator[tuple[float, float]]:
-    """Yield offsets on a ring in pairs that lie opposite each other; the 0th ring is the centre."""
+    """Yield offsets on a ring in pairs that lie opposite each other; the 0th is the centre twice.
+
+    So the sample opposite to number n has the number n ^ 1.
+    """
     rings, spokes = density
-    if ring == 0:
-        yield 0.0, 0.0
-        return
     reach = radius * ring / rings
-    angles = 2 * np.pi * (np.arange(spokes // 2) + ring / rings) / spokes
+    angles = 2 * np.pi * (np.arange(spokes // 2 if ring else 1) + ring / rings) / spokes
     half = [(reach * np.cos(a), reach * np.sin(a)) for a in angles]
     if ring == rings:  # what smooths edges takes in whole pixels
         half += [(x, y) for x, y in _PIXELS if max(abs(x), abs(y)) <= radius]
     for x, y in half:
         yield x, y
         yield -x, -y
-
-
-def _opposite(count: int) -> Places:
-    """Return which of the samples lies opposite to each: the first, and then pairs, (count,)."""
-    index = np.arange(count)
-    index[1:] += np.where(index[1:] % 2, 1, -1)
-    return index
 
 
 def _owner_seen(part: Part) -> Work[Bools]:
@@ -143,7 +136,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
     half = (may.distance > part.band[may.pixel])[:, None] / 2
     behind = ((1 - half) * behind + half * mixed[0, may.pixel])[order]
     ends = np.searchsorted(may.pixel[order], (left, left + 1))
-    opposite = _opposite(len(mixed))
+    opposite = np.arange(len(mixed)) ^ 1
     for n, (pixel, first, last) in enumerate(zip(left, *ends, strict=True)):
         seen = mixed[:, pixel]
         if (seen != seen[0]).any():
@@ -151,8 +144,7 @@ def _through_cracks(part: Part, radius: float, mixed: Array, left: Places) -> Wo
             one, other = np.split(pairs, 2, axis=1)
             near = np.concatenate((one, other, np.unique(behind[first:last], axis=0)))
             across = np.arange(len(near))
-            across[: len(pairs)] += len(pairs)
-            across[len(pairs) : 2 * len(pairs)] -= len(pairs)
+            across[: 2 * len(pairs)] = np.roll(across[: 2 * len(pairs)], len(pairs))
             color = picture.color[pixel : pixel + 1, : near.shape[1]]
             [found[n]] = yield from is_mix(color, near[:, None], picture.sums, across)
         yield 0.0

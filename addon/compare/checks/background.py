@@ -21,7 +21,7 @@ from ...tracer.progress import Work
 from ..metrics import boundary
 from ..picture import Curve, Picture
 from . import color as colors
-from .probe import by_blocks
+from .probe import by_blocks, other_color
 
 NEAR = 2.0**-7  # a surface whose colour is this near to a background's looks like it
 NEARLY_ALL = 0.75  # of the pixels that see nothing, away from edges
@@ -66,11 +66,7 @@ def find_background(
         return None
     own, color = frame.scene.background, np.median(picture.color[nothing], axis=0)
 
-    def has_it(rows: slice) -> Bools:
-        there = picture.at(rows)
-        return nothing[rows] & ~there.other_color(np.broadcast_to(color, there.color.shape))
-
-    same = yield from by_blocks(nothing.shape, has_it)
+    same = nothing & ~(yield from other_color(picture, color))
     if not np.isfinite(color).all() or same.sum() < NEARLY_ALL * nothing.sum():
         return None
     found = yield from colors.find_transform(frame, picture, interior, curves)
@@ -94,11 +90,8 @@ def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Wor
         made = picture.made_of(frame.color[rows])
         return surface[rows] & (np.abs(made - color[: made.shape[-1]]) <= NEAR).all(axis=-1)
 
-    def shows_it(rows: slice) -> Bools:
-        return own[rows] & ~picture.at(rows).other_color(frame.color[rows])
-
     own = yield from by_blocks(surface.shape, has_it)
-    shown = yield from by_blocks(surface.shape, shows_it)
+    shown = own & ~(yield from other_color(picture, frame.color))
     return bool(shown.sum() >= NEARLY_ALL * own.sum())
 
 

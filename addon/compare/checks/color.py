@@ -22,7 +22,7 @@ from ..cause import AGREE, UNEXPLAINED, Cause, Shade
 from ..curves import FIT, FITTED_SHARE, candidates
 from ..metrics import boundary
 from ..picture import MAJORITY, Curve, Picture, straight
-from .probe import OpenPixels, blocks, by_blocks
+from .probe import OpenPixels, blocks, other_color
 
 COLOR = Cause(
     9,
@@ -82,7 +82,7 @@ def find_transform(
     have to agree with the transform, too.
     """
     surface = interior & (frame.instance_index != NOTHING)
-    where = surface & (yield from _differing(frame, picture))
+    where = surface & (yield from other_color(picture, frame.color))
     right = surface & ~where
     asked = np.flatnonzero(where)
     if not len(asked):
@@ -102,7 +102,7 @@ def find_transform(
         if share > named.share:
             found.append((share, named))
     for _, named in sorted(found, key=lambda pair: -pair[0]):
-        after = yield from _differing(frame, replace(picture, transform=named.of))
+        after = yield from other_color(replace(picture, transform=named.of), frame.color)
         if not _refuted(frame, surface, right & after):
             return named
     return None
@@ -111,11 +111,6 @@ def find_transform(
 def _judged(pixels: OpenPixels) -> Bools:
     """Return the pixels (h, w) away from edges in which something is known of the colour."""
     return ~boundary(pixels.frame) & (pixels.out.blind < 0)
-
-
-def _differing(frame: Frame, picture: Picture) -> Work[Bools]:
-    """Return where the colours differ, (h, w)."""
-    return by_blocks(frame.shape, lambda rows: picture.at(rows).other_color(frame.color[rows]))
 
 
 def _refuted(frame: Frame, surface: Bools, wrong: Bools) -> bool:
@@ -139,7 +134,7 @@ def name_shades(pixels: OpenPixels) -> Work[None]:
         return
     # Pixels that differ and have the cause to agree were passed over.
     wrong = inside & np.isin(pixels.out.cause, (UNEXPLAINED, AGREE))
-    wrong &= yield from _differing(frame, picture)
+    wrong &= yield from other_color(picture, frame.color)
     count = np.bincount(frame.object_index[wrong])
     share = count / np.maximum(np.bincount(frame.object_index[inside])[: len(count)], 1)
     for number in np.argsort(-count, kind="stable")[:SHADES]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Bools, Floats, Index, Places
+from ...arrays import Array, Bools, Floats, Index, Places
 from ...methods import Method
 from ...scene import Region, Scene
 from ...tracer.camera import Rays, camera_rays, film_positions
@@ -36,6 +36,7 @@ SOUND = Settings(Method.MOLLER_TRUMBORE, Precision.FLOAT64)
 
 LAYERS = 4  # surfaces behind one another that are looked at
 FEW = 1 << 11  # pixels looked at together, so that a step is short where whole pictures differ
+FEW_COLORS = 64  # of a scene: a picture's pixels are held against each of them
 BLOCK = 1 << 15  # pixels looked at in one step, where that needs no rays
 
 Some = tuple[Places, ...] | slice  # rows and columns of pixels, or rows
@@ -45,6 +46,12 @@ def blocks(shape: tuple[int, ...]) -> list[slice]:
     """Split a picture (h, w, ...) into whole rows of about BLOCK pixels."""
     rows = max(1, BLOCK // shape[1])
     return [slice(y, min(y + rows, shape[0])) for y in range(0, shape[0], rows)]
+
+
+def other_color(picture: Picture, colors: Array) -> Work[Bools]:
+    """Return where a picture has another colour than the traced ones, (h, w, 4) or one (4,)."""
+    colors = np.broadcast_to(colors, picture.color.shape)
+    return by_blocks(colors.shape[:2], lambda rows: picture.at(rows).other_color(colors[rows]))
 
 
 def by_blocks(shape: tuple[int, ...], of: Callable[[slice], Bools]) -> Work[Bools]:
@@ -204,12 +211,17 @@ def by_parts(
     The plan `made` has the scene that is asked, perhaps with another clip range than the case's.
     Only the pixels `asked` (h, w) are looked at, if given.
     """
-    parts = parts_of(made.scene, pixels.open & asked, FEW)
-    for number, (tile, rows, wanted) in enumerate(parts):
-        done, size = number / len(parts), 1 / len(parts)
-        probe = yield from scaled(Probe.of(made, tile, wanted.ravel()), done, 0.5 * size)
-        for _ in look(Part.of(pixels.rows(rows), wanted, probe)):
-            yield done + 0.5 * size
+    r = made.scene.camera.region
+    asked = pixels.open & asked
+    height = len(asked)
+    for y0, y1 in groups(asked.sum(axis=1), FEW):
+        rows = slice(y0, y1)
+        tile = Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1)
+        if asked[rows].any():
+            finding = Probe.of(made, tile, asked[rows].ravel())
+            probe = yield from scaled(finding, y0 / height, 0.5 * (y1 - y0) / height)
+            for _ in look(Part.of(pixels.rows(rows), asked[rows], probe)):
+                yield 0.5 * (y0 + y1) / height
 
 
 def near_surfaces(
@@ -220,52 +232,23 @@ def near_surfaces(
     Rays pass at most `reach` pixels from the centres.
     """
     made = yield from plan(scene, SOUND, reach)
-    asked = yield from scaled(may_be_seen(pixels, made), 0.0, 0.3)
-    yield from scaled(by_parts(pixels, made, look, asked), 0.3, 0.7)
+    asked = yield from scaled(may_be_seen(pixels, scene), 0.0, 0.1)
+    yield from scaled(by_parts(pixels, made, look, asked), 0.1, 0.9)
 
 
-def may_be_seen(pixels: OpenPixels, made: Plan) -> Work[Bools]:
-    """Return which open pixels, (h, w), show the colour and the object of something near them.
+def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
+    """Return which open pixels, (h, w), show a colour that something in a scene may have.
 
-    No ray that passes within the plan's reach sees what the others show, at whatever depth.
+    No ray sees what the others show. A scene with many colours, or with a surface that may have
+    any colour, is not asked.
     """
-    scene, out = made.scene, pixels.open.copy()
-    count = len(scene.instances)
-    everywhere = (NOTHING, *range(count, count + len(scene.planes)))
-    parts = parts_of(scene, out, BLOCK)
-    for number, (tile, rows, wanted) in enumerate(parts):
-        picture = pixels.picture.at(rows).at(wanted)
-        size = len(picture.color)
-        seen = np.zeros((2, size), bool)
-        for instance in everywhere:
-            seen |= _shown(picture, scene, np.full(size, instance), np.full(size, NOTHING))
-            yield number / len(parts)
-        for share, some in candidates(made, tile, wanted.ravel()):
-            yield (number + share) / len(parts)
-            if some is not None:
-                shown = _shown(picture.at(some.pixel), scene, some.instance, some.triangle)
-                for side, same in zip(seen, shown, strict=True):
-                    side[some.pixel[same]] = True
-        out[rows][wanted] = seen.all(axis=0)
+    picture = pixels.picture
+    colors = np.unique(np.vstack((scene.color_table, np.zeros(4))), axis=0)  # 0: of a hole
+    any_color = interpolated(scene, np.arange(len(scene.instance_objects))).any()
+    any_color |= picture.lit or np.any(picture.colorless)
+    if any_color or len(colors) > FEW_COLORS:
+        return pixels.open
+    out = np.zeros_like(pixels.open)
+    for color in colors:
+        out |= ~(yield from other_color(picture, color))
     return out
-
-
-def _shown(picture: Picture, scene: Scene, instance: Index, triangle: Index) -> Bools:
-    """Return where n pixels may show the colour of a triangle, and its object, (2, n).
-
-    Between corners, a triangle may have any colour.
-    """
-    hits = Hits.none(len(instance))
-    hits.instance[:], hits.triangle[:] = instance, triangle
-    color = picture.same_color(scene, hits) | interpolated(scene, instance)
-    return np.stack((color, ~picture.other_object(instance)))
-
-
-def parts_of(scene: Scene, open_: Bools, most: int) -> list[tuple[Region, slice, Bools]]:
-    """Return parts of whole rows with about `most` open pixels, as tiles and rows, and these."""
-    r = scene.camera.region
-    return [
-        (Region(r.x0, r.y0 + y0, r.x1, r.y0 + y1), slice(y0, y1), open_[y0:y1].copy())
-        for y0, y1 in groups(open_.sum(axis=1), most)
-        if open_[y0:y1].any()
-    ]

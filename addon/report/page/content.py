@@ -65,8 +65,8 @@ def content(
             {"pixel": list(pixel), "html": html.fragment(derivation)}
             for pixel, derivation in extras.derivations.items()
         ],
-        "trade": _study(trade_report, extras.trade, trade_report.page_table),
-        # Without its thousands of rows, which the plots show.
+        "trade": _study(trade_report, extras.trade, trade_report.text_cells),
+        # Without its thousands of rows, which the plot shows.
         "extremes": _study(extremes_report, extras.extremes),
         "left_out": [*extras.left_out, *missing],
     }
@@ -153,11 +153,10 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
 
 
 def _study(report: ModuleType, found: Any, table: Callable[[Any], Any] | None = None) -> Any:
-    """Return a study as its module of `report` has it, with its plots, and its table as text."""
+    """Return a study as its module of `report` has it, with its plot, and its table as text."""
     if found is None:
         return None
     held = {k: v for k, v in report.to_dict(found).items() if k != "rows"}
     if table:
         held["table"] = table(found)
-    plots = [{"name": name, "svg": svg} for name, svg in report.pictures(found).items()]
-    return held | {"plots": plots}
+    return held | {"plot": report.picture(found)}

@@ -50,11 +50,9 @@ function diagnosed(diagnosis) {
   return said_;
 }
 
-function plots(study) {
-  return study.plots.map(({ svg }) => {
-    const { documentElement } = new DOMParser().parseFromString(svg, "image/svg+xml");
-    return element("figure", { class: "plot" }, documentElement);
-  });
+function plot(study) {
+  const { documentElement } = new DOMParser().parseFromString(study.plot, "image/svg+xml");
+  return element("figure", { class: "plot" }, documentElement);
 }
 
 function tradeCard() {
@@ -64,12 +62,12 @@ function tradeCard() {
   return wide(
     card(
       "The trade: speed against accuracy",
-      ...plots(trade),
+      plot(trade),
       element(
         "details",
         {},
         element("summary", {}, `All ${rows.length} rows`),
-        table("★: no other row beats it", head, rows, [...head.keys()].slice(3)),
+        table("*: no other row beats it", head, rows, [...head.keys()].slice(3)),
       ),
     ),
   );
@@ -95,7 +93,7 @@ function extremesCard() {
   return wide(
     card(
       "The extremes: where methods break",
-      ...plots(extremes),
+      plot(extremes),
       element(
         "details",
         {},

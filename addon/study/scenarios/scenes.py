@@ -51,21 +51,18 @@ def closed_fan(count: float, width: int, height: int) -> Scene:
     return scene(view, parts.closed(points, triangles, around, EYE - 8 * FORWARD))
 
 
-def needles(
-    aspect: float, width: int, height: int, angle: float = np.pi / 2, quads: int = STRIP
-) -> Scene:
-    """Return a strip of quads of 1 x 1/aspect m, seen at an angle to its plane, in radians."""
-    length = quads / aspect
+def needles(aspect: float, width: int, height: int) -> Scene:
+    """Return a strip of quads of 1 x 1/aspect m, seen from straight above."""
+    length = STRIP / aspect
     depth = max(1.0, length)  # so that no part of it is beside or behind the camera
-    along = np.cos(angle) * FORWARD + np.sin(angle) * UP
-    # At most 0.45 of the strip's length to either side; the far side appears shortened.
-    tall = 0.45 * length * np.sin(angle) / (depth + 0.5 * length)
+    # At most 0.45 of the strip's length to either side.
+    tall = 0.45 * length / (depth + 0.5 * length)
     window = ViewWindow(-0.4 / depth, 0.4 / depth, -tall, tall)
     view = replace(camera(width, height), window=window)
-    corner = depth * FORWARD - 0.5 * RIGHT - 0.5 * length * along
+    corner = depth * FORWARD - 0.5 * RIGHT - 0.5 * length * UP
     apex = -depth * FORWARD  # behind the camera, which is so inside
-    strip = grid(1, quads, corner, RIGHT, length * along)
-    rim = parts.lattice_rim(1, quads)
+    strip = grid(1, STRIP, corner, RIGHT, length * UP)
+    rim = parts.lattice_rim(1, STRIP)
     return scene(view, parts.closed(strip.vertices, strip.triangles, rim, apex))
 
 
@@ -159,11 +156,11 @@ def non_finite(share: float, width: int, height: int) -> Scene:
     return scene(view, Mesh(points, front.triangles, name="Front"), wall, matrix=matrix)
 
 
-def far_from_origin(distance: float, width: int, height: int, size: float = 1.0) -> Scene:
+def far_from_origin(distance: float, width: int, height: int) -> Scene:
     """Return a sphere of radius 2, and the camera inside, far from the world's origin."""
     centre = distance * AWAY
-    view = camera(width, height, 1.0, eye=centre + size * EYE, unit=size)
-    return scene(view, sphere(2.0 * size, 8), matrix=parts.placed(np.eye(3), centre))
+    view = camera(width, height, 1.0, eye=centre + EYE)
+    return scene(view, sphere(2.0, 8), matrix=parts.placed(np.eye(3), centre))
 
 
 def far_corners(distance: float, width: int, height: int) -> Scene:

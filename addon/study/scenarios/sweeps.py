@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ...scene import Scene
 from . import scenes
@@ -35,7 +34,6 @@ class Scenario:
     build: Callable[[float, int, int], Scene]  # of the scale, and the picture's width and height
     unit: str = ""  # of the scale; empty where it has none
     odd: bool | None = None  # None where it is not known beforehand
-    across: float | None = None  # of a row of a map: the value of its other scale
     width: int = 32  # of the picture, in pixels
     height: int = 24
 
@@ -50,33 +48,11 @@ class Scenario:
         return f"{self.scale_name}, {self.unit}" if self.unit else self.scale_name
 
 
-class Map(NamedTuple):
-    """Two scales at once: a scenario for each value of the second."""
-
-    name: str
-    title: str
-    explanation: str
-    across_name: str
-    rows: tuple[Scenario, ...]
-
-
 def _scenario(listed: dict[str, Any]) -> Scenario:
     build = getattr(scenes, listed.get("build", listed["name"]))
     return Scenario(**listed | {"scales": tuple(listed["scales"]), "build": build})
 
 
-def _map(listed: dict[str, Any]) -> Map:
-    [(parameter, values)] = listed.pop("across").items()
-    across_name = listed.pop("across_name")
-    one = replace(_scenario(listed), width=16, height=12)
-    rows = (
-        replace(one, build=partial(one.build, **{parameter: x}), across=float(x)) for x in values
-    )
-    return Map(one.name, one.title, one.explanation, across_name, tuple(rows))
-
-
 _LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 SCENARIOS: tuple[Scenario, ...] = tuple(map(_scenario, _LISTED["scenario"]))
 BY_NAME = {scenario.name: scenario for scenario in SCENARIOS}
-MAPS: tuple[Map, ...] = tuple(map(_map, _LISTED["map"]))
-ALL: tuple[Scenario, ...] = (*SCENARIOS, *(row for some in MAPS for row in some.rows))
