@@ -79,11 +79,6 @@ class Column:
     timed: bool  # whether it is another number in every run and on every machine
     show: Callable[[TradeRow], str]
     unit: str = ""  # what its number is, for the reader of the JSON; empty: the JSON leaves it out
-<<<<<<< HEAD
-    share: Callable[[TradeRow], str] | None = None  # what stands behind it in a wide table
-=======
-    short: str = ""  # the head where there is little room
->>>>>>> main
     best: str = ""  # the field that says that no other row beats this one here
 
     def __post_init__(self) -> None:
@@ -120,11 +115,6 @@ COLUMNS = (
         False,
         lambda r: f"{r.wrong_pixels:,}",
         unit="pixels that see another surface than the certified picture does",
-<<<<<<< HEAD
-        share=lambda r: f"({r.wrong_pixels / r.pixels:.2%})",
-=======
-        short="Wrong",
->>>>>>> main
         best="best_pixels",
     ),
     Column(

@@ -77,18 +77,8 @@ def test_extremes_shows_its_pictures_and_changes_nothing(solids):
     points = extremes.breaking_points(results.latest(Kind.EXTREMES, solids).content)
     assert {p.scenario for p in points} == {"closed_fan"}
     assert [p.never for p in points if p.method == "certified"] == [True]
-<<<<<<< HEAD
-    assert page_of(Kind.EXTREMES, solids).count("<svg") == 2
-    assert differences(before, state()) == []
-
-
-def test_extremes_shows_a_map_of_two_scales(solids):
-    bpy.ops.reference_tracer.extremes(scenario="angle_and_aspect", rays=6)
     assert page_of(Kind.EXTREMES, solids).count("<svg") == 1
-=======
-    assert page_of(Kind.BREAKING_POINTS, solids).count("<svg") == 1
     assert differences(before, state()) == []
->>>>>>> main
 
 
 def test_extremes_writes_what_reftrace_does(solids, tmp_path):

@@ -68,12 +68,7 @@ def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
     """Remember where each method breaks, and write the plot of it for the browser."""
     from ...report import extremes as extremes_report
 
-<<<<<<< HEAD
-    page = _page("extremes", extremes_report.pictures(rows))
-=======
     page = _page("extremes", extremes_report.picture(rows))
-    points = tuple(breaking_points(rows))
->>>>>>> main
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
     return keep(Kind.EXTREMES, tuple(rows), lines, page=page)

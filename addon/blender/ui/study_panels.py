@@ -124,29 +124,15 @@ class _Extremes(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-<<<<<<< HEAD
         self.layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
         _draw_measured(self.layout, context, Kind.EXTREMES)
-=======
-        """Draw the button and the breaking points."""
-        layout = self.layout
-        shown = context.window_manager.reference_tracer
-        layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        if found := results.latest(Kind.BREAKING_POINTS, context.scene):
-            wrapped(layout, context, found.lines[0], "INFO")
-            layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
-            if found.content:
-                wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
-                layout.row().prop(shown, "precision", expand=True)
-                _breaking_points(layout.box(), found.content, shown.precision)
->>>>>>> main
 
 
 def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
-    """Draw what a study found in one sentence, and a button that opens its plots."""
+    """Draw what a study found in one sentence, and a button that opens its plot."""
     if found := results.latest(kind, context.scene):
         wrapped(layout, context, found.lines[0], "INFO")
-        layout.operator("wm.url_open", text="Open Plots", icon="URL").url = found.page
+        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
 
 
 CLASSES = (
