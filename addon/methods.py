@@ -17,7 +17,6 @@ class MethodRecord:
     label: str  # in Blender's panel
     words: str  # in plots and sentences
     short: str  # in a table
-    head: str  # over a column of a narrow panel
     number: int  # what a .blend stores: one that was given away is never given to another
     color: str  # in plots; told apart without telling red from green (after Okabe and Ito)
     description: str  # the tooltip in Blender's panel
@@ -54,7 +53,6 @@ RECORDS = {
         label="Textbook, Literal",
         words="textbook, literal",
         short="literal",
-        head="literal",
         number=1,
         color="#b0723a",
         description=(
@@ -65,7 +63,6 @@ RECORDS = {
         label="Textbook",
         words="textbook",
         short="textbook",
-        head="textb.",
         number=0,
         color="#d55e00",
         description=(
@@ -77,7 +74,6 @@ RECORDS = {
         label="Möller–Trumbore",
         words="Möller–Trumbore",
         short="Möller–T.",
-        head="Möller",
         number=2,
         color="#0072b2",
         description="The test that most renderers started from",
@@ -86,7 +82,6 @@ RECORDS = {
         label="Watertight",
         words="watertight",
         short="watertight",
-        head="watert.",
         number=3,
         color="#009e73",
         description=(
@@ -98,7 +93,6 @@ RECORDS = {
         label="Certified",
         words="certified",
         short="certified",
-        head="certified",
         number=4,
         color="#7a3d9a",
         description="Every pixel shows what exact arithmetic says it should, or the render fails",
@@ -107,7 +101,6 @@ RECORDS = {
         label="Automatic",
         words="automatic",
         short="automatic",
-        head="auto",
         number=5,
         color="#222222",
         description=(

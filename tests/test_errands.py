@@ -27,7 +27,7 @@ METHOD = {
         "    CERTIFIED = auto()",
         "    NEVER = auto()\n",
         "    Method.CERTIFIED: MethodRecord(",
-        '    Method.NEVER: MethodRecord("Never", "never at all", "never", "nev.", 77, "#123456", '
+        '    Method.NEVER: MethodRecord("Never", "never at all", "never", 77, "#123456", '
         '"Misses"),\n',
     ),
 }

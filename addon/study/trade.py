@@ -79,7 +79,6 @@ class Column:
     timed: bool  # whether it is another number in every run and on every machine
     show: Callable[[TradeRow], str]
     unit: str = ""  # what its number is, for the reader of the JSON; empty: the JSON leaves it out
-    short: str = ""  # the head where there is little room
     best: str = ""  # the field that says that no other row beats this one here
 
     def __post_init__(self) -> None:
@@ -108,7 +107,6 @@ COLUMNS = (
         True,
         lambda r: f"{r.seconds:.4f}",
         unit="seconds, the median of the rounds",
-        short="s",
     ),
     Column("rounds", "(min - max)", True, lambda r: f"({r.fastest:.4f} - {r.slowest:.4f})"),
     Column(
@@ -117,7 +115,6 @@ COLUMNS = (
         False,
         lambda r: f"{r.wrong_pixels:,}",
         unit="pixels that see another surface than the certified picture does",
-        short="Wrong",
         best="best_pixels",
     ),
     Column(
@@ -133,7 +130,6 @@ COLUMNS = (
         True,
         lambda r: f"{r.peak_bytes / 2**20:.1f}",
         unit="bytes of the working arrays and the picture",
-        short="MiB",
     ),
     Column(
         "coverage_error",
@@ -141,7 +137,6 @@ COLUMNS = (
         False,
         lambda r: f"{r.coverage_error:.4f}",
         unit="root mean square of linear RGBA against the converged picture",
-        short="RMS",
         best="best_coverage",
     ),
 )

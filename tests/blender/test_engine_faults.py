@@ -52,7 +52,7 @@ def thin_border(scene):
 
 REFUSED = {  # what is wrong with the scene: what the message has to name
     no_camera: "Scene 'Scene' has no camera",
-    panoramic: "Camera 'Camera' is of type pano",
+    panoramic: "Camera 'Camera' is of type fisheye",
     not_a_camera: "'Sun', the active camera of scene 'Scene', is a light",
     clip_range: "Camera 'Camera'.*clip start",
     flat_camera: "Camera 'Camera'.*scale",
@@ -174,7 +174,7 @@ reference_tracer.unregister()
     ("fault", "message"),
     [
         ("", None),
-        ("scene.camera.data.type = 'PANO'", "is of type pano"),
+        ("scene.camera.data.type = 'PANO'", "is of type fisheye"),
         ("scene.camera = None", "no camera"),
         ("from reference_tracer.blender.reading import export; export.export = None", "TypeError"),
     ],

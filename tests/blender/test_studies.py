@@ -43,7 +43,7 @@ def page_of(kind, scene):
     return path.read_text(encoding="utf-8")
 
 
-def test_trade_shows_its_table_and_plot_and_changes_nothing(solids, tmp_path):
+def test_trade_shows_its_plot_and_changes_nothing(solids, tmp_path):
     """And its files are those of `reftrace`."""
     before = state()
     out = tmp_path / "out"
@@ -71,13 +71,13 @@ def test_trade_of_a_scene_that_cannot_be_traced(solids):
     assert results.latest(Kind.TRADE, solids) is None
 
 
-def test_extremes_shows_its_table_and_pictures_and_changes_nothing(solids):
+def test_extremes_shows_its_pictures_and_changes_nothing(solids):
     before = state()
     assert bpy.ops.reference_tracer.extremes(**FEW) == {"FINISHED"}
-    points = results.latest(Kind.BREAKING_POINTS, solids).content
+    points = extremes.breaking_points(results.latest(Kind.EXTREMES, solids).content)
     assert {p.scenario for p in points} == {"closed_fan"}
     assert [p.never for p in points if p.method == "certified"] == [True]
-    assert page_of(Kind.BREAKING_POINTS, solids).count("<svg") == 1
+    assert page_of(Kind.EXTREMES, solids).count("<svg") == 1
     assert differences(before, state()) == []
 
 
@@ -99,9 +99,9 @@ def test_a_folder_that_cannot_be_written_is_known_before_the_work(run, options, 
 
 def test_results_go_with_their_file(solids):
     bpy.ops.reference_tracer.extremes(**FEW)
-    assert results.latest(Kind.BREAKING_POINTS, bpy.context.scene) is not None
+    assert results.latest(Kind.EXTREMES, bpy.context.scene) is not None
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-    assert results.latest(Kind.BREAKING_POINTS, bpy.context.scene) is None
+    assert results.latest(Kind.EXTREMES, bpy.context.scene) is None
 
 
 def test_the_commands(solids, tmp_path, capsys):

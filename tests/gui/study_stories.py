@@ -24,7 +24,7 @@ from story import (
     window,
 )
 
-TRADE, EXTREMES = "TRADE", "BREAKING_POINTS"
+TRADE, EXTREMES = "TRADE", "EXTREMES"
 SMALL = {"width": 48, "samples": 2}
 
 
@@ -83,7 +83,7 @@ def study(name, kind, **options):
 
 
 def trade():
-    """The table is in the panel, the plot behind its button."""
+    """The sentence is in the panel, the plot behind its button."""
     yield from study("trade", TRADE, **SMALL)
     noted["rows"] = len(result(TRADE).content.whole)
     noted["advice"] = result(TRADE).content.advice
@@ -92,9 +92,8 @@ def trade():
 def extremes():
     """All scenarios with few rays."""
     yield from study("extremes", EXTREMES, rays=6)
-    noted["points"] = [
-        [p.scenario, p.method, p.precision, p.never] for p in result(EXTREMES).content
-    ]
+    points = module("study.extremes").breaking_points(result(EXTREMES).content)
+    noted["points"] = [[p.scenario, p.method, p.precision, p.never] for p in points]
 
 
 def escape(name, kind, **options):

@@ -28,7 +28,7 @@ def test_whatever_happens_to_a_view_it_shows_the_same_again_and_leaves_nothing(n
     assert noted["moved"]["coarse"] in (4, 8) and noted["moved"]["whole"] == 1
     assert noted["undone"]["changed"] > 1000
     assert noted["other_method"]["holes"] > 1000
-    assert "models perspective and orthographic cameras" in noted["in_words"]["said"]
+    assert "Reference Tracer models perspective" in noted["in_words"]["said"]
     assert "not enough memory (none on the card)" in noted["in_words"]["not_drawn"]
     assert noted["in_words"]["white"] > 50 and noted["in_words"]["without"] == ""
     assert noted["two_views"]["heights"][0] < 200 < noted["two_views"]["heights"][1]

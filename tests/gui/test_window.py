@@ -110,4 +110,4 @@ def test_every_sample_scene_agrees_with_the_viewport(noted):
 
 @pytest.mark.story("f12_error")
 def test_f12_says_why_it_cannot(noted):
-    assert "models perspective and orthographic cameras" in noted["reports"]
+    assert "Reference Tracer models perspective" in noted["reports"]

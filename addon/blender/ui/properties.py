@@ -126,14 +126,8 @@ class ReferenceTracerObject(bpy.types.PropertyGroup):
 
 
 class ReferenceTracerWindow(bpy.types.PropertyGroup):
-    """What the panels show at the moment, and what a click of the inspector does; not stored."""
+    """What a click of the inspector does; not stored."""
 
-    precision: EnumProperty(
-        name="Precision",
-        description="The floating-point type to show. The table says where each method breaks",
-        items=choices.PRECISIONS,
-        options={"SKIP_SAVE"},
-    )
     draw_ray: BoolProperty(
         name="Draw the Ray",
         description="With every click, draw the ray as objects in the 3D view",

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ...study.trade import Trade
 
 # A name: so the class of a result need not be imported.
-Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES BREAKING_POINTS")
+Kind = Enum("Kind", "COMPARISON ENGINES FRAMES PIXEL TRADE EXTREMES")
 TRACED = "Reference Tracer Traced"
 BLENDER = "Reference Tracer Blender"
 DIFFERENCE = "Reference Tracer Difference"
@@ -67,14 +67,11 @@ def keep_trade(trade: Trade) -> Result:
 def keep_extremes(rows: Sequence[ExtremesRow]) -> Result:
     """Remember where each method breaks, and write the plot of it for the browser."""
     from ...report import extremes as extremes_report
-    from ...study.extremes import breaking_points
 
     page = _page("extremes", extremes_report.picture(rows))
-    points = tuple(breaking_points(rows))
     wrong = sum(r.lost + r.doubled for r in rows if not Method(r.method).is_plain)
     lines = [f"Certified gets {f'{wrong:,} rays' if wrong else 'no ray'} wrong."]
-    keep(Kind.EXTREMES, tuple(rows), lines)
-    return keep(Kind.BREAKING_POINTS, points, lines, page=page)
+    return keep(Kind.EXTREMES, tuple(rows), lines, page=page)
 
 
 def _page(name: str, drawn: str) -> str:

@@ -10,10 +10,9 @@ from typing import Any
 import bpy
 from bpy.app.translations import pgettext_iface as iface_
 
-from ...methods import PLAIN
 from . import explain, results, studies
 from .inspector import REFERENCE_TRACER_OT_inspect
-from .layout import NARROW, Part, both, draw_table, short_name, wrapped
+from .layout import Part, both, wrapped
 from .results import Kind
 
 _KEYS = ("towards", "t", "s1", "s2", "s3", "sum")  # of what is seen
@@ -116,37 +115,8 @@ class _Trade(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        """Draw the button and what was measured: the methods, then the rows that no other beats."""
-        layout = self.layout
-        layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
-        found = results.latest(Kind.TRADE, context.scene)
-        if not found:
-            return
-        trade = found.content
-        wrapped(layout, context, found.lines[0], "INFO")
-        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
-        box = layout.box()
-        rows = trade.whole
-        box.label(text=f"{rows[0].width} × {rows[0].height} pixels, one ray each")
-        _measured(box, rows, ("seconds", "wrong_pixels", "peak_bytes"))
-        box = layout.box()
-        box.label(text=f"Nearest to {trade.converged} × {trade.converged} rays a pixel")
-        best = sorted((r for r in trade.rows if r.best_coverage), key=lambda r: r.seconds)
-        _measured(box, best, ("seconds", "coverage_error"))
-        wrapped(layout, context, "* no other is faster with as few wrong pixels")
-
-
-def _measured(layout: Any, rows: list[Any], names: tuple[str, ...]) -> None:
-    """Draw some columns of a trade's rows; with the size, where the rows are not of one size."""
-    from ...study.trade import COLUMNS
-
-    columns = [c for c in COLUMNS if c.name in names]
-    sizes = len({r.size for r in rows}) > 1
-    table = [["", *["Size"] * sizes, *(c.short for c in columns)]]
-    for r in rows:
-        size = [f"{r.width}, {r.samples}²"] * sizes
-        table.append([short_name(r), *size, *(c.shown(r) for c in columns)])
-    draw_table(layout, table, NARROW)
+        self.layout.operator(studies.REFERENCE_TRACER_OT_trade.bl_idname, icon="TIME")
+        _draw_measured(self.layout, context, Kind.TRADE)
 
 
 class _Extremes(Part):
@@ -154,48 +124,15 @@ class _Extremes(Part):
     bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: Any) -> None:
-        """Draw the button and the breaking points."""
-        layout = self.layout
-        shown = context.window_manager.reference_tracer
-        layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
-        if found := results.latest(Kind.BREAKING_POINTS, context.scene):
-            wrapped(layout, context, found.lines[0], "INFO")
-            layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
-            if found.content:
-                wrapped(layout, context, "First scale at which a ray is lost, + crosses too many")
-                layout.row().prop(shown, "precision", expand=True)
-                _breaking_points(layout.box(), found.content, shown.precision)
+        self.layout.operator(studies.REFERENCE_TRACER_OT_extremes.bl_idname, icon="MOD_NOISE")
+        _draw_measured(self.layout, context, Kind.EXTREMES)
 
 
-def _breaking_points(layout: Any, points: tuple[Any, ...], precision: str) -> None:
-    """Draw a table: below each scenario's title, where each method breaks in a precision.
-
-    The certified method, which is float64, has none: a sentence says how it does.
-    """
-    from ...study.scenarios.sweeps import BY_NAME
-
-    _cells(layout, [m.record.head for m in PLAIN])
-    for name in dict.fromkeys(p.scenario for p in points):
-        of = {p.method: p for p in points if p.scenario == name and p.precision == precision}
-        scenario = BY_NAME[name]
-        column = layout.column(align=True)
-        column.scale_y = 0.75
-        column.label(text=f"{scenario.title}, {scenario.scale_name}")
-        _cells(column, [_point(of[m]) for m in PLAIN])
-
-
-def _cells(layout: Any, texts: list[str]) -> None:
-    row = layout.row()
-    for text in texts:
-        row.label(text=text)
-
-
-def _point(point: Any) -> str:
-    from ...study.extremes import written
-
-    if point.never:
-        return "never"
-    return written(point.lost) + " +" * (point.doubled is not None)
+def _draw_measured(layout: Any, context: Any, kind: Kind) -> None:
+    """Draw what a study found in one sentence, and a button that opens its plot."""
+    if found := results.latest(kind, context.scene):
+        wrapped(layout, context, found.lines[0], "INFO")
+        layout.operator("wm.url_open", text="Open Plot", icon="URL").url = found.page
 
 
 CLASSES = (
