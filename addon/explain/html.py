@@ -1,13 +1,12 @@
 """Writes a derivation as HTML: a fragment for a page of the caller's, or a page by itself.
 
-There is no script and no network in it. The fragment's classes begin with `derivation-`; its
-colours are the page's CSS variables --ink, --paper, --muted and --accent; STYLE goes into the page
-once.
+There is no script and no network in it; formulas are MathML. The fragment's classes begin with
+`derivation-`; its colours are the page's CSS variables --ink, --paper, --muted and --accent; STYLE
+goes into the page once.
 """
 
 from __future__ import annotations
 
-import re
 from html import escape
 from pathlib import Path
 from string import Template
@@ -16,7 +15,8 @@ from .blocks import Block, Cell, Heading, Paragraph, Table
 from .derivation import Derivation
 from .digits import Parts
 from .document import lecture
-from .formulas import VECTORS, Formula
+from .formulas import Formula
+from .mathml import math
 
 _NUMBER = '<td class="derivation-number">'
 Part = tuple[Heading, list[Block]]  # a heading and what is below it
@@ -100,22 +100,9 @@ def _row(row: tuple[Cell, ...]) -> str:
 def _cell(cell: Cell) -> str:
     match cell:
         case Formula():
-            shown = formula(str(cell._replace(remark="")))
             remark = f'<span class="derivation-remark">{escape(cell.remark)}</span>'
-            return shown + (cell.remark and remark)
+            return math(cell) + (cell.remark and remark)
         case Parts():
             return cell.with_wrong('<mark class="derivation-wrong">{}</mark>')
         case _:
             return escape(cell)
-
-
-def formula(text: str) -> str:
-    """Return a formula with its letters slanted, and those of vectors upright and bold."""
-    return re.sub("[A-Za-z]+|[<>&]", _letter, text)
-
-
-def _letter(found: re.Match[str]) -> str:
-    if not found[0].isalpha():
-        return escape(found[0])
-    kind = ' class="derivation-vector"' if found[0] in VECTORS else ""
-    return f"<var{kind}>{found[0]}</var>"

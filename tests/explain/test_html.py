@@ -9,6 +9,8 @@ from xml.etree import ElementTree
 import pytest
 from reference_tracer.explain import blocks, document, formulas, html
 from reference_tracer.explain.derivation import derive
+from reference_tracer.explain.formulas import Formula
+from reference_tracer.explain.mathml import math
 from reference_tracer.explain.textbook import Arithmetic
 
 from ..report.browser import chromium
@@ -67,7 +69,7 @@ def test_page(derivation):
     text = html.page(derivation)
     reader = read(text)
     assert text.startswith("<!DOCTYPE html>")
-    assert {"var", "table", "mark", "h1"} <= reader.tags
+    assert {"math", "mfrac", "table", "mark", "h1"} <= reader.tags
     assert not {"script", "link", "img", "iframe"} & reader.tags
     assert "http" not in text and "url(" not in text and "@import" not in text
     assert all(name.startswith("derivation") for name in reader.classes)
@@ -154,12 +156,22 @@ def test_names_are_text(ball_scene, name):
     assert {row.replace("\\|", "").count("|") for row in rows} == {10}  # no cell more
 
 
-@pytest.mark.parametrize("one", MATH.values(), ids=MATH)
-def test_formulas_are_the_same_text_with_their_vectors_marked(one):
-    tree = ElementTree.fromstring(f"<p>{html.formula(str(one))}</p>")
-    assert "".join(tree.itertext()) == str(one)
-    for letter in tree.iter("var"):
-        assert (letter.get("class") == "derivation-vector") == (letter.text in formulas.VECTORS)
+@pytest.mark.parametrize("formula", MATH.values(), ids=MATH)
+def test_formulas_are_mathml(formula):
+    tree = ElementTree.fromstring(math(formula))
+    assert "".join(tree.itertext()).strip()
+    shown = formula.label + formula.right
+    assert len(list(tree.iter("mfrac"))) == (1 if " / " in shown else 0)
+    assert len(list(tree.iter("msup"))) == shown.count("²")
+
+
+def test_a_fraction():
+    tree = math(Formula("t", "−((o − p₁) · n) / (d · n)"))
+    root = ElementTree.fromstring(tree)
+    above, below = root.find("mfrac")
+    assert "".join(above.itertext()) == "(o−p1)·n" and "".join(below.itertext()) == "d·n"
+    assert [e.text for e in root if e.tag == "mo"] == ["=", "−"]
+    assert [e.get("class") for e in below.iter("mi")] == ["derivation-vector"] * 2
 
 
 @pytest.mark.parametrize(
