@@ -1,7 +1,7 @@
-"""Blender's side of the benchmark: a process that is asked, and answers with seconds.
+"""Measures Blender for the benchmark, in a process of its own that `blender_peer.py` asks.
 
-In comes a line of JSON for each question, on standard input; out goes one for each answer, on what
-was standard output. `blender_peer.py` asks. What Blender prints goes to standard error.
+A question is a line of JSON on standard input, and its answer one on what was standard output. What
+Blender itself prints goes to standard error.
 """
 
 from __future__ import annotations

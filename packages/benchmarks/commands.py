@@ -1,7 +1,7 @@
-"""What commands take: CPU seconds of processes of their own, and times `import bpy`.
+"""Measures what commands take: CPU seconds of processes of their own, and times `import bpy`.
 
-In come a plan and a folder; out go rows. Each round measures `import bpy`, too, and a ratio is that
-of two times of one round. What a command reads is made once, and kept in the folder.
+Each round measures `import bpy`, too, so that a ratio is one of two times of the same round. What a
+command reads is made once, and kept in a folder.
 """
 
 from __future__ import annotations

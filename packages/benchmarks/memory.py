@@ -1,8 +1,8 @@
-"""What a picture takes in memory at its peak, measured from outside, in processes of its own.
+"""Measures what a picture takes in memory at its peak, from outside, in processes of its own.
 
-In come a scene's name and jobs; out go bytes. This module, run as a script, builds the mesh
-once and traces each job in a fork, whose peak starts at what is held when it begins. The system's
-count of pages sees what every library takes, not only numpy.
+This module, run as a script with a scene's name and jobs, builds the mesh once and traces each job
+in a fork, whose peak starts at what is held when it begins. The system's count of pages sees what
+every library takes, not only numpy.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""Ray tracers from Python libraries: embreex (Intel's Embree), and trimesh's own with rtree.
+"""Times ray tracers from Python libraries: embreex (Intel's Embree), and trimesh's own with rtree.
 
-In come a mesh and a camera's rays; out go seconds, and what was hit. Those for which a whole
-picture would take too long trace a sample of its rows: `Timed` says how many rays it was.
+Each traces a camera's rays through a mesh, and says what was hit. A peer that would take too long
+for a whole picture traces a sample of its rows: `Timed` says how many rays it was.
 """
 
 from __future__ import annotations

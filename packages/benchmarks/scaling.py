@@ -1,6 +1,7 @@
 """How time grows with triangles and with pixels: rows -> exponents.
 
-Time is about proportional to (number) ** exponent: 0 is no matter how many, 1 in proportion.
+Time is about proportional to (number) ** exponent: 0 means that their number does not count, 1 in
+proportion.
 """
 
 from __future__ import annotations

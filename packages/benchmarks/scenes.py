@@ -1,7 +1,4 @@
-"""The scenes of the benchmark, by name: a mesh and a view of it, through either camera.
-
-In comes a name, a size in pixels and the kind of camera; out goes a `scene.Scene`.
-"""
+"""Makes the scenes of the benchmark by name: a mesh and a view of it, through either camera."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Rays and triangles that are made to show one thing each, with what is true of them.
+"""Makes pairs of rays and triangles that show one thing each, with what is true of them.
 
-In comes nothing but a seed; out go pairs in groups. What a student's function makes of a group says
-what is wrong with it (`faults.py`), which a picture alone would not: no camera has a triangle
-behind it, and a closed surface looks the same without its back faces.
+They come in groups. What a student's function makes of a group says what is wrong with it
+(`faults.py`), which a picture alone would not: no camera has a triangle behind it, and a closed
+surface looks the same without its back faces.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""How far a student's function holds as scenes grow extreme, beside the textbook's own formulas.
+"""Shows how far a student's function holds as scenes grow extreme, beside the textbook's formulas.
 
-In come the scenarios of numerical stability; out go rows, one for each scale of each: how many rays
-see another surface than the certified one. That is not held against anyone: in float64 every plain
-formula gives way somewhere. The yardstick is the textbook in float64, and Möller and Trumbore.
+For each scale of each scenario it counts the rays that see another surface than the certified one.
+That costs no marks: in float64 every plain formula gives way somewhere. The yardstick is the
+textbook in float64, and Möller and Trumbore.
 """
 
 from __future__ import annotations

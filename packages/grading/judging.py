@@ -1,7 +1,6 @@
-"""A student's file, judged: on the checks, on scenes, and at the extremes.
+"""Judges a student's file: on the checks, on scenes, and at the extremes.
 
-In come a file, and what it is held against; out goes a `Judgement`. Whatever the file does wrong is
-in there: it is never an error of ours.
+Whatever the file does wrong is in the `Judgement`: it is never an error of ours.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a student's function makes of a scene, pixel by pixel, and which of that is wrong.
+"""Renders a scene with a student's function, and finds which pixels are wrong.
 
-In come a `Subject` and the function; out goes a `Look`: the student's picture, a `Mark` for every
-pixel, and how many are right, the interior and the boundary apart.
+A `Look` has the student's picture, a `Mark` for every pixel, and how many are right, the interior
+and the boundary apart.
 """
 
 from __future__ import annotations

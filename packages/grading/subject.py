@@ -1,8 +1,8 @@
-"""A scene to be judged on: some pixels, the pairs that their rays need, and the truth of them all.
+"""Prepares a scene to judge students on: some pixels, the pairs that their rays need, the truth.
 
-In comes a scene; out goes a `Subject`, which any number of students' functions can be held against.
-Where float64 may see either of two surfaces, by its rounding, the pixel is on the *boundary*; all
-others are the *interior*, and there a sound function has no excuse.
+Any number of students' functions can be held against a `Subject`. Where float64 may see either of
+two surfaces, by its rounding, the pixel is on the *boundary*; all others are the *interior*, and
+there a sound function has no excuse.
 """
 
 from __future__ import annotations

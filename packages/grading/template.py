@@ -9,7 +9,7 @@ You get n rays and n triangles, pair by pair: ray k is to be tested with triangl
 You return
 
     t             (n,)     the ray parameter of the hit, x = o + t d; np.inf where there is none
-    barycentrics  (n, 3)   s1, s2, s3 with x = s1 p1 + s2 p2 + s3 p3; of no matter where t is np.inf
+    barycentrics  (n, 3)   s1, s2, s3 with x = s1 p1 + s2 p2 + s3 p3; anything where t is np.inf
 
 A hit lies in front of the origin (t > 0), inside the triangle, on either of its two sides. Do not
 change the arrays that you are given. A scene may be a millimetre or a kilometre large.
