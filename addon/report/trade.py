@@ -118,7 +118,7 @@ def _against(title: str, top: float, error: Column, rows: list[TradeRow]) -> str
     up = plots.Scale(0.8 * none, 1.4 * most, ticks, log=True)
     fastest, slowest = min(r.fastest for r in rows), max(r.slowest for r in rows)
     along = plots.logarithmic(0.9 * fastest, 1.1 * slowest)
-    axes = plots.Axes(190, top, 1690, 310, along, up)
+    axes = plots.Axes(190, top, 1690, 280, along, up)
     out = axes.drawn(title, "seconds; a bar is from the fastest round to the slowest", error.head)
     best = []
     for r in rows:
