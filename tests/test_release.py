@@ -22,7 +22,9 @@ pytestmark = [pytest.mark.blender, pytest.mark.slow]
 
 PROJECT = Path(__file__).parent.parent
 # By the folder that each stands in.
-PACKAGES = dict(re.findall(r'"(\w+)": "(reference_tracer\w*)"', (PROJECT / "setup.py").read_text()))
+PACKAGES = dict(
+    re.findall(r'"([\w/]+)": "(reference_tracer\w*)"', (PROJECT / "setup.py").read_text())
+)
 # Runs in a Blender of its own what `blender --online-mode --command extension` does (README.md).
 INSTALL = """
 import sys
@@ -119,9 +121,8 @@ def test_package_is_all_of_the_code_and_nothing_else(clone: Path, release: Path)
     code = git(clone, "ls-files", *PACKAGES).split()
     [wheel], [sdist] = release.glob("*.whl"), release.glob("*.tar.gz")
     names = {n for n in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in n}
-    assert names == {
-        name.replace(top, PACKAGES[top], 1) for name in code for top in [name.split("/")[0]]
-    }
+    tops = {name: next(top for top in PACKAGES if name.startswith(f"{top}/")) for name in code}
+    assert names == {name.replace(top, PACKAGES[top], 1) for name, top in tops.items()}
 
     with tarfile.open(sdist) as file:
         names = {m.name.partition("/")[2] for m in file if m.isfile()}

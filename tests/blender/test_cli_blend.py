@@ -144,7 +144,7 @@ def test_trace_uses_what_the_scene_stores(small, tmp_path, reftrace):
 def test_trade(small, reftrace):
     done = reftrace("trade", small, "--width", "16", "--samples", "1")
     assert done.returncode == 0, done.stderr
-    for word in ("textbook_literal", "textbook", "moller_trumbore", "float32", "float64"):
+    for word in ("textbook, literal", "textbook", "Möller–Trumbore", "float32", "float64"):
         assert word in done.stdout
 
 

@@ -114,7 +114,7 @@ def test_a_frame_is_whole_or_absent_and_is_not_done_again(farm):
     [left] = names("whole")
     assert left.startswith(".unfinished-")
     said = run("blender", "-b", OUT / "faulty.blend", *FRAMES, "-o", out, *SCRIPT, "1-3", code=1)
-    assert "frame 2: " in said and "pano" in said
+    assert "frame 2: " in said and "fisheye" in said
     assert names("whole") == [left, WHOLE[0], WHOLE[2]]
     before = (OUT / "whole" / WHOLE[0]).stat().st_mtime_ns
     again = run("blender", "-b", file, *FRAMES, "-o", out, *SCRIPT, "1,2-3")

@@ -12,7 +12,7 @@ SCENE = "/project/sample_scenes/exercise_perspective.blend"
 
 # Each makes the scene one that cannot be traced, and what the error names.
 FAULTS = {
-    "panoramic": ("C.scene.camera.data.type = 'PANO'", "pano"),
+    "panoramic": ("C.scene.camera.data.type = 'PANO'", "fisheye"),
     "not_a_camera": (
         "o = D.objects.new('Bulb', D.lights.new('Bulb', 'POINT')); "
         "C.scene.collection.objects.link(o); C.scene.camera = o",

@@ -78,7 +78,7 @@ def test_a_camera_is_added_by_a_button_and_taken_away_by_undo(noted):
 
 @pytest.mark.story("compare_error")
 def test_error_is_reported_and_changes_nothing(noted):
-    assert "panoramic" in noted["message"] or "pano" in noted["message"]
+    assert "fisheye_equisolid" in noted["message"]
     assert noted["same"]
 
 

@@ -224,25 +224,24 @@ def test_a_visited_pixel_shows_both_pictures_free_of_slider_and_mark(show, diffe
     assert state(tab, "mode") == "swap"  # what shows both is left as it is
 
 
-def test_an_animations_curve_is_seen_and_its_points_open_their_frames(chromium, tmp_path):
-    """Those that no cause explains are of another colour, and higher up where there are more."""
+def test_an_animations_curves_are_seen_and_its_table_opens_the_frames(chromium, tmp_path):
+    """Pixels that no cause explains are of another colour, and higher up where there are more."""
     rows = [FrameRow(f, "agree", 1000 - f, f, 40 * (f == 9)) for f in range(1, 31) if f != 4]
     animation.write(tmp_path, "shot.blend", range(1, 31), rows)
     tab, wrong = chromium.new_page(), []
     tab.on("console", lambda message: wrong.append(message.text))
     tab.goto((tmp_path / animation.PAGE).as_uri())
     assert not wrong
-    colors = [
-        tab.locator(f"{where} {what}").first.evaluate(f"e => getComputedStyle(e).{style}")
-        for where in (".explained", ".unexplained")
-        for what, style in (("path", "stroke"), ("circle", "fill"))
-    ]
-    assert colors[0] == colors[1] != colors[2] == colors[3]
-    assert tab.locator(".unexplained circle").count() == 29
-    assert "frame 9: agree 991" in tab.locator(".unexplained title").nth(7).text_content()
-    tops = [
-        tab.locator(".unexplained circle").nth(n).evaluate("e => e.getBoundingClientRect().top")
-        for n in (6, 7)
-    ]
-    assert tops[0] - tops[1] > 50  # higher up in the window
+    marks = tab.locator("svg circle:has(title)").evaluate_all(
+        """all => all.map(e => [e.querySelector("title").textContent, getComputedStyle(e).stroke,
+          e.getBoundingClientRect().top])"""
+    )
+    assert len(marks) == 2 * len(rows) and len({color for _, color, _ in marks}) == 2
+    tops = {f: [top for t, _, top in marks if t.startswith(f"frame {f}: ")] for f in (8, 9)}
+    assert len(tops[8]) == len(tops[9]) == 2
+    assert min(tops[8]) - min(tops[9]) > 50  # higher up in the window
+    assert any(title.startswith("frame 9: agree 991") for title, _, _ in marks)
+    links = tab.locator("table a")
+    assert links.count() == len(rows)
+    assert all(link.get_attribute("href").endswith("page.html") for link in links.all())
     tab.close()

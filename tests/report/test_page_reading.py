@@ -152,7 +152,7 @@ def test_studies_are_shown_with_their_plots(show, differing):
         """all => all.map(t => t.getComputedTextLength() / parseFloat(t.getAttribute("font-size"))
           / [...t.textContent].length / (t.hasAttribute("font-weight") ? 0.72 : 0.64))"""
     )
-    assert len(wide) > 100 and max(wide) <= 1
+    assert len(wide) > 40 and max(wide) <= 1
 
 
 def test_a_camera_of_a_third_type_is_refused_in_words(show, differing):

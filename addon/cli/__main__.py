@@ -1,0 +1,7 @@
+"""Runs the command line: `python -m reference_tracer.cli`."""
+
+import sys
+
+from .main import main
+
+sys.exit(main())
