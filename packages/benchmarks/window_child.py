@@ -106,7 +106,7 @@ def compared():
     """Press *Trace and Compare*, at 1920 x 1080, twice."""
     render = window().scene.render
     render.resolution_x, render.resolution_y, render.resolution_percentage = 1920, 1080, 100
-    work = sys.modules[f"{MODULE}.long_work"].LongWork
+    work = sys.modules[f"{MODULE}.ui.long_work"].LongWork
     times = []
     for _ in range(2):
         clock = Clock()

@@ -16,7 +16,7 @@ import numpy as np
 sys.path.insert(0, "/project/tests/gui")  # what the tests in the window share
 
 from story import compared, data_blocks, invoke, press_compare, result, until, window
-from viewport_stories import settled
+from viewport import all_noted, settled
 
 FOLDER = Path(sys.argv[sys.argv.index("--") + 1])
 ON_THE_CUBE = 1085, 600  # a pixel in the middle of a large triangle
@@ -146,6 +146,7 @@ def inspect(shown):
 
 def live(shown):
     """In Rendered mode, by the textbook's test as printed."""
+    all_noted()
     scene, view = window().scene, window().scene.view_settings
     stored, before = scene.reference_tracer, view.view_transform
     shown.type, view.view_transform = "VIEW_3D", "Standard"
