@@ -7,7 +7,9 @@ A PNG is written with zlib alone. All else needs OpenImageIO, the extra `images`
 from __future__ import annotations
 
 import base64
+import errno
 import os
+import shutil
 import struct
 import zlib
 from collections.abc import Iterator
@@ -141,6 +143,8 @@ def save_exr(path: str | Path, passes: dict[str, Array]) -> None:
         part = np.concatenate(rows, axis=-1, dtype=np.float32, casting="unsafe")
         written = written and file.write_scanlines(first, end, 0, part)
     if not (written and file.close()):
+        if shutil.disk_usage(path.parent).free < 1 << 20:  # the library does not say so
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         raise OSError(f"cannot write '{path.name}': {_error(file or oiio)}")
 
 

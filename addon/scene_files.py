@@ -10,7 +10,7 @@ import math
 import os
 import warnings
 from collections.abc import Iterator
-from itertools import zip_longest
+from itertools import takewhile, zip_longest
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -21,6 +21,7 @@ from .arrays import Array, Floats
 from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, axes_of, framing, shown_points
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
+from .tracer.memory import free_memory
 
 Placed = tuple[Mesh, Floats]  # with its world_from_object, (4, 4)
 
@@ -113,6 +114,8 @@ def _array(stored: ZipFile, name: str, shape: str, kinds: str = "fiu") -> Array:
         size = math.prod(own) * dtype.itemsize
         if size >= info.file_size:
             raise SceneError(f"{name} is not as long as it says: write the file again")
+        if size > 1 << 20 and size > (free_memory() or size):  # systems kill who takes too much
+            raise SceneError(f"{name} takes {size / 2**30:.1f} GiB, more than is free")
         file.seek(0)
         return read.read_array(file, allow_pickle=False)
 
@@ -176,8 +179,13 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
 def _refuse_strips(path: Path) -> None:
     """Raise a SceneError if a PLY has triangle strips, which trimesh would leave out."""
     with path.open("rb") as file:
-        if b"element tristrips" in file.read(1 << 16):
+        head = iter(file.readline, b"")
+        if any(line.startswith(b"element tristrips") for line in takewhile(_is_head, head)):
             raise SceneError("it holds triangle strips: save it as triangles")
+
+
+def _is_head(line: bytes) -> bool:
+    return not line.startswith(b"end_header")
 
 
 def _mesh_of(loaded: Any, node: str) -> Iterator[Placed]:

@@ -25,8 +25,8 @@ Not claimed: that a stored ray is the camera's ideal ray, or a corner its exact 
 (`rounding.py` bounds both). Triangles that are not finite are left out, and counted.
 
 This file is slow on purpose: it tests every ray with every surface. `plain.py` has the same result,
-and uses integers only where floats leave a doubt; `sweep/` has it faster still. Tests hold both
-equal to this file.
+and uses integers only where floats leave a doubt; `sweep/` has it faster still, where
+the picture is linear in the film position. Tests hold both equal to this file.
 """
 
 from __future__ import annotations

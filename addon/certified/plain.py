@@ -2,7 +2,8 @@
 
 For each tile of pixels, `candidates` proposes pairs of a pixel and a triangle: too many perhaps,
 but it leaves out none that is a hit. The `Ladder` decides them, by error bounds where these leave
-no doubt, else by the order of depths, else in integers. `sweep/` has the same result faster.
+no doubt, else by the order of depths, else in integers. `sweep/` has the same
+result faster, where the picture is linear in the film position.
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..tracer.camera import camera_rays, corner_rays, film_positions
-from ..tracer.candidates import candidates, cull
+from ..tracer.candidates import Plan, candidates, cull
 from ..tracer.hits import Hits, Statistics
-from ..tracer.progress import Work
+from ..tracer.progress import Work, scaled
 from .ladder import Ladder
 
 if TYPE_CHECKING:
@@ -57,12 +58,18 @@ def plain(
     for y in range(region.y0, region.y1, _ROWS):
         tile = replace(region, y0=y, y1=min(y + _ROWS, region.y1))
         rays = camera_rays(scene.camera, *film_positions(tile, dx, dy))
-        ladder = Ladder.of(scene, rays, around)
-        statistics.pairs_tested += len(scene.planes) * tile.width * tile.height
-        for share, pairs in candidates(plan, tile):
-            if pairs is not None:  # else only progress
-                statistics.pairs_tested += len(pairs.pixel)
-                ladder.test(pairs)
-            yield share
-        found.append((yield from ladder.hits(statistics)))
+        work = _tile(plan, tile, Ladder.of(scene, rays, around), statistics)
+        done = (y - region.y0) / region.height
+        found.append((yield from scaled(work, done, tile.height / region.height)))
     return Hits.joined(found)
+
+
+def _tile(plan: Plan, tile: Region, ladder: Ladder, statistics: Statistics) -> Work[Hits]:
+    """Test a tile's candidates, and decide its rays."""
+    statistics.pairs_tested += len(plan.scene.planes) * tile.width * tile.height
+    for share, pairs in candidates(plan, tile):
+        if pairs is not None:  # else only progress
+            statistics.pairs_tested += len(pairs.pixel)
+            ladder.test(pairs)
+        yield share
+    return (yield from ladder.hits(statistics))

@@ -26,7 +26,7 @@ from .ladder import BY_INTEGERS, Decisions, Ladder
 from .surfaces import Candidates, Surfaces
 
 if TYPE_CHECKING:
-    from ..scene import Region, Scene
+    from ..scene import Camera, Region, Scene
     from ..tracer.frame import Frame
     from ..tracer.progress import Work
 
@@ -65,6 +65,15 @@ def rounding(scene: Scene) -> Rounding:
     return Rounding(float(ray.sum()), float(corner), float(pixels))
 
 
+def check_can_be_checked(camera: Camera) -> None:
+    """Raise a SceneError if the unrounded rays of a camera are no fractions."""
+    if not camera.projection.is_linear:
+        raise SceneError(
+            f"The unrounded rays of an {camera.projection.name} camera are sines and cosines, "
+            "which no fractions are: --check-rounding is for other cameras."
+        )
+
+
 def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     """Count the pixels that would show another surface if nothing had been rounded; in words.
 
@@ -77,11 +86,7 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     """
     check_assumptions()
     camera = scene.camera
-    if not camera.projection.is_linear:
-        raise SceneError(
-            f"The unrounded rays of an {camera.projection.name} camera are sines and cosines, "
-            "which no fractions are: --check-rounding is for other cameras."
-        )
+    check_can_be_checked(camera)
     region = camera.region
     loose, aside, reach = _loosened(scene)
     plan = yield from cull(loose, np.dtype(float), 1 << 26, reach)

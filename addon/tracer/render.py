@@ -194,8 +194,9 @@ def bands(camera: Camera, settings: Settings) -> list[Region]:
     the wish to see the picture grow where a pixel has many samples or every triangle is tested.
     """
     pixels = settings.memory // BYTES_PER_PIXEL
-    if settings.samples > 1 or settings.method.is_plain:
-        rays = SLOW_PIXELS if settings.method.is_plain else RAYS
+    is_slow = settings.method.is_plain or not camera.projection.is_linear
+    if settings.samples > 1 or is_slow:
+        rays = SLOW_PIXELS if is_slow else RAYS
         pixels = min(pixels, max(PIXELS, rays // settings.samples**2))
     return _rows(camera.region, max(1, pixels // camera.region.width))
 

@@ -305,3 +305,14 @@ def test_its_unrounded_rays_are_refused(make):
     with pytest.raises(SceneError, match=r"equirectangular.*sines and cosines"):
         result_of(check_rounding(scene, render(scene)))
     assert pixel_size(scene.camera) == pytest.approx((np.pi / 16, np.pi / 16))
+
+
+def test_the_picture_grows_and_its_progress_rises(make):
+    """Certified by `plain`, which works in tiles; a cancelled one has the rows that are done."""
+    mesh = trimesh.creation.icosphere(subdivisions=2)
+    camera = panorama(make, width=512, height=1024)
+    scene = make.scene(camera, Mesh(mesh.vertices * 3, mesh.faces))
+    shares = []
+    frame = render(scene, progress=shares.append, cancelled=lambda: shares[-1] > 0.6)
+    assert (np.diff(shares) >= 0).all() and len(shares) > 50
+    assert frame.cancelled and 0 < frame.rows_done.sum() < len(frame.rows_done)

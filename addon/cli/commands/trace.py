@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ... import images
-from ...certified.rounding import check_rounding
+from ...certified.rounding import check_can_be_checked, check_rounding
 from ...framing import Choice
 from ...methods import Method
 from ...rendering import render
@@ -124,6 +124,8 @@ def _traced(scene: Scene, settings: Settings, options: TraceOptions) -> tuple[Fr
     """Return the picture, and lines about rounding if they are asked for."""
     if options.check_rounding and Method(settings.method).is_plain:
         raise SceneError("--check-rounding is about proven pixels: --method certified has them")
+    if options.check_rounding:
+        check_can_be_checked(scene.camera)
     with options.place as place, progress_bar() as progress:
         frame = render(scene, settings, progress, **place)
         if not options.check_rounding:

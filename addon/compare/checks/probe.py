@@ -24,7 +24,7 @@ from ...tracer.nearest import plan, test_pairs, test_planes
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
-from ...tracer.vector import groups
+from ...tracer.vector import groups, parts
 from ...tracer.world import Pairs
 from ..bounds import depth_resolution, view_error
 from ..case import Case
@@ -238,6 +238,11 @@ def may_be_seen(pixels: OpenPixels, scene: Scene) -> Work[Bools]:
     if any_color or len(colors) > FEW_COLORS:
         return pixels.open
     out = np.zeros_like(pixels.open)
-    for color in colors:
-        out |= ~(yield from other_color(picture, color))
-    return out & pixels.open
+    row, column = np.nonzero(pixels.open)
+    for part in parts(len(row), BLOCK):
+        at = row[part], column[part]
+        shown = picture.at(at)
+        for color in colors:
+            out[at] |= ~shown.other_color(np.broadcast_to(color, shown.color.shape))
+            yield part.start / len(row)
+    return out
