@@ -251,7 +251,9 @@ class Hits:
         """Return the hits of the rays at `index`, without their ties."""
         measures = self.measures
         if callable(measures):
-            measures = partial(_measures_at, measures, np.arange(len(self))[index])
+            if isinstance(index, slice):
+                index = np.arange(*index.indices(len(self)))
+            measures = partial(_measures_at, measures, index)
         else:
             measures = measures[:, index]
         return Hits(self.instance[index], self.triangle[index], self.certainty[index], measures)
