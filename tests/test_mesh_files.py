@@ -328,3 +328,15 @@ def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
     *found, imported = done.stdout.splitlines()
     expected = [m.vertices[m.triangles].tolist() for path in files for m, _ in load_meshes(path)]
     assert found == list(map(str, expected)) and len(found) == 5 and imported == "[]"
+
+
+def test_strips_are_found_behind_a_long_head(tmp_path):
+    """Trimesh would leave them out without a word, wherever the head names them."""
+    comments = "comment nothing to see here\n" * 4000
+    head = f"ply\nformat ascii 1.0\n{comments}element vertex 3\nproperty float x\n"
+    head += "property float y\nproperty float z\nelement tristrips 1\n"
+    head += "property list int int vertex_indices\nend_header\n"
+    (tmp_path / "a.ply").write_text(head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    assert len(comments) > 1 << 16
+    with pytest.raises(SceneError, match="strips"):
+        load_meshes(tmp_path / "a.ply")

@@ -11,6 +11,7 @@ import zipfile
 
 import numpy as np
 import pytest
+from reference_tracer import scene_files
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
 from reference_tracer.scene_files import load_meshes, load_scene, save_scene
 
@@ -278,3 +279,13 @@ def test_what_is_no_file_is_said(name, tmp_path):
         load(tmp_path / name)
     with pytest.raises(SceneError, match="cannot be read: File name too long"):
         load(tmp_path / ("x" * 300))
+
+
+def test_what_is_larger_than_the_free_memory_is_refused(make, tmp_path, monkeypatch):
+    """A small file may say that it holds much: systems kill a process that takes too much."""
+    vertices = np.zeros((200_000, 3))
+    save_scene(tmp_path / "a.npz", make.scene(make.camera(), Mesh(vertices, [[0, 1, 2]])))
+    assert len(load_scene(tmp_path / "a.npz").meshes[0].vertices) == 200_000
+    monkeypatch.setattr(scene_files, "free_memory", lambda: 1 << 21)
+    with pytest.raises(SceneError, match="more than is free"):
+        load_scene(tmp_path / "a.npz")
