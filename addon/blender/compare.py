@@ -17,7 +17,7 @@ from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
 from ..compare.picture import Picture, Source
-from ..diagnosis import diagnosed
+from ..mesh_diagnosis import diagnosed
 from ..errors import words
 from ..manifest import Manifest
 from ..report import comparison as comparison_report

@@ -14,7 +14,7 @@ from ...compare import engines
 from ...compare.case import Case
 from ...compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ...compare.picture import Picture, Source
-from ...diagnosis import diagnosed
+from ...mesh_diagnosis import diagnosed
 from ...manifest import Manifest, ObjectEntry
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
