@@ -28,11 +28,14 @@ class Alternative:
     scene: Scene
 
 
+WHOLE = "whole"  # in place of a fault's name: the scene as it is, with all that no ray meets
+
+
 @dataclass(frozen=True, eq=False)
 class Variant:
     """The scene with a fault that only Blender can make, as it knows what the scene came from."""
 
-    fault: str  # the name of its record in `faults/`
+    fault: str  # the name of its record in `faults/`, or WHOLE
     scene: Scene
     words: str = ""  # which camera, frame, level...
     object: str = ""  # whose fault it is, if it is one object's
@@ -84,8 +87,13 @@ class Case:
         """Return the same with the scene and the alternatives changed alike."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
         scene = change(self.scene)
-        picture = replace(self.picture, owners=self._owners_in(scene))
-        return replace(self, scene=scene, picture=picture, alternatives=others)
+        return replace(self.in_scene(scene), alternatives=others)
+
+    def in_scene(self, scene: Scene) -> Case:
+        """Return the same with another scene."""
+        return replace(
+            self, scene=scene, picture=replace(self.picture, owners=self._owners_in(scene))
+        )
 
     def _owners_in(self, scene: Scene) -> Integers | None:
         """Return the owners of another scene's instances and planes, by their objects' names.

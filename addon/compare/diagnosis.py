@@ -5,11 +5,11 @@ if the picture then agrees. A diagnosis never changes the verdict.
 
 A guess is told under three conditions.
 
-- It is right in nearly all the pixels that it changes (`PRECISE`). A guess that is none has no
-  reason to be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an
-  offset for a distorted lens, is right in some places alone.
+- It is right in nearly all the pixels that it changes (`PRECISE`). A wrong guess has no reason to
+  be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
+  for a distorted lens, is right in some places alone.
 - It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
-  chance once in 2^k times, and about a hundred guesses are tried, so `LEAST` are needed, and as many
+  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and as many
   again for each number that was fitted.
 - It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
   few pixels beside another one of many is looked for once that one is put right.
@@ -25,14 +25,18 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..arrays import Colors
-from ..scene import SceneError
+from ..rendering import steps
+from ..scene import Scene, SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from .case import Case
+from .case import WHOLE, Case
 from .cause import Causes
+from .causes import explain
 from .evidence import Evidence
 from .faults import FAULTS
 from .faults.fault import Fault, Guess
+from .identity import Identity
+from .regions import Region, regions, sides
 from .trial import Trial, tried
 
 PRECISE = 0.97  # the least share of changed pixels that a guess must be right in
@@ -49,6 +53,7 @@ MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
 MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
 STARTS = 2  # such guesses
 ROUNDS = 3  # faults one after the other, at most
+FRAMED = 5  # regions that are named
 SECONDS = 60.0  # after which no other guess is made
 
 
@@ -121,13 +126,18 @@ class Diagnosis:
     guesses: int = 0  # that were tried on the sample
     seconds: float = 0.0
     ended: bool = False  # before all guesses were made, as it took too long
-    left: Evidence | None = None  # what is still unexplained
+    left: int = 0  # pixels that nothing accounts for
+    regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first."""
         out = [line for told in self.told for line in told.lines()]
         if not out:
-            out = [f"diagnosis: none of {self.guesses} known faults accounts for them"]
+            out = [f"diagnosis: none of the known faults accounts for them ({self.guesses} tried)"]
+        if self.left:
+            places = "region" if len(self.regions) == 1 else "regions"
+            out.append(f"           {self.left:,} px are left, in {len(self.regions)} {places}:")
+            out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
         if self.ended:
             out.append(f"           (ended after {self.seconds:.0f} s, before all were tried)")
         return out
@@ -139,7 +149,16 @@ class Diagnosis:
             "guesses": self.guesses,
             "seconds": round(self.seconds, 3),
             "ended": self.ended,
+            "left": self.left,
+            "regions": [region.to_dict() for region in self.regions],
         }
+
+
+def _framed(region: Region) -> str:
+    """Say where a region is, and what is in it; the pixel counts from the picture's lower left."""
+    shows = ", ".join(f"'{name}'" for name in region.objects[:3]) or "nothing of the scene"
+    place = f"{region.width} x {region.height} px from ({region.left}, {region.bottom})"
+    return f"{region.pixels:,} px in {place}: {shows}"
 
 
 class _Search:
@@ -239,7 +258,7 @@ def diagnose(
     if not evidence.open.any() or frame.cancelled:
         return Diagnosis()
     search = _Search(faults)
-    evidence = replace(evidence, variants=case.variants())
+    evidence = yield from _with_variants(evidence)
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = _found(search, evidence)
@@ -252,7 +271,48 @@ def diagnose(
         if not evidence.open.any():
             break
     seconds = time.monotonic() - search.began
-    return Diagnosis(tuple(told), search.guesses, seconds, search.ended, evidence)
+    left = int(evidence.open.sum())
+    framed = _regions(evidence) if left else ()
+    return Diagnosis(tuple(told), search.guesses, seconds, search.ended, left, framed)
+
+
+def _regions(evidence: Evidence) -> tuple[Region, ...]:
+    """Return the regions of what is unexplained, with the objects in them."""
+    case, frame = evidence.case, evidence.frame
+    identity, picture = None, case.picture
+    if picture.owner is not None and picture.owners is not None:
+        own = picture.owners[frame.instance_index]
+        identity = Identity(picture.names, own, picture.owner)
+    return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
+
+
+def _with_variants(evidence: Evidence) -> Work[Evidence]:
+    """Return the evidence with the case's variants, and with all that the view leaves out.
+
+    What no ray meets is not exported. A camera with a fault may have seen it.
+    """
+    case = evidence.case
+    variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
+    others = tuple(v for v in variants if v.fault != WHOLE)
+    for whole in (v.scene for v in variants if v.fault == WHOLE):
+        if len(whole.instances) > len(case.scene.instances):
+            meshes, instances, objects = whole.meshes, whole.instances, whole.objects
+            scene = replace(case.scene, meshes=meshes, instances=instances, objects=objects)
+            case = case.in_scene(scene)
+            frame = Frame.empty(scene)
+            yield from steps(scene, case.settings, frame, case.tracer)
+            found = yield from explain(case, frame)
+            return Evidence(found.case, found.frame, found.causes, others)
+    return replace(evidence, variants=others)
+
+
+def _as_in(own: Scene, other: Scene) -> Scene:
+    """Return another scene before the background, and with the objects' colours, of one's own."""
+    colors = {own.objects[i.object]: i.colors for i in own.instances}
+    instances = [
+        replace(i, colors=colors.get(other.objects[i.object], i.colors)) for i in other.instances
+    ]
+    return replace(other, instances=tuple(instances), background=own.background)
 
 
 def _found(search: _Search, evidence: Evidence) -> Work[list[list[Trial]]]:

@@ -1,4 +1,4 @@
-"""What a diagnosis has to go by: the unexplained pixels, and what a guess makes of a sample of them.
+"""What a diagnosis has to go by: unexplained pixels, and what a guess makes of a sample of them.
 
 A guess is tried on a sample first: half of it unexplained pixels, half pixels that agree, most of
 these at edges, where a wrong camera shows first. A guess that is right makes the former agree, and
@@ -85,7 +85,8 @@ class Evidence:
             (self.judged & ~edge, self.size // 4),
         ):
             chosen.flat[_spread(some, most)] = True
-        return np.nonzero(chosen)
+        rows, columns = np.nonzero(chosen)
+        return rows, columns
 
     @cached_property
     def shown(self) -> Picture:

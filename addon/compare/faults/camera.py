@@ -289,7 +289,7 @@ CAMERA_FAULTS = (
     Fault(
         "shift_sign",
         "the camera's shift has the wrong sign",
-        "a positive shift X shows more of what is to the right, a positive shift Y of what is above",
+        "a positive shift X shows more of what is to the right, a positive shift Y more of the top",
         *_SIGN,
     ),
     Fault(

@@ -5,8 +5,6 @@ The scenes with them come as the case's variants; see `blender/variants.py`.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
@@ -30,10 +28,7 @@ def _variants(name: str) -> Find:
 
 def _there(case: Case, frame: Frame, guess: Guess) -> Case | None:
     """Return the case with the scene that the guess has."""
-    other = guess.scene
-    if other is None:
-        return None
-    return replace(case.with_scenes(lambda scene: other), alternatives=case.alternatives)
+    return None if guess.scene is None else case.in_scene(guess.scene)
 
 
 def _a_frame_later(case: Case, frame: Frame) -> Guess | None:

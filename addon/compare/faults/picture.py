@@ -136,7 +136,7 @@ def _filtered(case: Case, frame: Frame, guess: Guess) -> Case:
 
 
 def _find_filter(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the radii beyond the picture's own, if most that is unexplained is a mix of colours."""
+    """Return the radii beyond the picture's own, if most unexplained pixels mix colours."""
     shown, scene = evidence.shown.at(np.flatnonzero(evidence.was_open)), evidence.case.scene
     pure = np.zeros(len(shown.color), bool)
     colors = np.unique(scene.color_table, axis=0)

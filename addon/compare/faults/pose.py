@@ -149,7 +149,7 @@ class _Looked:
         """Return which of the n pixels, of those where it is seen, show the hits of a scene."""
         out = np.zeros(len(where), bool)
         here = np.flatnonzero(where)
-        case = self.evidence.case.with_scenes(lambda _: scene)
+        case = self.evidence.case.in_scene(scene)
         picture = replace(
             self.picture.at(here), owners=case.picture.owners, colorless=case.colorless
         )
