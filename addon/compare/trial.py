@@ -78,7 +78,7 @@ def tried(
         if fault.after is not None:
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
-            other = replace(other, scene=case.scene)
+            other = replace(other, scene=case.scene, alternatives=case.alternatives)
         if traced.shape != frame.shape:
             return None
     except SceneError:  # no such camera or scene can be

@@ -266,7 +266,7 @@ CAMERA_FAULTS = (
     ),
     Fault(
         "focal_length",
-        "the focal length is {percent:+.3g} % off: {words}",
+        "the focal length is {percent:+.4g} % off: {words}",
         "check the lens' unit, the sensor's width, and whether an angle is the whole one or half, "
         "of the width or of the height",
         of_camera(FOCAL.camera),
