@@ -55,6 +55,12 @@ def _lenses(origin: Origin) -> Iterator[tuple[str, str, Camera]]:
     sides = {"sensor_width": data.sensor_height, "sensor_height": data.sensor_width}
     if data.type == "PERSP":
         yield "sensor_width_for_height", "", _with_data(origin, camera, _Other(data, **sides))
+    for fit in ("AUTO", "HORIZONTAL", "VERTICAL"):
+        if data.type != "PANO" and fit != data.sensor_fit:
+            words = f"{fit.lower()} in place of {data.sensor_fit.lower()}"
+            fitted = _with_data(origin, camera, _Other(data, sensor_fit=fit))
+            if fitted.window != camera.window:
+                yield "sensor_fit_setting", words, fitted
     for other, fault in TYPES.items():
         if data.type in TYPES and data.type != other:
             yield fault, "", _with_data(origin, camera, _Other(data, type=other))

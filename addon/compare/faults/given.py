@@ -58,6 +58,11 @@ GIVEN_FAULTS = (
         "is what the lens is fitted to",
     ),
     _given(
+        "sensor_fit_setting",
+        "the camera's sensor fit is another: {words}",
+        "take the sensor fit of the camera: it says which side of the sensor and the picture fit",
+    ),
+    _given(
         "camera_scale",
         "the scale of the camera object is not removed",
         "divide each axis of the camera's matrix by its length",

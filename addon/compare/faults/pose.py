@@ -13,7 +13,7 @@ import numpy as np
 from ...arrays import Bools, Floats, Places
 from ...projections import ORTHOGRAPHIC
 from ...scene import Instance, Mesh, Scene
-from ...tracer.camera import pixel_size
+from ...tracer.camera import camera_rays, pixel_size
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.nearest import plan
@@ -185,10 +185,16 @@ class _Looked:
         return max(self.width / 2, 1.0)
 
     def axes(self) -> Floats:
-        """Return what a unit of right, up and forward is in world space, (3, 3) columns."""
+        """Return what a unit of right, up and away is in world space, (3, 3) columns.
+
+        Away is along the ray through the object's middle, so that it changes the size alone.
+        """
         camera = self.evidence.case.scene.camera
-        forward = self.depth / self._depth_units * camera.forward
-        return np.stack((self.pixel * camera.right, self.pixel * camera.up, forward), axis=1)
+        rows, columns = (float(np.mean(v)) + 0.5 for v in np.nonzero(self.seen))
+        r = camera.region
+        ray = camera_rays(camera, np.array([columns + r.x0]), np.array([rows + r.y0]))
+        away = self.depth / self._depth_units * ray.directions[:, 0]
+        return np.stack((self.pixel * camera.right, self.pixel * camera.up, away), axis=1)
 
 
 def _shown(evidence: Evidence, own: list[int]) -> Bools:

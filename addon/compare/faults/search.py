@@ -102,8 +102,9 @@ class Search:
 
 
 def _directions(count: int) -> Array:
-    """Return the directions in which is looked: (m, count), also some that follow no axis."""
-    around = np.array(np.meshgrid(*[(-1, 0, 1)] * count)).reshape(count, -1).T
+    """Return the steps with which is looked around: (m, count), also some that follow no axis."""
+    steps = {1: range(-4, 5), 2: range(-2, 3)}.get(count, range(-1, 2))
+    around = np.array(np.meshgrid(*[steps] * count)).reshape(count, -1).T
     around = around[around.any(axis=1)]
     if count < 3:
         return around
