@@ -1,4 +1,4 @@
-"""The six scenes of the test bed. None is symmetric, and things stand on all sides of the camera."""
+"""The six scenes of the test bed. None is symmetric; things stand on all sides."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Three = Sequence[float]
 def placed(
     location: Three = (0, 0, 0), euler: Three = (0, 0, 0), scale: Three = (1, 1, 1)
 ) -> np.ndarray:
-    """Return the matrix (4, 4) of location, angles about X, then Y, then Z in degrees, and scale."""
+    """Return the matrix (4, 4) of location, XYZ angles in degrees, and scale."""
     x, y, z = np.radians(np.asarray(euler, np.float64))
     c, s = np.cos, np.sin
     about_x = np.array([[1, 0, 0], [0, c(x), -s(x)], [0, s(x), c(x)]])
@@ -71,7 +71,7 @@ def solids() -> Description:
         ("Post", shapes.box(0.4, 0.4, 2.2), placed((2.7, 1.3, 1.2), (0, 6, 12))),
         *around(rng, 7, 9, 14, "Far"),
     )
-    eye = Pose(placed((5.2, -6.1, 3.7), (66, 0, 41)))
+    eye = Pose(placed((5.2, -6.1, 3.7), (74, 0, 41)))
     other = ("Side", Lens(35.0), Pose(placed((-6.4, -4.0, 2.5), (75, 0, -57))))
     film = Film(384, 216)
     return Description(
@@ -91,7 +91,7 @@ def parallel() -> Description:
         *around(rng, 8, 5, 8, "Far"),
     )
     lens = Lens(50.0, parallel=True, ortho_scale=11.0, clip_end=60.0)
-    eye = Pose(placed((6.0, -9.0, 6.5), (62, 0, 33)))
+    eye = Pose(placed((6.0, -9.0, 6.5), (66, 0, 33)))
     other = ("Above", Lens(parallel=True, ortho_scale=14.0), Pose(placed((0, 0, 20), (3, 5, 17))))
     film = Film(320, 200)
     return Description(2, "parallel", parts, lens, film, eye, (0.1, 0.15, 0.2, 0.5), 1, (other,))
@@ -111,7 +111,7 @@ def shifted() -> Description:
     )
     lens = Lens(22.0, 36.0, 20.0, "VERTICAL", 0.12, -0.08)
     film = Film(720, 400, 50, 1.0, 1.4)
-    eye = Pose(placed((4.6, -6.6, 4.4), (62, 0, 34)))
+    eye = Pose(placed((4.6, -6.6, 4.4), (72, 0, 34)))
     return Description(3, "shifted", parts, lens, film, eye, (0.3, 0.3, 0.32, 1.0))
 
 
@@ -143,7 +143,7 @@ def moving() -> Description:
         ("Ball", shapes.ball(0.7), placed((0.2, 2.6, 1.0))),
         *around(rng, 8, 9, 14, "Far"),
     )
-    own = placed((1.4, -1.6, 1.1), (61, 4, 26), (0.5, 1.5, 0.7))
+    own = placed((1.4, -1.6, 1.1), (69, 4, 14), (0.5, 1.5, 0.7))
     eye = Pose(own, parent=cart)
     other = ("Low", Lens(28.0), Pose(placed((-5.5, -5.0, 1.6), (82, 0, -44))))
     lens, film = Lens(35.0), Film(400, 225)
@@ -151,7 +151,7 @@ def moving() -> Description:
 
 
 def modelled() -> Description:
-    """Return subdivided cages, warped quads, modifiers, instances, and objects that are not shown."""
+    """Return subdivided cages, warped quads, modifiers, instances, and what is not shown."""
     rng = np.random.default_rng(5)
     cage, slab = (
         shapes.levels(shapes.box(2.0, 1.6, 1.8), 5),
@@ -194,7 +194,7 @@ def modelled() -> Description:
         ),
         *around(rng, 7, 10, 14, "Far"),
     )
-    eye = Pose(placed((5.6, -7.0, 4.6), (63, 0, 38)))
+    eye = Pose(placed((5.6, -7.0, 4.6), (71, 0, 38)))
     lens, film = Lens(38.0), Film(400, 225)
     return Description(5, "modelled", parts, lens, film, eye, (0.15, 0.1, 0.1, 1.0))
 

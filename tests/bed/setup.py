@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .renderer import Camera, Solid
 from .description import Description, Film, Item, Lens, Shape
+from .renderer import Camera, Solid
 
 FLIP = np.diag((1.0, -1.0, -1.0))  # Blender's camera looks along -z with y up
 

@@ -71,7 +71,7 @@ def tower(width: float, heights: int, size: float = 0.5, twist: float = 0.0) -> 
     for n in range(heights):
         c, s = np.cos(twist * n), np.sin(twist * n)
         turned = one.vertices @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-        parts.append(turned + (0, 0, size * (n + 0.5)))
+        parts.append(turned + np.array([0, 0, size * (n + 0.5)]))
         faces.append(one.faces + 8 * n)
     return shape(np.concatenate(parts), np.concatenate(faces))
 
