@@ -69,6 +69,7 @@ def solids() -> Description:
         ("Ring", shapes.torus(0.9, 0.25), placed((0.5, 1.9, 1.3), (70, 20, 10))),
         ("Slab", shapes.box(0.3, 2.0, 2.4), placed((-2.9, 1.6, 1.4), (8, -10, 35))),
         ("Post", shapes.box(0.4, 0.4, 2.2), placed((2.7, 1.3, 1.2), (0, 6, 12))),
+        ("Sheet", shapes.floor(1.3), placed((-2.3, -1.3, 0.9), (-100, 8, 30))),
         *around(rng, 7, 9, 14, "Far"),
     )
     eye = Pose(placed((5.2, -6.1, 3.7), (74, 0, 41)))
@@ -107,6 +108,7 @@ def shifted() -> Description:
         ("Ring", shapes.torus(1.1, 0.3), placed((-1.4, 2.4, 1.6), (80, 0, 30))),
         ("Post", shapes.box(0.5, 0.5, 3.4), placed((2.9, 1.6, 1.8), (5, 0, 0))),
         ("Tilted", shapes.box(1.8, 0.4, 0.9), placed((0.3, -2.3, 0.8), (25, 12, -20))),
+        ("Sheet", shapes.floor(1.3), placed((-2.6, 0.6, 1.2), (-100, 0, 20))),
         *around(rng, 9, 7, 11, "Far"),
     )
     lens = Lens(22.0, 36.0, 20.0, "VERTICAL", 0.12, -0.08)

@@ -1,0 +1,28 @@
+"""All faults of the test bed: camera, scene, picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from .camera_faults import CAMERA_FAULTS
+from .description import Description
+from .making import Fault, Made, right
+from .picture_faults import PICTURE_FAULTS
+from .scene_faults import SCENE_FAULTS
+from .scenes import scenes
+
+FAULTS: tuple[Fault, ...] = (*CAMERA_FAULTS, *SCENE_FAULTS, *PICTURE_FAULTS)
+
+
+def cells(key: str | None = None, number: int | None = None) -> Iterator[tuple[Fault, Description]]:
+    """Yield each fault with each scene in which it makes sense; of one key, or one scene."""
+    for fault in FAULTS:
+        for scene in scenes():
+            wanted = key in (None, fault.key) and number in (None, scene.number)
+            if wanted and scene.number in fault.only:
+                yield fault, scene
+
+
+def made(fault: Fault, scene: Description) -> Made | None:
+    """Return the wrong renderer's data, or None where there is nothing to get wrong."""
+    return fault.make(scene, right(scene))
