@@ -16,7 +16,7 @@ from .setup import placed, solid_of
 FIRST = {1: "Cube", 2: "Cube", 3: "Cube", 4: "Ball", 5: "Pebble", 6: "Thing2"}
 SECOND = {1: "Ring", 2: "Post", 3: "Ring", 4: "Roller", 5: "Leaf", 6: "Near"}
 RINGS = {1: "Ring", 2: "Ring", 3: "Ring", 4: "Roller", 5: "Leaf"}
-Triangles = Callable[[Solid, Made], np.ndarray]
+FLOORS = dict.fromkeys((1, 3, 4, 5, 6), "Floor")
 
 
 def exchanged(made: Made, name: str, *others: Solid) -> Made:
@@ -45,15 +45,16 @@ def missing(of: dict[int, str]) -> Change:
     return lambda scene, made: exchanged(made, of[scene.number])
 
 
-def twice(x: float, y: float, z: float) -> Fault:
+def twice(of: dict[int, str], *by: float) -> Fault:
     """Return an object that is there again, somewhere else."""
 
     def make(scene: Description, made: Made) -> Made:
-        own = next(s for s in made.solids if s.name == FIRST[scene.number])
-        again = replace(own, vertices=own.vertices + np.array([x, y, z]))
+        own = next(s for s in made.solids if s.name == of[scene.number])
+        again = replace(own, vertices=own.vertices + np.array(by))
         return exchanged(made, own.name, own, again)
 
-    return Fault("object_twice", f"by {x:g}, {y:g}, {z:g} m", make, {"by": (x, y, z)})
+    label = f"{'first' if of is FIRST else 'second'} by {', '.join(map(str, by))} m"
+    return Fault("object_twice", label, make, {"by": by})
 
 
 def moved(of: dict[int, str], *by: float) -> Fault:
@@ -107,16 +108,12 @@ def _no_parent_inverse(scene: Description, item: Item, own: Solid) -> Solid:
     return replace(own, vertices=placed(item.shape.vertices, at))
 
 
-def without(of: dict[int, str], share: int) -> Change:
-    """Return an object without each n-th triangle; 0: without its largest in the world."""
+def without(of: dict[int, str], half: bool) -> Change:
+    """Return an object without half its triangles, drawn by lot, or without the first of them."""
 
     def change(_: Description, __: Item, own: Solid) -> Solid:
-        if share:
-            left = np.arange(len(own.triangles)) % share != 0
-        else:
-            corners = own.vertices[own.triangles]
-            cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            left = np.arange(len(cross)) != np.argmax(np.linalg.norm(cross, axis=1))
+        lot = np.random.default_rng(7).random(len(own.triangles)) < 0.5
+        left = lot if half else np.arange(len(lot)) > 0
         return replace(own, triangles=own.triangles[left])
 
     return changed(of, change)
@@ -182,7 +179,8 @@ def level(name: str, by: int) -> Fault:
 SCENE_FAULTS = (
     Fault("object_missing", "first", missing(FIRST)),
     Fault("object_missing", "second", missing(SECOND)),
-    twice(0.9, 1.1, 0.4),
+    twice(FIRST, 0.9, 1.1, 0.4),
+    twice(SECOND, -0.9, 0.2, 1.2),
     Fault("rest_pose", "", reshaped("Mast", lambda item: item.rest), only=(4,)),
     moved(FIRST, 0.03, -0.02, 0.01),
     moved(FIRST, 0.4, -0.3, 0.2),
@@ -200,8 +198,8 @@ SCENE_FAULTS = (
     level("Cage", 1),
     level("Cage", -3),
     level("Pebble", -1),
-    Fault("triangles_missing", "each seventh of the first", without(FIRST, 7)),
-    Fault("triangles_missing", "the largest of the first", without(FIRST, 0)),
+    Fault("triangles_missing", "half of the first", without(FIRST, True)),
+    Fault("triangles_missing", "one of the floor", without(FLOORS, False), only=(1, 3, 4, 5, 6)),
     Fault("other_diagonal", "", _other_diagonal, only=(5,)),
     displaced(0.06),
     displaced(-0.1),

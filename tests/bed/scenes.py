@@ -59,6 +59,21 @@ def around(rng: np.random.Generator, count: int, near: float, far: float, prefix
     return out
 
 
+def shell(rng: np.random.Generator, count: int, radius: float) -> list:
+    """Return solids in all directions, below the floor too: a wrong camera sees something."""
+    out = []
+    golden = np.pi * (3 - np.sqrt(5))
+    for n in range(count):
+        z = 1 - 2 * (n + 0.5) / count
+        r = np.sqrt(1 - z * z)
+        at = radius * np.array((r * np.cos(golden * n), r * np.sin(golden * n), z))
+        at += rng.uniform(-0.1, 0.1, 3) * radius
+        size = radius * rng.uniform(0.05, 0.14, 3)
+        form = shapes.box(*size) if n % 2 else shapes.ball(size[0] / 2, 1)
+        out.append((f"Sky{n}", form, placed(at, rng.uniform(-60, 60, 3))))
+    return out
+
+
 def solids() -> Description:
     """Return a few solids over a floor, in perspective."""
     rng = np.random.default_rng(1)
@@ -71,6 +86,7 @@ def solids() -> Description:
         ("Post", shapes.box(0.4, 0.4, 2.2), placed((2.7, 1.3, 1.2), (0, 6, 12))),
         ("Sheet", shapes.floor(1.3), placed((-2.3, -1.3, 0.9), (-100, 8, 30))),
         *around(rng, 7, 9, 14, "Far"),
+        *shell(rng, 46, 21),
     )
     eye = Pose(placed((5.2, -6.1, 3.7), (74, 0, 41)))
     other = ("Side", Lens(35.0), Pose(placed((-6.4, -4.0, 2.5), (75, 0, -57))))
@@ -90,6 +106,7 @@ def parallel() -> Description:
         ("Ring", shapes.torus(1.0, 0.3), placed((-0.2, 1.0, 3.1), (50, 30, 0))),
         ("Post", shapes.box(0.5, 0.7, 2.6), placed((3.2, -1.0, 1.5), (0, 14, 40))),
         *around(rng, 8, 5, 8, "Far"),
+        *shell(rng, 30, 11),
     )
     lens = Lens(50.0, parallel=True, ortho_scale=11.0, clip_end=60.0)
     eye = Pose(placed((6.0, -9.0, 6.5), (66, 0, 33)))
@@ -110,6 +127,7 @@ def shifted() -> Description:
         ("Tilted", shapes.box(1.8, 0.4, 0.9), placed((0.3, -2.3, 0.8), (25, 12, -20))),
         ("Sheet", shapes.floor(1.3), placed((-2.6, 0.6, 1.2), (-100, 0, 20))),
         *around(rng, 9, 7, 11, "Far"),
+        *shell(rng, 46, 19),
     )
     lens = Lens(22.0, 36.0, 20.0, "VERTICAL", 0.12, -0.08)
     film = Film(720, 400, 50, 1.0, 1.4)
@@ -144,6 +162,7 @@ def moving() -> Description:
         ),
         ("Ball", shapes.ball(0.7), placed((0.2, 2.6, 1.0))),
         *around(rng, 8, 9, 14, "Far"),
+        *shell(rng, 46, 24),
     )
     own = placed((1.4, -1.6, 1.1), (69, 4, 14), (0.5, 1.5, 0.7))
     eye = Pose(own, parent=cart)
@@ -195,6 +214,7 @@ def modelled() -> Description:
             {"other_layer": True},
         ),
         *around(rng, 7, 10, 14, "Far"),
+        *shell(rng, 46, 22),
     )
     eye = Pose(placed((5.6, -7.0, 4.6), (71, 0, 38)))
     lens, film = Lens(38.0), Film(400, 225)
@@ -202,7 +222,7 @@ def modelled() -> Description:
 
 
 def many() -> Description:
-    """Return 30 objects, 50,000 triangles, a border, and clip distances that cut some of them."""
+    """Return 70 objects, 50,000 triangles, a border, and clip distances that cut some of them."""
     rng = np.random.default_rng(6)
     forms: list[Shape] = [
         shapes.ball(1.0, 4),
@@ -218,7 +238,8 @@ def many() -> Description:
     parts[9] = (*parts[9], {"hidden": True})
     parts.append(("Near", shapes.box(1.2, 1.0, 1.0), placed((3.9, -8.2, 4.3), (10, 30, 20))))
     parts += around(rng, 6, 17, 24, "Far")
-    lens = Lens(24.0, clip_start=3.2, clip_end=27.0)
+    parts += shell(rng, 40, 26)
+    lens = Lens(24.0, clip_start=4.0, clip_end=27.0)
     film = Film(480, 270, border=(40, 400, 30, 258))
     eye = Pose(placed((6.5, -11.0, 6.2), (68, 3, 27)))
     other = ("Back", Lens(30.0), Pose(placed((-9.0, 17.0, 5.0), (70, 0, 205))))
