@@ -78,7 +78,7 @@ def solids() -> Description:
     """Return a few solids over a floor, in perspective."""
     rng = np.random.default_rng(1)
     parts = items(
-        ("Floor", shapes.floor(60), placed()),
+        ("Floor", shapes.floor(34), placed()),
         ("Cube", shapes.box(1.6, 1.2, 1.4), placed((-1.1, 0.4, 0.9), (0, 0, 24))),
         ("Ball", shapes.ball(0.8), placed((1.2, -0.6, 1.0))),
         ("Ring", shapes.torus(0.9, 0.25), placed((0.5, 1.9, 1.3), (70, 20, 10))),
@@ -86,7 +86,7 @@ def solids() -> Description:
         ("Post", shapes.box(0.4, 0.4, 2.2), placed((2.7, 1.3, 1.2), (0, 6, 12))),
         ("Sheet", shapes.floor(1.3), placed((-2.3, -1.3, 0.9), (-100, 8, 30))),
         *around(rng, 7, 9, 14, "Far"),
-        *shell(rng, 46, 21),
+        *shell(rng, 80, 19),
     )
     eye = Pose(placed((5.2, -6.1, 3.7), (74, 0, 41)))
     other = ("Side", Lens(35.0), Pose(placed((-6.4, -4.0, 2.5), (75, 0, -57))))
@@ -106,7 +106,7 @@ def parallel() -> Description:
         ("Ring", shapes.torus(1.0, 0.3), placed((-0.2, 1.0, 3.1), (50, 30, 0))),
         ("Post", shapes.box(0.5, 0.7, 2.6), placed((3.2, -1.0, 1.5), (0, 14, 40))),
         *around(rng, 8, 5, 8, "Far"),
-        *shell(rng, 30, 11),
+        *shell(rng, 70, 17),
     )
     lens = Lens(50.0, parallel=True, ortho_scale=11.0, clip_end=60.0)
     eye = Pose(placed((6.0, -9.0, 6.5), (66, 0, 33)))
@@ -143,7 +143,7 @@ def moving() -> Description:
     at_parenting = np.linalg.inv(placed((-0.7, 0.4, 0.3), (0, 0, 25), (1.3, 1.3, 1.3)))
     mast = shapes.tower(0.6, 8, 0.4)
     parts = items(
-        ("Floor", shapes.floor(60), placed()),
+        ("Floor", shapes.floor(34), placed()),
         (
             "Runner",
             shapes.box(1.1, 0.8, 0.9),
@@ -180,7 +180,7 @@ def modelled() -> Description:
     )
     group = placed((1.6, 1.9, 0.5), (0, 15, 50), (1.4, 1.4, 1.4))
     parts = items(
-        ("Floor", shapes.floor(60), placed()),
+        ("Floor", shapes.floor(34), placed()),
         ("Cage", cage[3], placed((-1.6, 0.0, 1.3), (15, 0, 20)), {"levels": cage, "level": 3}),
         ("Pebble", slab[2], placed((0.7, -1.6, 0.8), (0, 10, -35)), {"levels": slab, "level": 2}),
         ("Cloth", shapes.saddle(3.0, 0.35), placed((-2.8, 2.9, 1.6), (35, 0, 15))),
@@ -214,7 +214,7 @@ def modelled() -> Description:
             {"other_layer": True},
         ),
         *around(rng, 7, 10, 14, "Far"),
-        *shell(rng, 46, 22),
+        *shell(rng, 70, 19),
     )
     eye = Pose(placed((5.6, -7.0, 4.6), (71, 0, 38)))
     lens, film = Lens(38.0), Film(400, 225)
