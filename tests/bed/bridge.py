@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from reference_tracer.compare.case import Case
 from reference_tracer.compare.picture import Picture, Source
@@ -95,22 +93,19 @@ def manifest_of(description: Description, scene: Scene) -> Manifest:
     )
 
 
-def case_of(description: Description, shown: np.ndarray, levels: int = 0) -> Case:
+def case_of(
+    description: Description, shown: np.ndarray, levels: int = 0, filter_radius: float = 0.0
+) -> Case:
     """Return the case of a picture (h, w, 4) of linear RGBA, row 0 at the *top*, alpha multiplied.
 
     Nothing is known of it but its pixels, as of any picture from outside Blender; `levels` are
-    those of its file, 255 for a PNG.
+    those of its file, 255 for a PNG, and `filter_radius` is what its renderer says, in pixels.
     """
     scene = scene_of(description)
     picture = Picture(
         np.ascontiguousarray(shown[::-1], np.float32),
         Source("picture", file=f"{description.name}.exr"),
         levels=levels,
+        filter_radius=filter_radius,
     )
     return Case(scene, manifest_of(description, scene), Settings(), picture, curves=())
-
-
-def with_picture(case: Case, shown: np.ndarray, levels: int = 0) -> Case:
-    """Return the case with another picture of the same scene."""
-    color = np.ascontiguousarray(shown[::-1], np.float32)
-    return replace(case, picture=replace(case.picture, color=color, levels=levels))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from .camera_faults import CAMERA_FAULTS
 from .description import Description
-from .making import Fault, Made, right
+from .making import Fault
 from .picture_faults import PICTURE_FAULTS
 from .scene_faults import SCENE_FAULTS
 from .scenes import scenes
@@ -21,8 +21,3 @@ def cells(key: str | None = None, number: int | None = None) -> Iterator[tuple[F
             wanted = key in (None, fault.key) and number in (None, scene.number)
             if wanted and scene.number in fault.only:
                 yield fault, scene
-
-
-def made(fault: Fault, scene: Description) -> Made | None:
-    """Return the wrong renderer's data, or None where there is nothing to get wrong."""
-    return fault.make(scene, right(scene))

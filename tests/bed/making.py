@@ -26,6 +26,7 @@ class Made:
     draw: Callable[[Made], np.ndarray] | None = None
     after: Callable[[np.ndarray], np.ndarray] | None = None  # changes the finished picture
     levels: int = 0  # of the file that it is stored in; 0 for floats
+    filter_radius: float = 0.0  # pixels: of the filter that the renderer *says* it has
 
     def picture(self) -> np.ndarray:
         """Return linear RGBA with alpha multiplied in, (h, w, 4) float32, row 0 at the top."""

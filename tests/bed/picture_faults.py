@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from PIL import Image
@@ -22,6 +23,7 @@ from .making import (
     through_file,
 )
 
+BOX = 0.75  # pixels: a box filter reaches a pixel's corner, 0.707 from its centre
 Colors = Callable[[np.ndarray], np.ndarray]
 
 
@@ -51,9 +53,17 @@ def _again(picture: np.ndarray) -> np.ndarray:
     return np.concatenate((picture[..., :3] * picture[..., 3:], picture[..., 3:]), axis=-1)
 
 
-def stored(to_integer: Colors) -> Change:
-    """Return a file of eight bits, rounded in another way."""
-    return lambda _, made: replace(made, after=lambda p: through_file(p, to_integer))
+def smooth(change: Colors) -> Change:
+    """Return what changes a picture of 8 x 8 samples a pixel, and says so.
+
+    Of one sample a pixel alpha is 1, but for the background: a picture may have its own.
+    """
+
+    def make(_: Description, made: Made) -> Made:
+        draw = partial(once, samples=8)
+        return replace(made, draw=draw, after=change, filter_radius=BOX)
+
+    return make
 
 
 def in_file(key: str, label: str, change: Colors, **numbers: float) -> Fault:
@@ -161,8 +171,8 @@ PICTURE_FAULTS = (
     colors("gamma", "1.6", lambda c: c ** (1 / 1.6), gamma=1.6),
     colors("gamma", "0.9", lambda c: c ** (1 / 0.9), gamma=0.9),
     colors("channels", "blue and red swapped", lambda c: c[..., ::-1]),
-    Fault("premultiplied", "alpha divided out", afterwards(_divided), only=(2,)),
-    Fault("premultiplied", "alpha multiplied in twice", afterwards(_again), only=(2,)),
+    Fault("premultiplied", "alpha divided out", smooth(_divided), only=(2,)),
+    Fault("premultiplied", "alpha multiplied in twice", smooth(_again), only=(2,)),
     colors("srgb_for_linear", "the curve applied once more", encoded),
     colors("srgb_for_linear", "the curve left out", decoded),
     in_file("rounding_level", "cut off", lambda p: through_file(p, np.floor)),

@@ -13,7 +13,7 @@ from .renderer import Solid
 from .setup import placed, solid_of
 
 # Which object a fault is made with, by the scene's number: in the foreground, then a smaller one.
-FIRST = {1: "Cube", 2: "Cube", 3: "Cube", 4: "Ball", 5: "Pebble", 6: "Thing2"}
+FIRST = {1: "Cube", 2: "Cube", 3: "Cube", 4: "Ball", 5: "Pebble", 6: "Thing14"}
 SECOND = {1: "Ring", 2: "Post", 3: "Ring", 4: "Roller", 5: "Leaf", 6: "Near"}
 RINGS = {1: "Ring", 2: "Ring", 3: "Ring", 4: "Roller", 5: "Leaf"}
 FLOORS = dict.fromkeys((1, 3, 4, 5, 6), "Floor")

@@ -26,8 +26,8 @@ from reference_tracer.tracer.progress import result_of
 from .bridge import case_of
 from .damage import COUNT, TRUE_NAMES, damaged
 from .description import Description
-from .faults import cells, made
-from .making import right
+from .faults import cells
+from .making import Made, right
 from .names import right_names, same, says_nothing
 from .variants import with_variants
 
@@ -55,21 +55,22 @@ class Row(NamedTuple):
         )
 
 
-def compared(scene: Description, picture: np.ndarray, levels: int = 0) -> Comparison:
-    """Return the comparison with a picture (h, w, 4), row 0 at the top, and nothing known of it."""
-    return result_of(trace_and_compare(with_variants(case_of(scene, picture, levels), scene)))
+def compared(scene: Description, picture: np.ndarray, made: Made | None = None) -> Comparison:
+    """Return the comparison with a picture (h, w, 4), row 0 at the top, and what it was made by."""
+    known = (made.levels, made.filter_radius) if made else ()
+    return result_of(trace_and_compare(with_variants(case_of(scene, picture, *known), scene)))
 
 
 def looked_at(
     what: str,
     scene: Description,
     picture: np.ndarray,
-    levels: int,
+    made: Made | None,
     names: dict[str, str],
     only_compare: bool,
 ) -> Row:
     """Compare a picture, diagnose it, and judge what is told by the right names and reasons."""
-    found = compared(scene, picture, levels)
+    found = compared(scene, picture, made)
     unexplained = found.pixels["unexplained"]
     if only_compare:
         transform = found.causes.transform or ""
@@ -93,7 +94,7 @@ def looked_at(
 def fault_rows(key: str | None, number: int | None, only_compare: bool) -> Iterator[Row]:
     """Yield a row for each fault and scene in which it can be seen; say which are left out."""
     for fault, scene in cells(key, number):
-        wrong = made(fault, scene)
+        wrong = fault.make(scene, right(scene))
         picture = None if wrong is None else wrong.stored()
         if picture is None or same(picture, right(scene).picture()):
             print(f"{fault.name:56} {scene.number}  changes nothing here: left out")
@@ -101,7 +102,7 @@ def fault_rows(key: str | None, number: int | None, only_compare: bool) -> Itera
             print(f"{fault.name:56} {scene.number}  the picture has one colour: left out")
         else:
             names = right_names(fault, scene)
-            yield looked_at(fault.name, scene, picture, wrong.levels, names, only_compare)
+            yield looked_at(fault.name, scene, picture, wrong, names, only_compare)
 
 
 def damage_rows(count: int, only_compare: bool) -> Iterator[Row]:
@@ -109,7 +110,7 @@ def damage_rows(count: int, only_compare: bool) -> Iterator[Row]:
     for number in range(count):
         kind, scene, picture = damaged(number)
         names = dict.fromkeys(TRUE_NAMES.get(kind, ()), "it is drawn over the picture")
-        yield looked_at(f"damage {number}: {kind}", scene, picture, 0, names, only_compare)
+        yield looked_at(f"damage {number}: {kind}", scene, picture, None, names, only_compare)
 
 
 def _printed(rows: Iterator[Row]) -> list[Row]:
