@@ -30,7 +30,10 @@ def with_variants(case: Case, scene: Description) -> Case:
     """Return the case with all variants of its scene."""
     from reference_tracer.compare.case import Variant
 
-    return replace(case, variants=tuple(Variant(*found) for found in variants_of(scene)))
+    def variants() -> tuple[Variant, ...]:
+        return tuple(Variant(key, made, text, name) for key, name, text, made in variants_of(scene))
+
+    return replace(case, variants=variants)
 
 
 def _cameras(scene: Description) -> Iterator[Found]:
