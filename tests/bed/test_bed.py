@@ -249,6 +249,7 @@ def test_a_damaged_picture_differs_and_comes_again(number):
         assert damage.damaged(number + 20)[0] == kind
 
 
+@pytest.mark.slow
 def test_damage_leaves_unexplained_pixels():
     for number in range(20):
         kind, scene, picture = damage.damaged(number)

@@ -44,8 +44,13 @@ def _cameras(scene: Description) -> Iterator[Found]:
         camera = camera_of(lens, film, pose.basis(scene.frame))
         yield "parent_left_out", "Camera", "without its parent", right.seen_by(camera)
     camera = right.camera
-    if not np.allclose(np.linalg.norm(own[:3, :3], axis=0), 1):
-        scaled = replace(camera, world_from_camera=own)
+    x, y, z = np.linalg.norm(own[:3, :3], axis=0)
+    if not np.allclose((x, y, z), 1):
+        # Rays that are x and y times as far aside, z times as deep: a window of another shape.
+        w = camera.window
+        window = ViewWindow(w.left * x / z, w.right * x / z, w.bottom * y / z, w.top * y / z)
+        ends = {"clip_start": z * camera.clip_start, "clip_end": z * camera.clip_end}
+        scaled = replace(camera, window=window, **ends)
         yield "camera_scale", "Camera", "with its object's scale", right.seen_by(scaled)
     for key, text, changed in _lenses(lens):
         through = camera_of(changed, film, own)
