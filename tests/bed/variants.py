@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from reference_tracer.compare.case import Case
+from reference_tracer.compare.case import Case, Variant
 from reference_tracer.scene import Scene, ViewWindow
 
 from .bridge import camera_of, scene_of
@@ -27,10 +27,14 @@ def variants_of(scene: Description) -> tuple[Found, ...]:
 
 
 def with_variants(case: Case, scene: Description) -> Case:
-    """Return the case with all variants of its scene."""
-    from reference_tracer.compare.case import Variant
+    """Return the case with all variants of its scene, made once they are asked for."""
 
-    return replace(case, variants=tuple(Variant(*found) for found in variants_of(scene)))
+    def made() -> tuple[Variant, ...]:
+        return tuple(
+            Variant(key, other, text, name) for key, name, text, other in variants_of(scene)
+        )
+
+    return replace(case, variants=made)
 
 
 def _cameras(scene: Description) -> Iterator[Found]:
