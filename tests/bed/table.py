@@ -37,8 +37,9 @@ TRANSFORMS = {  # words in a transform's name
     "a gamma of": "gamma",
     "a power of": "gamma",
     "swapped": "channels",
-    "sRGB's curve": "srgb_for_linear",
-    "cut off": "rounding_level",
+    "sRGB's curve applied once more": "srgb_twice",
+    "sRGB's curve left out": "srgb_left_out",
+    "cut off": "cut_off",
 }
 
 
