@@ -9,8 +9,8 @@ A guess is told under three conditions.
   be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
   for a distorted lens, is right in some places alone.
 - It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
-  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and as many
-  again for each number that was fitted.
+  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and half
+  as many again for each number that was fitted.
 - It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
   few pixels beside another one of many is looked for once that one is put right.
 
@@ -41,9 +41,9 @@ from .trial import Trial, tried
 
 PRECISE = 0.97  # the least share of changed pixels that a guess must be right in
 COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
-LEAST = 10  # the least pixels that a guess must settle, and again for each of its numbers
+LEAST = 10  # the least pixels that a guess must settle, and half as many for each of its numbers
 SHARE = 0.05  # of the unexplained pixels
-ALIKE = 0.005  # of the pixels settled: guesses that differ by less are as good
+ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
 NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
 REFINED = 0.5  # the least precision of a guess for which it is fitted finely
@@ -356,7 +356,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         t
         for t in trials
         if t.precision >= PRECISE
-        and t.settled >= LEAST * (1 + t.cost)
+        and t.settled >= LEAST * (1 + t.cost / 2)
         and t.settled >= SHARE * open_
         and t.recall >= COMPLETE
     ]

@@ -23,8 +23,6 @@ EXACT = 1e-9  # relative: sums of some float64 products
 
 # The diagnosis' own names of what the bed calls otherwise: by key, and by how the label begins.
 SPOKEN = {
-    ("matrix_transposed", ""): "camera_transposed",
-    ("smooth_displaced", ""): "displaced",
     ("srgb_for_linear", "the curve applied"): "srgb_twice",
     ("srgb_for_linear", "the curve left"): "srgb_left_out",
     ("premultiplied", "alpha divided"): "straight_alpha",

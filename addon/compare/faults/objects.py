@@ -9,11 +9,13 @@ import numpy as np
 
 from ...arrays import Array, Bools
 from ...projections import ORTHOGRAPHIC
+from ...rendering import steps
 from ...scene import Camera, Instance, Mesh, Scene
 from ...tracer.camera import pixel_size
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
+from ..checks.probe import SOUND
 from ..evidence import Evidence
 from .fault import Example, Fault, Find, Guess, instances_named, of_object
 from .pose import DISPLACED, MOVED, SCALED, TWICE, copied, inflated, moved, scaled
@@ -159,30 +161,49 @@ def _without_triangles(case: Case, frame: Frame, guess: Guess) -> Case | None:
     return case.with_scenes(less)
 
 
+LEAST_WRONG = 2  # pixels of a triangle that is missing
+MOST_LAYERS = 6  # of triangles one behind another
 MOST_TRIANGLES = 4096  # of an instance that may be missing
 PIXELS_PER_TRIANGLE = 4  # else any shape is a sum of triangles
 
 
 def _missing_triangles(evidence: Evidence) -> Work[list[Guess]]:
-    """Return, for each object, the triangles that are unexplained wherever they are seen."""
-    frame = evidence.frame
+    """Return, for each object, the triangles in which it is unexplained, one behind another."""
     out = []
     for name in evidence.suspects:
         for instance in instances_named(evidence.case.scene, name):
-            own = frame.instance_index == instance
-            if not (own & evidence.open).any():
-                continue
-            triangle = frame.triangle_index[own]
-            seen = np.bincount(triangle)
-            wrong = np.bincount(triangle[evidence.open[own]], minlength=len(seen))
-            # At its rim a triangle may agree, with what is behind it of the same colour.
-            gone = np.flatnonzero((wrong > 0.9 * seen) & (wrong > 0))
-            enough = wrong[gone].sum() >= PIXELS_PER_TRIANGLE * len(gone)
-            if 0 < len(gone) <= MOST_TRIANGLES and enough and len(gone) < (seen > 0).sum():
-                values = (float(len(gone)), float(instance), *map(float, gone))
-                out.append(Guess(values, object=name))
-            yield 0.0
+            own = evidence.frame.instance_index == instance
+            if (own & evidence.open).any():
+                guess = yield from _peeled(evidence, name, instance)
+                out += [guess] if guess else []
     return out
+
+
+def _peeled(evidence: Evidence, name: str, instance: int) -> Work[Guess | None]:
+    """Drop an instance's triangles that are wrong, then those behind them that are, and so on."""
+    case, frame = evidence.case, evidence.frame
+    gone: set[int] = set()
+    wrong = evidence.open
+    for _ in range(MOST_LAYERS):
+        found = frame.triangle_index[wrong & (frame.instance_index == instance)]
+        # A triangle that is there is nowhere wrong, but for what another fault does at its rim.
+        number, count = np.unique(found, return_counts=True)
+        more = {int(n) for n in number[count >= LEAST_WRONG]} - gone
+        if not more:
+            break
+        gone |= more
+        values = (float(len(gone)), float(instance), *map(float, sorted(gone)))
+        guess = Guess(values, object=name)
+        if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:
+            return None
+        other = _without_triangles(case, evidence.frame, guess)
+        if other is None:
+            return None
+        frame = Frame.empty(other.scene)
+        yield from steps(other.scene, SOUND, frame)
+        shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)
+        wrong = evidence.open & ~shown
+    return guess if gone else None
 
 
 def _of_one_color(case: Case, frame: Frame) -> list[int]:

@@ -281,6 +281,8 @@ def posing(of: Callable[[_Looked], Pose], kept: bool = False) -> tuple[Find, Ref
             return -1 if changed is None else (yield from looked.right(changed))
 
         starts, step = pose.starts, FIRST * looked.width
+        if len(starts[0]) == 1:  # of which more are looked at on each side
+            step /= 4
         if guess.values:
             starts, step = [tuple((np.linalg.pinv(pose.axes) @ guess.values).tolist())], 1.0
         least = looked.least_right
