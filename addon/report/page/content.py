@@ -6,16 +6,18 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
+from ...arrays import Colors
 from ...certainty import Certainty
-from ...compare.cause import AGREE
+from ...compare.cause import AGREE, UNEXPLAINED
 from ...compare.causes import CAUSES
 from ...compare.comparison import Comparison
+from ...compare.regions import Region, regions, sides
 from ...explain import html
 from ...explain.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...images import data_uri, to_display
@@ -31,11 +33,22 @@ MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser st
 
 
 def content(
-    comparison: Comparison, extras: Extras | None = None, limit: int = MOST_CHARACTERS
+    comparison: Comparison,
+    extras: Extras | None = None,
+    limit: int = MOST_CHARACTERS,
+    put_right: Sequence[Colors | None] = (),
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
-    `extras` is what else was found out. The packed arrays take at most `limit` characters.
+    Parameters
+    ----------
+    comparison : Comparison
+    extras : Extras, optional
+        What else was found out.
+    limit : int
+        How many characters the packed arrays take at most.
+    put_right : sequence of (h, w, 4) float32 or None
+        Linear RGBA: the picture with each fault put right that the diagnosis tells, in its order.
     """
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
@@ -59,7 +72,8 @@ def content(
         "tolerance": {str(dtype): value for dtype, value in SUM_TOLERANCE.items()},
         "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
         "errata": ERRATA,
-        "pictures": _pictures(comparison, extras.literal),
+        "pictures": [*_pictures(comparison, extras.literal), *_put_right(put_right)],
+        "regions": [r.to_dict() for r in _unexplained(comparison)],
         "pixels": pixels,
         "derivations": [
             {"pixel": list(pixel), "html": html.fragment(derivation)}
@@ -115,6 +129,21 @@ def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[s
     ]
 
 
+def _put_right(pictures: Sequence[Colors | None]) -> Iterator[dict[str, str]]:
+    """Return the pictures with a fault put right; the page knows by their ids which fault it is."""
+    for number, color in enumerate(pictures):
+        if color is not None:
+            label = "Put right" if len(pictures) == 1 else f"Put right, {number + 1}"
+            note, png = "with what the diagnosis tells put right", data_uri(to_display(color))
+            yield {"id": f"put_right_{number}", "label": label, "note": note, "png": png}
+
+
+def _unexplained(comparison: Comparison) -> list[Region]:
+    """Return the regions of unexplained pixels, which the page frames."""
+    shown = sides(comparison.scene, comparison.frame, comparison.identity)
+    return regions(comparison.causes.cause == UNEXPLAINED, shown)
+
+
 def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[str]]:
     """Return as many of the pixels' numbers as fit, and sentences on what was left out."""
     frame, causes = comparison.frame, comparison.causes
@@ -133,7 +162,10 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
         found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
     missing, taken = [], arrays.size(found)
     scene, both = comparison.scene, {"traced": frame.color, "blender": comparison.picture}
-    triangles = "The triangles that are seen, and with them t and the derivation of every pixel"
+    triangles = (
+        "The triangles that are seen, and with them t and the derivation of every pixel and the "
+        "pictures of objects, facing, normal, depth and triangles"
+    )
     colors = "The linear colours of every pixel (those of the screen are there)"
     for name, what, made in (  # the most useful first
         ("surfaces", triangles, lambda: arrays.surface_table(scene, seen)),
