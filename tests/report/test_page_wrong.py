@@ -12,7 +12,7 @@ from reference_tracer.images import to_display
 from reference_tracer.report import page
 from reference_tracer.report.page.content import content
 
-from .browser import both, choose, color_at, settled, shown, state
+from .browser import both, color_at, settled, shown, state
 from .conftest import FOREIGN
 from .test_page import validator
 
