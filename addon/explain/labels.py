@@ -21,7 +21,7 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom
 _TOGETHER = 7.0  # of points that are this near, the names are one label
 _REACHES = 9.0, 18.0, 30.0, 46.0, 64.0  # from a point to its label's edge
 _DIRECTIONS = 16
-_HEIGHT = 1.15 * SIZE
+_HEIGHT = 1.35 * SIZE
 _APART = 3.0  # on each side of a label, from the next one
 # Worse than a longer way: a label that leaves the drawing, or lies on another, a dot, a line.
 _OUTSIDE, _ON_LABEL, _ON_DOT, _ON_LINE = 1e5, 1e4, 600.0, 60.0

@@ -135,6 +135,12 @@ def linear(low: float, high: float) -> Scale:
     return Scale(low, high, {v: f"{v:g}" for v in _round(low, high, 8)})
 
 
+def integers(low: int, high: int) -> Scale:
+    """Return a scale with at most nine round integers, written with commas."""
+    ticks = [v for v in _round(low, high, 8) if v == round(v)]
+    return Scale(low, high, {v: f"{round(v):,}" for v in ticks})
+
+
 def logarithmic(low: float, high: float) -> Scale:
     """Return a logarithmic scale with about five to ten round numbers."""
     if high < 5 * low:  # there may be no 1, 2 or 5 in between

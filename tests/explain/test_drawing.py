@@ -198,7 +198,9 @@ def test_no_words_overlap_in_a_browser(chromium, ball_scene, tmp_path, scheme, w
             assert out["x"] <= box["x"] and box["x"] + box["width"] <= out["x"] + out["width"]
             assert out["y"] <= box["y"] and box["y"] + box["height"] <= out["y"] + out["height"]
         edges = [(b["x"], b["y"] + 3, b["x"] + b["width"], b["y"] + b["height"] - 3) for b in boxes]
-        assert not any(overlap(a, b) for a, b in itertools.combinations(edges, 2))
+        words = [t.text_content() for t in svg.locator("text").all()]
+        pairs = itertools.combinations(zip(words, edges, strict=True), 2)
+        assert [(v, w) for (v, a), (w, b) in pairs if overlap(a, b)] == []
     size, paper, ink = tab.evaluate(
         """() => {
           const text = document.querySelector(".derivation-drawings text");
