@@ -33,7 +33,7 @@ class ObjectEntry:
     left_out: int = 0  # triangles with a non-finite vertex, or of a non-finite matrix
     empty_slots: int = 0
     hidden: bool = False  # Blender does not draw it either, for the same reason
-    diagnosis: dict[str, Any] | None = None  # see diagnosis.py
+    diagnosis: dict[str, Any] | None = None  # see mesh_diagnosis.py
 
 
 class Effect(Enum):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli import opening
-from reference_tracer.diagnosis import diagnose
+from reference_tracer.mesh_diagnosis import diagnose
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, SceneError
 from reference_tracer.scene_files import load_meshes, load_scene, scene_of_meshes

@@ -12,6 +12,7 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +35,7 @@ from .engine import export_for_render
 from .reading.export import export
 from .temporary import go_to, temporary_scene
 from .values import values_restored
+from .variants import variants
 from .versions import set_format
 
 COMMON = ("Filmic", "AgX", "Khronos PBR Neutral", "Standard")
@@ -62,6 +64,7 @@ def gather_against(
         alternatives=alternatives(context, scene, manifest),
         curves=view_transforms(context.scene, scene),
         self_check=self_check,
+        variants=partial(variants, context.scene.name_full, context.view_layer.name, judge.ignores),
     )
 
 

@@ -82,7 +82,9 @@ def compare_frames(
 def _compared(folder: Path, frame: int, made_by: Any, choices: dict[str, Any]) -> Work[FrameRow]:
     own = report.folder_of(folder, frame)
     try:
-        comparison = yield from compare_to_folder(bpy.context, str(own), **choices)
+        # Hundreds of frames with the same fault are diagnosed one at a time, by who asks for it.
+        work = compare_to_folder(bpy.context, str(own), diagnose=False, **choices)
+        comparison = yield from work
     except (SceneError, RuntimeError, MemoryError) as error:  # other frames may well be compared
         return FrameRow(frame, error=words(error))
     report.mark_whole(folder, frame, made_by)

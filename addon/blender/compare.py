@@ -7,6 +7,7 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +18,12 @@ from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
 from ..compare.picture import Picture, Source
-from ..diagnosis import diagnosed
 from ..errors import words
 from ..manifest import Manifest
+from ..mesh_diagnosis import diagnosed
 from ..report import comparison as comparison_report
 from ..report import engines as engines_report
-from ..report import folders, page
+from ..report import folders
 from ..scene import Scene, SceneError
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
@@ -41,6 +42,7 @@ from .reading.camera import export_camera
 from .reading.unmodelled import by_handlers
 from .temporary import go_to, temporary_scene
 from .values import values_restored
+from .variants import variants
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class Choices:
     as_is: bool  # Blender draws with the shading that the scene has
     identity: bool  # whose surface each pixel shows is found, too
     self_check: bool  # the comparison is tried on known faults, too
+    diagnose: bool  # what accounts for unexplained pixels is looked for
     tracer: Tracer | None = None  # what traces; by default, this process
 
     @classmethod
@@ -64,6 +67,7 @@ class Choices:
             stored.shading == "AS_IS",
             stored.identity,
             stored.self_check,
+            stored.diagnose,
         )
         return replace(own, **{name: value for name, value in given.items() if value is not None})
 
@@ -130,7 +134,13 @@ def gather_case(context: Any, **choices: Any) -> Case:
     if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
         settings = replace(settings, samples=1)
     case = Case(with_planes, manifest, settings, shown, certificate)
-    return replace(case, self_check=chosen.self_check, next_frame=later, tracer=chosen.tracer)
+    return replace(
+        case,
+        self_check=chosen.self_check,
+        next_frame=later,
+        tracer=chosen.tracer,
+        variants=partial(variants, scene.name_full, layer, judge.ignores),
+    )
 
 
 def _prepared(tmp: Any, judge: Judge, like_for_like: bool, view_shading: Any) -> dict[str, Any]:
@@ -180,21 +190,9 @@ def compare_to_folder(
     """
     folder = made_folder(directory)  # now, not after all the work
     with comparison_report.failure_written(folder):
-        work = compared(gather_case(context, **choices))
-    return _written(folder, work, 0.2 if trade or extremes else 0.8, trade, extremes)
-
-
-def _written(
-    folder: Path, work: Work[Comparison], share: float, *measured: bool
-) -> Work[Comparison]:
-    """Compare, which takes a share of the time; then find what else the page shows, and write."""
-    with comparison_report.failure_written(folder):
-        comparison = yield from scaled(work, 0.0, share)
-        finding = page.extras(comparison, *measured)
-        extras = yield from scaled(finding, share, 1 - share)
-        comparison_report.write(folder, comparison, extras)
-    yield 1.0
-    return comparison
+        case = gather_case(context, **choices)
+    diagnose = Choices.of(context.scene, choices).diagnose
+    return comparison_report.written(folder, compared(case), diagnose, trade, extremes)
 
 
 def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
@@ -220,11 +218,11 @@ def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple
             drawn.append((name, words(error)))
     if all(isinstance(d, str) for _, d in drawn):
         raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
-    return _all_compared(drawn, folder)
+    return _all_compared(drawn, folder, Choices.of(context.scene, choices).diagnose)
 
 
 def _all_compared(
-    drawn: list[tuple[str, Case | str]], folder: Path | None
+    drawn: list[tuple[str, Case | str]], folder: Path | None, diagnose: bool
 ) -> Work[tuple[EngineRow, ...]]:
     rows = []
     for number, (engine, gathered) in enumerate(drawn):
@@ -233,7 +231,7 @@ def _all_compared(
             continue
         work = compared(gathered)
         if folder:
-            work = _written(folder / engine, work, 0.9)
+            work = comparison_report.written(folder / engine, work, diagnose)
         comparison = yield from scaled(work, number / len(drawn), 1 / len(drawn))
         rows.append(EngineRow.of(comparison))
     if folder:

@@ -19,6 +19,7 @@ import bpy
 DRAWN = "reference_tracer_drawn"
 _COPY_OF = "reference_tracer_copy_of"
 _IGNORED = "reference_tracer_ignored"
+_WHOLE = "reference_tracer_whole"
 
 _NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
@@ -95,10 +96,24 @@ def _isolate(scene: Any, layer: str) -> None:
     _leave_out_drawings(scene.view_layers[layer].layer_collection)
 
 
-def go_to(scene: Any, frame: int) -> None:
-    """Step a temporary scene to a frame."""
-    _spare_bodies(scene, frame)
-    scene.frame_set(frame)
+@contextmanager
+def everything(scene: Any) -> Iterator[None]:
+    """Have all of a temporary scene exported, for a while: also what its camera cannot see."""
+    scene[_WHOLE] = True
+    yield
+    del scene[_WHOLE]
+
+
+def is_whole(scene: Any) -> bool:
+    """Return whether all of a scene is exported."""
+    return _WHOLE in scene
+
+
+def go_to(scene: Any, frame: float) -> None:
+    """Step a temporary scene to a frame, or between two."""
+    whole = int(frame // 1)
+    _spare_bodies(scene, whole)
+    scene.frame_set(whole, subframe=frame - whole)
 
 
 def _spare_bodies(scene: Any, frame: int) -> None:

@@ -30,6 +30,7 @@ class CompareOptions:
     as_is: bool
     identity: bool | None
     self_check: bool | None
+    diagnosis: bool | None
     frames: str | None  # of an animation, as they are typed
     # Another picture, in place of Blender's.
     against: Path | None
@@ -58,6 +59,7 @@ class CompareOptions:
             as_is=given.as_is,
             identity=given.identity,
             self_check=given.self_check,
+            diagnosis=given.diagnosis,
             frames=given.frames,
             against=given.against,
             filter=given.filter,
@@ -76,7 +78,7 @@ def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
     why = "is for one frame, not for --frames"
-    refuse(given, ("frame", "against", "trade", "extremes"), why)
+    refuse(given, ("frame", "against", "trade", "extremes", "diagnosis"), why)
     if given.judge == "all":
         raise SceneError("--judge all is for one frame: name one judge with --frames")
     try:
@@ -124,6 +126,12 @@ def _add_blenders_picture(parser: Parser) -> None:
         default=None,
         help="also make known faults (a pixel off, mirrored, an object left out...) and see that "
         "each is found",
+    )
+    group.add_argument(
+        "--diagnosis",
+        action=BooleanOptionalAction,
+        help="where pixels are left unexplained, look for what accounts for them (default yes; not "
+        "of an animation)",
     )
     group.add_argument(
         "--frames",

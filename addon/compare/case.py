@@ -28,6 +28,24 @@ class Alternative:
     scene: Scene
 
 
+WHOLE = "whole"  # in place of a fault's name: the scene as it is, with all that no ray meets
+
+
+@dataclass(frozen=True, eq=False)
+class Variant:
+    """The scene with a fault that only Blender can make, as it knows what the scene came from."""
+
+    fault: str  # the name of its record in `faults/`, or WHOLE
+    scene: Scene
+    words: str = ""  # which camera, frame, level...
+    object: str = ""  # whose fault it is, if it is one object's
+
+
+def no_variants() -> tuple[Variant, ...]:
+    """Return the variants of a scene of which nothing else is known."""
+    return ()
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """All that a comparison takes; the checks, the self-check and the faults take it, too."""
@@ -43,6 +61,8 @@ class Case:
     self_check: bool = False  # whether known faults are to be made, and found
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
+    # Makes the scene with faults for which Blender is needed; asked only if pixels are unexplained.
+    variants: Callable[[], tuple[Variant, ...]] = no_variants
 
     def __post_init__(self) -> None:
         if self.settings.color != Color.OBJECT:
@@ -66,7 +86,36 @@ class Case:
     def with_scenes(self, change: Callable[[Scene], Scene]) -> Case:
         """Return the same with the scene and the alternatives changed alike."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
-        return replace(self, scene=change(self.scene), alternatives=others)
+        scene = change(self.scene)
+        return replace(self.in_scene(scene), alternatives=others)
+
+    def in_scene(self, scene: Scene) -> Case:
+        """Return the same with another scene."""
+        return replace(
+            self, scene=scene, picture=replace(self.picture, owners=self._owners_in(scene))
+        )
+
+    def _owners_in(self, scene: Scene) -> Integers | None:
+        """Return the owners of another scene's instances and planes, by their objects' names.
+
+        None if an object of this name has several owners here: whose it is there is not known.
+        """
+        owners, own = self.picture.owners, self.scene
+        if owners is None or scene is own:
+            return owners
+        if (
+            np.array_equal(scene.instance_objects, own.instance_objects)
+            and scene.objects == own.objects
+        ):
+            return owners
+        of_name: dict[str, int] = {}
+        for number, owner in zip(own.instance_objects[:-1], owners, strict=False):
+            if of_name.setdefault(own.objects[number], int(owner)) != owner:
+                return None
+        names = self.picture.names
+        other = {name: names.index(name) if name in names else len(names) for name in scene.objects}
+        numbers = [(other | of_name)[scene.objects[n]] for n in scene.instance_objects[:-1]]
+        return np.array([*numbers, NOTHING], np.int32)
 
     def before(self, background: Colors) -> Case:
         """Return the same with all scenes, and the picture, before a background, linear RGBA."""

@@ -25,6 +25,7 @@ from .checks.background import Background
 from .checks.hidden import HIDDEN
 from .checks.unmodelled import NOT_MODELLED
 from .counts import count_pixels
+from .diagnosis import Diagnosis, diagnose
 from .identity import Identity
 from .methods import MethodRow, list_methods
 from .metrics import boundary, image_metrics
@@ -57,6 +58,7 @@ class Comparison:
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
     background: Background | None = None  # where the picture's is not the scene's
+    diagnosis: Diagnosis | None = None  # what accounts for unexplained pixels, if it was looked for
 
     @property
     def scene(self) -> Scene:
@@ -133,6 +135,7 @@ class Comparison:
             "background": self.background and self.background.to_dict(),
             "hidden": [h._asdict() for h in self.causes.hidden],
             "identity": self.identity and self.identity.to_dict(),
+            "diagnosis": self.diagnosis and self.diagnosis.to_dict(),
             "certificate": certificate and certificate.to_dict(),
             "self_check": [row.to_dict() for row in self.self_check],
             "metrics": self.metrics,
@@ -168,6 +171,7 @@ class Comparison:
             f"{self.case.picture.source}, {pixels['differ']:,} differ",
             *self._of_causes(),
             *self._evidence(),
+            *(self.diagnosis.lines() if self.diagnosis else ()),
             self._measured(),
             f"traced {traced.triangles:,} triangles in {traced.seconds:.2f} s "
             f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
@@ -272,6 +276,17 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     done = rest * (_TRACING + _METHODS)
     found = yield from scaled(compare(case, frame), done, 1 - done)
     return replace(found, methods=rows)
+
+
+def diagnosed(comparison: Comparison) -> Work[Comparison]:
+    """Return a comparison with what accounts for its unexplained pixels, if it has any.
+
+    Yields the share of the work done. The verdict stays.
+    """
+    if not comparison.pixels["unexplained"]:
+        return comparison
+    found = yield from diagnose(comparison.case, comparison.frame, comparison.causes)
+    return replace(comparison, diagnosis=found)
 
 
 def compare(case: Case, frame: Frame) -> Work[Comparison]:

@@ -6,6 +6,7 @@ Each is a function of straight linear RGB (..., 3).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -18,14 +19,28 @@ LEAST_CHANGE = 0.01  # an exposure or gamma nearer to 1 than this would be one o
 FIT = 0.02  # values below this, or above 1 less this, say little of a curve
 
 CURVES = (
-    Curve("sRGB's curve applied once more", lambda c: curve(np.clip(c, 0, 1))),
-    Curve("sRGB's curve left out", lambda c: curve_undone(np.clip(c, 0, 1))),
+    Curve("sRGB's curve applied once more", lambda c: curve(np.clip(c, 0, 1)), key="srgb_twice"),
+    Curve("sRGB's curve left out", lambda c: curve_undone(np.clip(c, 0, 1)), key="srgb_left_out"),
     Curve(
         "a power of 1/2.2 in place of sRGB's curve",
         lambda c: curve_undone(np.clip(c, 0, 1) ** (1 / 2.2)),
+        key="power_for_srgb",
     ),
-    Curve("a power of 1/2.2", lambda c: np.clip(c, 0, None) ** (1 / 2.2)),
-    Curve("red and blue swapped", lambda c: c[..., ::-1]),
+    Curve("a power of 1/2.2", lambda c: np.clip(c, 0, None) ** (1 / 2.2), key="gamma"),
+    Curve("red and blue swapped", lambda c: c[..., ::-1], key="channels"),
+)
+# The names of the faults of colours, in the order in which they are told.
+KEYS = (
+    "channels",
+    "gamma",
+    "srgb_twice",
+    "srgb_left_out",
+    "power_for_srgb",
+    "cut_off",
+    "coded_gamma",
+    "exposure",
+    "coded_factor",
+    "view_transform",
 )
 
 
@@ -39,7 +54,8 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
     yield from CURVES
     if levels:
         for named in (Curve("values", lambda c: c), *CURVES[1:3]):
-            yield Curve(f"{named.name} cut off, not rounded", _cut_off(named.of, levels))
+            cut = _cut_off(named.of, levels)
+            yield Curve(f"{named.name} cut off, not rounded", cut, key="cut_off")
     for power in (2.2, 1 / 2.2):
         yield _coded_power(power, levels, MAJORITY)
     a, b = traced.ravel(), shown.ravel()
@@ -49,17 +65,18 @@ def candidates(traced: Array, shown: Array, levels: int, more: Sequence[Curve]) 
         factor = float(np.median(b[fits] / a[fits]))
         if abs(factor - 1) > LEAST_CHANGE:
             name = f"an exposure of {np.log2(factor):+.3g} stops"
-            yield Curve(name, lambda c: c * factor, FITTED_SHARE)
+            yield Curve(name, lambda c: c * factor, FITTED_SHARE, "exposure")
     fits &= (a < 1 - FIT) & (b < 1 - FIT)
     if _several(a[fits]):
         power = _power(a[fits], b[fits])
         if abs(power - 1) > LEAST_CHANGE:
             name = f"a gamma of {1 / power:.3g}"
-            yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE)
+            yield Curve(name, lambda c: np.clip(c, 0, None) ** power, FITTED_SHARE, "gamma")
         times = float(np.median(curve(b[fits]) / curve(a[fits])))
         if abs(times - 1) > LEAST_CHANGE:
             name = f"a factor of {times:.3g} on coded (sRGB) values"
-            yield Curve(name, lambda c: curve_undone(times * curve(np.clip(c, 0, 1))), FITTED_SHARE)
+            made = partial(_coded_times, times)
+            yield Curve(name, made, FITTED_SHARE, "coded_factor")
         coded = _power(curve(a[fits]), curve(b[fits]))
         if abs(coded - 1) > LEAST_CHANGE:
             yield _coded_power(coded, levels, FITTED_SHARE)
@@ -91,7 +108,13 @@ def _coded_power(power: float, levels: int, share: float) -> Curve:
             stored = np.rint(levels * stored) / levels
         return curve_undone(stored**power)
 
-    return Curve(f"a gamma of {1 / power:.3g} applied to coded (sRGB) values", transform, share)
+    name = f"a gamma of {1 / power:.3g} applied to coded (sRGB) values"
+    return Curve(name, transform, share, "coded_gamma")
+
+
+def _coded_times(factor: float, color: Array) -> Array:
+    """Return linear colours whose sRGB codes are multiplied by a factor."""
+    return curve_undone(factor * curve(np.clip(color, 0, 1)))
 
 
 def _cut_off(of: Transform, levels: int) -> Transform:

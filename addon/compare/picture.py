@@ -37,6 +37,7 @@ class Curve(NamedTuple):
     name: str
     of: Transform
     share: float = MAJORITY
+    key: str = "view_transform"  # the name of its fault, in `faults/`
 
 
 @dataclass(frozen=True)

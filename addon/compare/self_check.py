@@ -23,7 +23,8 @@ from .bounds import differing
 from .case import Case
 from .cause import AGREE, UNEXPLAINED, Causes
 from .causes import CAUSES, explain
-from .faults import FAULTS, Fault
+from .faults import EXAMPLES
+from .faults.fault import Example, Fault
 
 SAMPLE = 4096  # differing pixels whose cause is looked for: whole pictures may be wrong
 
@@ -65,25 +66,31 @@ class FaultRow(NamedTuple):
 
 
 def self_check(
-    case: Case, frame: Frame, causes: Causes, faults: Sequence[Fault] = FAULTS
+    case: Case,
+    frame: Frame,
+    causes: Causes,
+    examples: Sequence[tuple[Fault, Example]] = EXAMPLES,
 ) -> Work[tuple[FaultRow, ...]]:
-    """Make every fault and see what becomes of it; yields the share of the work done.
+    """Make every example of a fault and see what becomes of it; yields the share of the work done.
 
     `case` is the right one, as it was given; `frame` was traced, and `causes` were found of it.
     """
     rows: list[FaultRow] = []
-    part = 1 / len(faults)
-    for fault in faults:
-        checking = _checked(case, frame, causes, fault)
+    part = 1 / len(examples)
+    for fault, example in examples:
+        checking = _checked(case, frame, causes, fault, example)
         row = yield from scaled(checking, len(rows) * part, part)
         rows.append(row)
     return tuple(rows)
 
 
-def _checked(case: Case, frame: Frame, causes: Causes, fault: Fault) -> Work[FaultRow]:
-    row = FaultRow(fault.name, fault.text)
+def _checked(
+    case: Case, frame: Frame, causes: Causes, fault: Fault, example: Example
+) -> Work[FaultRow]:
+    row = FaultRow(example.name, example.text)
     try:
-        wrong = fault.make(case, frame)
+        guess = example.pick(case, frame)
+        wrong = None if guess is None else fault.make(case, frame, guess)
     except SceneError as error:  # the scene cannot be traced then, which nobody would overlook
         return row._replace(note=f"refused: {error}")
     if wrong is None:

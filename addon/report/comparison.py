@@ -11,8 +11,9 @@ import numpy as np
 
 from .. import images
 from ..arrays import Array, Colors
-from ..compare.comparison import SCHEMA, Comparison
+from ..compare.comparison import SCHEMA, Comparison, diagnosed
 from ..compare.maps import cause_map
+from ..tracer.progress import Work, scaled
 from . import page
 from .folders import replacing, write_json
 
@@ -44,6 +45,31 @@ def write(directory: str | Path, comparison: Comparison, extras: page.Extras | N
         _write_arrays(new / ARRAYS, arrays)
         page.write(new / page.NAME, comparison, extras)
         write_json(new / JSON, comparison.to_dict())
+
+
+def written(
+    folder: Path,
+    work: Work[Comparison],
+    diagnose: bool,
+    trade: bool = False,
+    extremes: bool = False,
+) -> Work[Comparison]:
+    """Compare, find what else the page shows, and write; then diagnose, and write again.
+
+    Who ends it in the midst of the diagnosis has the comparison in the folder without it. If the
+    work fails, the folder says why.
+    """
+    rest, end = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
+    with failure_written(folder):
+        comparison = yield from scaled(work, 0.0, rest)
+        finding = page.extras(comparison, trade, extremes)
+        extras = yield from scaled(finding, rest, end - rest)
+        write(folder, comparison, extras)
+        if diagnose and comparison.pixels["unexplained"]:
+            comparison = yield from scaled(diagnosed(comparison), end, 1 - end)
+            write(folder, comparison, extras)
+    yield 1.0
+    return comparison
 
 
 def _write_arrays(path: Path, arrays: Mapping[str, Array]) -> None:

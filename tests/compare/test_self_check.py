@@ -12,7 +12,8 @@ from reference_tracer.compare.case import Alternative
 from reference_tracer.compare.cause import Causes, Hidden
 from reference_tracer.compare.checks.hidden import without
 from reference_tracer.compare.comparison import trace_and_compare
-from reference_tracer.compare.faults import FAULTS, Fault
+from reference_tracer.compare.faults import EXAMPLES
+from reference_tracer.compare.faults.fault import Example, Fault
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.compare.self_check import FaultRow, self_check, table
 from reference_tracer.manifest import Effect, ObjectEntry, Unmodelled
@@ -26,11 +27,11 @@ from .cases import case_of
 INVISIBLE = {"flipped_winding", "dropped_triangle", "wrong_frame"}
 
 
-def checked(case, names=None, faults=FAULTS):
+def checked(case, names=None, examples=EXAMPLES):
     """Return the rows of a case's self-check, by the names of some faults."""
     frame = render(case.scene, case.settings)
-    faults = [f for f in faults if names is None or f.name in names]
-    found = self_check(case, frame, Causes.none(frame.t.shape), faults)
+    examples = [(f, e) for f, e in examples if names is None or e.name in names]
+    found = self_check(case, frame, Causes.none(frame.t.shape), examples)
     return {row.name: row for row in result_of(found)}
 
 
@@ -59,7 +60,7 @@ def test_every_fault_is_caught_but_those_that_change_nothing(case, known):
         case = replace(case, picture=Picture(case.picture.color))
     color, window = case.picture.color.copy(), case.scene.camera.window
     rows = checked(case)
-    assert set(rows) == {fault.name for fault in FAULTS}
+    assert set(rows) == {example.name for _, example in EXAMPLES}
     for name, row in rows.items():
         assert row.result == ("cannot be seen here" if name in INVISIBLE else "caught"), row
         assert row.unexplained <= row.looked_at <= row.differ
@@ -90,7 +91,7 @@ def test_a_mirrored_camera_cannot_be_seen_in_a_symmetric_scene(make, half, resul
 def test_a_fault_within_rounding_is_none(stripes, pixels, result):
     """Of the camera: what float32 may do itself."""
 
-    def nudge(case, _):
+    def nudge(case, frame, guess):
         w = case.scene.camera.window
         x = pixels * (w.right - w.left) / case.scene.camera.width
         window = replace(w, left=w.left + x, right=w.right + x)
@@ -98,7 +99,8 @@ def test_a_fault_within_rounding_is_none(stripes, pixels, result):
         return replace(case, scene=replace(case.scene, camera=camera))
 
     case = case_of(stripes, render(stripes).color)
-    row = checked(case, faults=[Fault("nudge", "hardly anything", nudge)])["nudge"]
+    fault = Fault("nudge", "hardly anything", "nothing", nudge)
+    row = checked(case, examples=[(fault, Example("nudge", "hardly anything"))])["nudge"]
     assert row.result == result and (row.unexplained > 0) == (result == "caught")
     assert FaultRow("a", "b", 5, 5, 5, 0).missed and not FaultRow("a", "b", 5, 5, 5, 1).missed
 
@@ -134,7 +136,7 @@ def test_the_scene_a_frame_later_with_other_instances(case):
 @pytest.mark.slow
 def test_in_a_comparison_on_request(case):
     with_check = result_of(trace_and_compare(replace(case, self_check=True)))
-    assert len(with_check.self_check) == len(FAULTS) and with_check.verdict == "agree"
+    assert len(with_check.self_check) == len(EXAMPLES) and with_check.verdict == "agree"
     held = json.loads(json.dumps(with_check.to_dict(), allow_nan=False))["self_check"]
     assert {row["result"] for row in held} == {"caught", "cannot be seen here"}
     assert any("self-check: 16 of 16" in line for line in with_check.lines())

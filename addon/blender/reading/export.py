@@ -17,7 +17,7 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
-from ..temporary import user_scene
+from ..temporary import is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
@@ -55,7 +55,8 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     scene = depsgraph.scene_eval
     camera = export_camera(scene)
     seen, shown, meshes = visible(depsgraph, scene.display.shading, read_mesh)
-    parts, owners = assemble(seen, shown, meshes, _outside(camera, shown, meshes))
+    unseen = set() if is_whole(scene) else _outside(camera, shown, meshes)
+    parts, owners = assemble(seen, shown, meshes, unseen)
     manifest = _manifest(depsgraph, camera.name, seen, meshes)
     return parts.scene(camera, background(scene)), replace(manifest, owners=owners)
 

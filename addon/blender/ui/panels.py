@@ -52,7 +52,7 @@ class _Main(Part):
         column.separator()
         column.prop(stored, "show")
         column = layout.column()
-        for name in ("judge", "shading", "identity", "self_check"):
+        for name in ("judge", "shading", "identity", "self_check", "diagnose"):
             column.prop(stored, name)
         layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
         if found := results.content(Kind.ENGINES, context.scene):

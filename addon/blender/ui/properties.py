@@ -84,6 +84,13 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         default=False,
     )
 
+    diagnose: BoolProperty(
+        name="Diagnosis",
+        description="If pixels are left unexplained, look for what accounts for them: known faults "
+        "of the camera, the scene and the picture are put right, one at a time, and traced",
+        default=True,
+    )
+
     def settings(self) -> Settings:
         """Return what the tracer is to use; a precision that is greyed out does not count."""
         from ...tracer.settings import Precision, Settings

@@ -14,8 +14,8 @@ from ...compare import engines
 from ...compare.case import Case
 from ...compare.comparison import EXIT_CODES, Comparison, trace_and_compare
 from ...compare.picture import Picture, Source
-from ...diagnosis import diagnosed
 from ...manifest import Manifest, ObjectEntry
+from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
@@ -78,15 +78,18 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             "self_check": options.self_check,
             **place,
         }
+        diagnose = options.diagnosis
         if options.frames:
             made_by = options.of_a_frame()
             chosen["judge"] = judge
             return animation.compare_open_file(options.frames, out, made_by, progress, **chosen)
         if options.judge == "all":
-            rows = result_of(compare_all(blender.context, out, **chosen), progress)
+            work_of_all = compare_all(blender.context, out, diagnose=diagnose, **chosen)
+            rows = result_of(work_of_all, progress)
             return _told_engines(options, rows)
         for_page = {"trade": options.trade, "extremes": options.extremes}
-        work = compare_to_folder(blender.context, out, **for_page, judge=judge, **chosen)
+        chosen |= {"judge": judge, "diagnose": diagnose}
+        work = compare_to_folder(blender.context, out, **for_page, **chosen)
         return _told_comparison(options, result_of(work, progress))
 
 
@@ -97,9 +100,6 @@ def _with_picture(
     with progress_bar() as progress:
         of = _blend if is_blend(options.scene) else _file
         comparison = result_of(of(options, picture, place), progress)
-        finding = page.extras(comparison, options.trade, options.extremes)
-        extras = result_of(finding, progress)
-    comparison_report.write(options.out, comparison, extras)
     return _told_comparison(options, comparison)
 
 
@@ -136,7 +136,7 @@ def _blend(
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = options.settings.over(context.scene.reference_tracer.settings())
         case = gather_against(context, shown, settings, bool(options.self_check))
-        return (yield from compared(replace(case, **place)))
+        return (yield from _written(options, compared(replace(case, **place))))
 
 
 def _file(
@@ -147,7 +147,12 @@ def _file(
     shown = _shown(options, picture, scene.camera)
     settings, checked = options.settings.over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
-    return (yield from trace_and_compare(replace(case, **place)))
+    return (yield from _written(options, trace_and_compare(replace(case, **place))))
+
+
+def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison]:
+    diagnose = options.diagnosis is not False
+    return comparison_report.written(options.out, work, diagnose, options.trade, options.extremes)
 
 
 def _shown(

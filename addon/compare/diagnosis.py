@@ -1,0 +1,370 @@
+"""The diagnosis: what accounts for the unexplained pixels, with numbers that one can act on.
+
+Each known fault is put into the scene that is traced, or taken out of the picture. It is told only
+if the picture then agrees. A diagnosis never changes the verdict.
+
+A guess is told under three conditions.
+
+- It is right in nearly all the pixels that it changes (`PRECISE`). A wrong guess has no reason to
+  be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
+  for a distorted lens, is right in some places alone.
+- It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
+  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and as many
+  again for each number that was fitted.
+- It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
+  few pixels beside another one of many is looked for once that one is put right.
+
+Of guesses that are as good, those with the fewest fitted numbers are told, all of them.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..arrays import Colors
+from ..rendering import steps
+from ..scene import Scene, SceneError
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, scaled
+from .case import WHOLE, Case
+from .cause import Causes
+from .causes import explain
+from .evidence import Evidence
+from .faults import FAULTS
+from .faults.fault import Fault, Guess
+from .identity import Identity
+from .regions import Region, regions, sides
+from .trial import Trial, tried
+
+PRECISE = 0.97  # the least share of changed pixels that a guess must be right in
+COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
+LEAST = 10  # the least pixels that a guess must settle, and again for each of its numbers
+SHARE = 0.05  # of the unexplained pixels
+ALIKE = 0.005  # of the pixels settled: guesses that differ by less are as good
+PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
+NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
+REFINED = 0.5  # the least precision of a guess for which it is fitted finely
+ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
+TRIED = 6  # guesses that are tried on the whole picture together, at most
+MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
+MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
+STARTS = 2  # such guesses
+ROUNDS = 3  # faults one after the other, at most
+FRAMED = 5  # regions that are named
+SECONDS = 60.0  # after which no other guess is made
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """A fault that accounts for unexplained pixels."""
+
+    fault: Fault
+    guess: Guess
+    unexplained: int  # pixels, before
+    settled: int  # of these, pixels that agree with this put right
+    agreed: int  # pixels that agreed or had a cause
+    broken: int  # of these, pixels that do not, with this put right
+    frame: Frame  # what is traced with it, and with those told before
+    picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
+    alternative: bool = False  # it does as well as the one told before it
+
+    @property
+    def sentence(self) -> str:
+        """What is wrong, without a full stop."""
+        return self.fault.told(self.guess)
+
+    def effect(self) -> str:
+        """Say what putting it right does."""
+        lost = f"{self.broken:,}" if self.broken else "none"
+        return (
+            f"with this put right, {self.settled:,} of {self.unexplained:,} unexplained pixels "
+            f"agree, and {lost} that agreed {'are' if self.broken > 1 else 'is'} lost"
+        )
+
+    def enclosed(self) -> str:
+        """Say between what its numbers lie; empty if they were not fitted."""
+        g = self.guess
+        ends = zip(self.fault.numbers, g.low, g.high, strict=False)
+        return ", ".join(f"{name} from {low:.6g} to {high:.6g}" for name, low, high in ends)
+
+    def lines(self) -> Iterator[str]:
+        """Yield it as a person reads it."""
+        yield f"diagnosis: {'or, as likely, ' if self.alternative else ''}{self.sentence}"
+        yield f"           {self.effect()}"
+        if enclosed := self.enclosed():
+            yield f"           it agrees as well for {enclosed}"
+        yield f"           what to do: {self.fault.advice}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        g = self.guess
+        numbers = {name: [v] for name, v in zip(self.fault.numbers, g.values, strict=False)}
+        for name, low, high in zip(self.fault.numbers, g.low, g.high, strict=False):
+            numbers[name] += [low, high]
+        return {
+            "fault": self.fault.name,
+            "sentence": self.sentence,
+            "advice": self.fault.advice,
+            "object": g.object,
+            "numbers": numbers,
+            "alternative": self.alternative,
+            "unexplained": self.unexplained,
+            "settled": self.settled,
+            "agreed": self.agreed,
+            "broken": self.broken,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What accounts for the unexplained pixels of a comparison."""
+
+    told: tuple[Told, ...] = ()
+    guesses: int = 0  # that were tried on the sample
+    seconds: float = 0.0
+    ended: bool = False  # before all guesses were made, as it took too long
+    left: int = 0  # pixels that nothing accounts for
+    regions: tuple[Region, ...] = ()  # in which these are, those of the most pixels first
+
+    def lines(self) -> list[str]:
+        """Return what a person wants to know first."""
+        out = [line for told in self.told for line in told.lines()]
+        if not out:
+            out = [f"diagnosis: none of the known faults accounts for them ({self.guesses} tried)"]
+        if self.left:
+            places = "region" if len(self.regions) == 1 else "regions"
+            out.append(f"           {self.left:,} px are left, in {len(self.regions)} {places}:")
+            out += [f"             {_framed(region)}" for region in self.regions[:FRAMED]]
+        if self.ended:
+            out.append(f"           (ended after {self.seconds:.0f} s, before all were tried)")
+        return out
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as JSON can hold it."""
+        return {
+            "told": [told.to_dict() for told in self.told],
+            "guesses": self.guesses,
+            "seconds": round(self.seconds, 3),
+            "ended": self.ended,
+            "left": self.left,
+            "regions": [region.to_dict() for region in self.regions],
+        }
+
+
+def _framed(region: Region) -> str:
+    """Say where a region is, and what is in it; the pixel counts from the picture's lower left."""
+    shows = ", ".join(f"'{name}'" for name in region.objects[:3]) or "nothing of the scene"
+    place = f"{region.width} x {region.height} px from ({region.left}, {region.bottom})"
+    return f"{region.pixels:,} px in {place}: {shows}"
+
+
+class _Search:
+    """What is done so far."""
+
+    def __init__(self, faults: Sequence[Fault]) -> None:
+        self.faults = faults
+        self.began = time.monotonic()
+        self.guesses = 0
+
+    @property
+    def ended(self) -> bool:
+        return time.monotonic() - self.began > SECONDS
+
+    def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
+        """Return guesses tried on the whole picture, the best first.
+
+        Faults without numbers to fit are looked at before the others: where one of them does it
+        all, a fit that does as well says no more.
+        """
+        open_ = float(evidence.open.sum())
+        pool: list[tuple[float, Fault, Guess]] = []
+        out: list[Trial] = []
+        for effort in sorted({fault.effort for fault in self.faults}):
+            some = [fault for fault in self.faults if fault.effort == effort]
+            scored = yield from self._scored(evidence, some)
+            pool += [one for one in scored if one[0] < NEARLY * open_]
+            sure = [one for one in scored if one[0] >= NEARLY * open_]
+            out += yield from self._tried(evidence, of, sure, MOST_SURE)
+            if any(t.perfect for t in _good(of, out)):
+                break
+        else:
+            out += yield from self._tried(evidence, of, pool, TRIED)
+        return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
+
+    def _scored(
+        self, evidence: Evidence, faults: Sequence[Fault]
+    ) -> Work[list[tuple[float, Fault, Guess]]]:
+        """Return the guesses of some faults that gain on the sample, each with its gain."""
+        out = []
+        for fault in faults:
+            if self.ended:
+                break
+            for guess in (yield from fault.find(evidence)):
+                self.guesses += 1
+                gain = yield from _gain(evidence, fault, guess)
+                if gain > 0:
+                    out.append((gain, fault, guess))
+        return out
+
+    def _tried(
+        self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
+    ) -> Work[list[Trial]]:
+        """Return the trials of the guesses with the most gain; what was fitted is fitted finely."""
+        scored = sorted(scored, key=lambda one: -one[0])
+        out: list[Trial] = []
+        done: set[str] = set()  # faults with a guess that does it all
+        for gain, fault, guess in scored[:most]:
+            if fault.name in done:
+                continue
+            if gain < PROMISING * scored[0][0] or self.ended:
+                break
+            trial = yield from tried(evidence, fault, guess, of)
+            if trial and fault.refine and guess.low and trial.precision > REFINED:
+                finer = replace(evidence, size=ALL_EDGES)
+                better = yield from fault.refine(finer, guess)
+                trial = (better and (yield from tried(evidence, fault, better, of))) or trial
+            if trial and trial.gain > 0:
+                out.append(trial)
+                if trial.perfect:
+                    done.add(fault.name)
+        return out
+
+
+def _gain(evidence: Evidence, fault: Fault, guess: Guess) -> Work[float]:
+    """Return how many more pixels a guess explains, by the sample; all, if it cannot be sampled."""
+    if fault.after is not None:
+        return float(evidence.open.sum())
+    try:
+        case = fault.tried(evidence.case, evidence.frame, guess)
+        if case is None:
+            return 0.0
+        return (yield from evidence.score(case)).gain
+    except SceneError:
+        return 0.0
+
+
+def diagnose(
+    case: Case, frame: Frame, causes: Causes, faults: Sequence[Fault] = FAULTS
+) -> Work[Diagnosis]:
+    """Look for what accounts for the unexplained pixels; yields the share of the work done.
+
+    The frame was traced of the case, and the causes were found of it, all before the picture's own
+    background. If nothing is unexplained, nothing is done.
+    """
+    evidence = Evidence(case, frame, causes)
+    if not evidence.open.any() or frame.cancelled:
+        return Diagnosis()
+    search = _Search(faults)
+    evidence = yield from _with_variants(evidence)
+    told: list[Told] = []
+    for number in range(ROUNDS):
+        finding = _found(search, evidence)
+        chain = yield from scaled(finding, number / ROUNDS, 1 / ROUNDS)
+        if not chain:
+            break
+        for trials in chain:
+            told += [_told(evidence, trial, bool(n)) for n, trial in enumerate(trials)]
+        evidence = chain[-1][0].evidence
+        if not evidence.open.any():
+            break
+    seconds = time.monotonic() - search.began
+    left = int(evidence.open.sum())
+    framed = _regions(evidence) if left else ()
+    return Diagnosis(tuple(told), search.guesses, seconds, search.ended, left, framed)
+
+
+def _regions(evidence: Evidence) -> tuple[Region, ...]:
+    """Return the regions of what is unexplained, with the objects in them."""
+    case, frame = evidence.case, evidence.frame
+    identity, picture = None, case.picture
+    if picture.owner is not None and picture.owners is not None:
+        own = picture.owners[frame.instance_index]
+        identity = Identity(picture.names, own, picture.owner)
+    return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
+
+
+def _with_variants(evidence: Evidence) -> Work[Evidence]:
+    """Return the evidence with the case's variants, and with all that the view leaves out.
+
+    What no ray meets is not exported. A camera with a fault may have seen it.
+    """
+    case = evidence.case
+    variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
+    others = tuple(v for v in variants if v.fault != WHOLE)
+    for whole in (v.scene for v in variants if v.fault == WHOLE):
+        if len(whole.instances) > len(case.scene.instances):
+            meshes, instances, objects = whole.meshes, whole.instances, whole.objects
+            scene = replace(case.scene, meshes=meshes, instances=instances, objects=objects)
+            case = case.in_scene(scene)
+            frame = Frame.empty(scene)
+            yield from steps(scene, case.settings, frame, case.tracer)
+            found = yield from explain(case, frame)
+            return Evidence(found.case, found.frame, found.causes, others)
+    return replace(evidence, variants=others)
+
+
+def _as_in(own: Scene, other: Scene) -> Scene:
+    """Return another scene before the background, and with the objects' colours, of one's own."""
+    colors = {own.objects[i.object]: i.colors for i in own.instances}
+    instances = [
+        replace(i, colors=colors.get(other.objects[i.object], i.colors)) for i in other.instances
+    ]
+    return replace(other, instances=tuple(instances), background=own.background)
+
+
+def _found(search: _Search, evidence: Evidence) -> Work[list[list[Trial]]]:
+    """Return the next fault, with those that do as well; or two, neither of which is enough."""
+    trials = yield from search.trials(evidence, evidence)
+    if best := _best(evidence, trials):
+        return [best]
+    for first in trials[:STARTS]:
+        if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
+            continue
+        seconds = yield from search.trials(first.evidence, evidence)
+        if best := _best(evidence, seconds):
+            return [[first], best]
+    return []
+
+
+def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
+    """Return the trials that may be told."""
+    open_ = int(evidence.open.sum())
+    return [
+        t
+        for t in trials
+        if t.precision >= PRECISE
+        and t.settled >= min(LEAST * (1 + t.cost), open_)
+        and t.settled >= SHARE * open_
+        and t.recall >= COMPLETE
+    ]
+
+
+def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
+    """Return those of the most gain with the fewest numbers, one of each fault."""
+    good = _good(evidence, trials)
+    most = max((t.gain for t in good), default=0)
+    alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
+    fewest = min((t.cost for t in alike), default=0)
+    told: dict[str, Trial] = {}
+    for trial in sorted(alike, key=lambda t: -t.gain):
+        if trial.cost == fewest:
+            told.setdefault(trial.fault.name, trial)
+    return list(told.values())
+
+
+def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
+    after = trial.evidence
+    return Told(
+        trial.fault,
+        trial.guess,
+        int(evidence.open.sum()),
+        trial.settled,
+        int(evidence.judged.sum()),
+        trial.broken,
+        after.frame,
+        after.case.picture.color,
+        alternative,
+    )

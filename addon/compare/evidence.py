@@ -1,0 +1,198 @@
+"""What a diagnosis has to go by: unexplained pixels, and what a guess makes of a sample of them.
+
+A guess is tried on a sample first: half of it unexplained pixels, half pixels that agree, most of
+these at edges, where a wrong camera shows first. A guess that is right makes the former agree, and
+leaves the latter as they are.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..arrays import Array, Bools, Floats, Integers, Places
+from ..scene import Camera, Scene
+from ..tracer.camera import camera_rays, film_of
+from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING, Hits
+from ..tracer.nearest import plan
+from ..tracer.progress import Work
+from .case import Case, Variant
+from .cause import NOT_DECIDABLE, UNEXPLAINED, Causes
+from .checks.probe import SOUND, Probe, blocks
+from .checks.unmodelled import as_known
+from .metrics import boundary
+from .picture import Picture
+
+SAMPLE = 1024  # pixels of each kind that are looked at
+SEED = 27
+LEAST = 4  # unexplained pixels for which an object is suspected
+INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
+MOST_SUSPECTS = 4
+MOST_COLORS = 512  # of a scene in which pixels are told by their colours
+NEAR = 0.02  # of a channel: how far a color may lie from the one that is looked for
+
+
+class Score(NamedTuple):
+    """What a guess makes of the sampled pixels, scaled to the whole picture."""
+
+    settled: float  # unexplained pixels that agree with it
+    broken: float  # pixels that agreed and do not with it
+
+    @property
+    def gain(self) -> float:
+        """How many more pixels agree."""
+        return self.settled - self.broken
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """A comparison with unexplained pixels."""
+
+    case: Case
+    frame: Frame  # what was traced of it
+    causes: Causes
+    variants: tuple[Variant, ...] = ()
+    size: int = SAMPLE
+    known: dict[str, Any] = field(default_factory=dict)  # what faults share that look for the same
+
+    @cached_property
+    def open(self) -> Bools:
+        """Which pixels (h, w) are unexplained."""
+        return self.causes.cause == UNEXPLAINED
+
+    @cached_property
+    def judged(self) -> Bools:
+        """Which pixels (h, w) agree or have a cause, and can be judged."""
+        return ~self.open & ~self.causes.unjudged & (self.causes.cause != NOT_DECIDABLE)
+
+    @cached_property
+    def picture(self) -> Picture:
+        """The picture, as far as what is not modelled leaves it known."""
+        return as_known(self.case)
+
+    @cached_property
+    def sample(self) -> tuple[Places, Places]:
+        """Rows and columns of the n sampled pixels, row by row from the lowest."""
+        chosen = np.zeros(self.open.shape, bool)
+        edge = self.judged & boundary(self.frame)
+        for some, most in (
+            (self.open, self.size),
+            (edge, 3 * self.size // 4),
+            (self.judged & ~edge, self.size // 4),
+        ):
+            chosen.flat[_spread(some, most)] = True
+        rows, columns = np.nonzero(chosen)
+        return rows, columns
+
+    @cached_property
+    def shown(self) -> Picture:
+        """What the n sampled pixels show."""
+        return self.picture.at(self.sample)
+
+    @cached_property
+    def was_open(self) -> Bools:
+        """Which of the n sampled pixels are unexplained, (n,)."""
+        return self.open[self.sample]
+
+    def probe(self, scene: Scene, reach: float = 0.0) -> Work[Probe]:
+        """Prepare to trace the sampled pixels in a scene."""
+        wanted = np.zeros(self.open.shape, bool)
+        wanted[self.sample] = True
+        made = yield from plan(scene, SOUND, reach)
+        return (yield from Probe.of(made, scene.camera.region, wanted.ravel()))
+
+    def score(self, case: Case) -> Work[Score]:
+        """Return what a case that differs in its scene, or its picture, makes of the sample."""
+        if case.scene.camera.region.width != self.open.shape[1]:
+            return Score(0, 0)
+        probe = yield from self.probe(case.scene)
+        hits = yield from probe.trace()
+        return self.scored(~as_known(case).at(self.sample).differ(case.scene, hits))
+
+    def agrees(self, scene: Scene, hits: Hits) -> Bools:
+        """Return which of the n sampled pixels show the n hits of a scene like the case's."""
+        return ~self.shown.differ(scene, hits)
+
+    def scored(self, right: Bools) -> Score:
+        """Return the score of the n sampled pixels, (n,) of them right."""
+        was_open = self.was_open
+        weight = int(self.open.sum()) / max(int(was_open.sum()), 1)
+        others = int(self.judged.sum()) / max(int((~was_open).sum()), 1)
+        return Score(
+            float(weight * (right & was_open).sum()), float(others * (~right & ~was_open).sum())
+        )
+
+    def looked_up(self, camera: Camera) -> Floats:
+        """Return where the traced picture has what another camera sees in the n sampled pixels.
+
+        (2, n) columns and rows of the region. It holds for cameras in the same place.
+        """
+        return film_beside_camera(self.case.scene.camera, camera, *self.film)
+
+    @cached_property
+    def film(self) -> Floats:
+        """The film positions of the n sampled pixels' centres, (2, n) pixels of the picture."""
+        rows, columns = self.sample
+        r = self.case.scene.camera.region
+        return np.stack((columns + r.x0 + 0.5, rows + r.y0 + 0.5))
+
+    @cached_property
+    def suspects(self) -> tuple[str, ...]:
+        """The objects that are seen in unexplained pixels, or shown in them, the most first.
+
+        All that a moved object makes wrong involves it; less of that involves what is around it.
+        """
+        scene = self.case.scene
+        rows, columns = (v[self.was_open] for v in self.sample)
+        seen = scene.instance_objects[self.frame.instance_index[rows, columns]]
+        shown = self._shown_objects()
+        both = np.concatenate((seen, shown[shown != seen]))
+        count = np.bincount(both[both >= 0], minlength=len(scene.objects))
+        order = np.argsort(-count, kind="stable")
+        least = max(LEAST, INVOLVED * int(np.max(count, initial=0)))
+        return tuple(scene.objects[n] for n in order if count[n] >= least)[:MOST_SUSPECTS]
+
+    def _shown_objects(self) -> Integers:
+        """Return the objects that unexplained pixels of the sample show, NOTHING if not known."""
+        scene, shown = self.case.scene, self.shown.at(np.flatnonzero(self.was_open))
+        objects, nothing = scene.instance_objects, len(scene.instance_objects) - 1
+        if shown.owner is not None and shown.owners is not None:
+            first = {int(o): n for n, o in reversed(list(enumerate(shown.owners[:-1])))}
+            return objects[[first.get(int(owner), nothing) for owner in shown.owner]]
+        table = scene.color_table[:-1]
+        if not 0 < len(table) <= MOST_COLORS:
+            return np.full(len(shown.color), NOTHING, np.int32)
+        made = shown.made_of(table)
+        apart = np.abs(shown.color[:, None, : made.shape[1]] - made).max(axis=-1)
+        row = np.where(apart.min(axis=1) <= NEAR, apart.argmin(axis=1), len(table))
+        return objects[np.minimum(np.searchsorted(scene.color_rows[1][:-1], row), nothing)]
+
+
+def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) -> Floats:
+    """Return where a camera sees what another one in its place sees at film positions, (2, n)."""
+    rays = camera_rays(other, px, py)
+    # A panorama's or perspective's rays pass one point: any point of them will do.
+    x, y, _ = film_of(camera, rays.at(np.ones(rays.count)))
+    return np.stack((x, y))
+
+
+def _spread(where: Bools, most: int) -> Places:
+    """Return some of the pixels, by their index, spread evenly over all but for a random start."""
+    found = np.flatnonzero(where)
+    if len(found) <= most:
+        return found
+    rng = np.random.default_rng(SEED)
+    return np.sort(rng.choice(found, most, replace=False))
+
+
+def shows_colors(picture: Picture, colors: Array) -> Bools:
+    """Return which pixels (h, w) of a picture show about one of some traced colours (m, 4)."""
+    out = np.zeros(picture.color.shape[:2], bool)
+    for made in picture.made_of(colors):
+        for rows in blocks(out.shape):
+            out[rows] |= (np.abs(picture.color[rows, :, : len(made)] - made) <= NEAR).all(axis=-1)
+    return out

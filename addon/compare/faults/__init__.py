@@ -1,0 +1,22 @@
+"""The faults that are known: the self-check makes them, and the diagnosis looks for them."""
+
+from __future__ import annotations
+
+from .camera import CAMERA_FAULTS
+from .fault import Example, Fault
+from .given import GIVEN_FAULTS
+from .objects import OBJECT_FAULTS
+from .picture import PICTURE_FAULTS
+from .view import VIEW_FAULTS
+
+FAULTS: tuple[Fault, ...] = (
+    *CAMERA_FAULTS,
+    *VIEW_FAULTS,
+    *OBJECT_FAULTS,
+    *GIVEN_FAULTS,
+    *PICTURE_FAULTS,
+)
+# Those that the self-check makes, and how, in the order in which it does.
+EXAMPLES: tuple[tuple[Fault, Example], ...] = tuple(
+    (fault, example) for fault in FAULTS for example in fault.examples
+)

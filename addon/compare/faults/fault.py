@@ -1,0 +1,146 @@
+"""What a fault is: how it is made, how it is fitted to a picture, and what is said of it.
+
+A fault is what a mistaken exporter, camera or reader would have made. The self-check makes it, to
+see that the comparison finds it; the diagnosis puts it into the scene that is traced, to see
+whether this gives the picture that was to be explained. Both read the records of this folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from ...arrays import Colors
+from ...scene import Camera, Instance, Scene
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..case import Case
+from ..picture import Curve
+
+if TYPE_CHECKING:
+    from ..evidence import Evidence
+
+
+@dataclass(frozen=True, eq=False)
+class Guess:
+    """Which fault it is exactly: its numbers, the object that has it, or the scene with it."""
+
+    values: tuple[float, ...] = ()  # as the fault's `numbers` name them; more are not told
+    # Between what they may lie, for all pixels to agree as well; empty if they were not fitted.
+    low: tuple[float, ...] = ()
+    high: tuple[float, ...] = ()
+    object: str = ""
+    scene: Scene | None = None  # with a fault that only Blender can make
+    words: str = ""  # what else the sentence says
+    curve: Curve | None = None  # what was done to the picture's colours
+    box: tuple[int, int, int, int] | None = None  # left, bottom, right, top: of some pixels
+
+
+# Return the case with the fault; None where there is nothing to get wrong. The frame is traced of
+# the case.
+Make = Callable[[Case, Frame, Guess], Case | None]
+Find = Callable[["Evidence"], Work[list[Guess]]]
+Refine = Callable[["Evidence", Guess], Work[Guess | None]]
+After = Callable[[Colors, Guess, "Evidence"], Colors]
+Pick = Callable[[Case, Frame], Guess | None]
+
+
+@dataclass(frozen=True)
+class Example:
+    """How the self-check makes a fault."""
+
+    name: str  # in JSON
+    text: str  # what is wrong, in words
+    pick: Pick = lambda case, frame: Guess()
+
+
+def with_values(*values: float) -> Pick:
+    """Return what picks the same numbers in every scene."""
+    return lambda case, frame: Guess(values)
+
+
+def once(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the one guess of a fault that has no numbers and is about no object."""
+    return [Guess()]
+    yield
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A fault: the comparison's own claim of what is wrong with a picture."""
+
+    name: str  # in JSON
+    sentence: str  # with the names of `numbers`, {object} and {words}
+    advice: str  # what to do
+    make: Make
+    find: Find = once  # the guesses that are tried
+    numbers: tuple[str, ...] = ()  # of the guess' values, those that are told
+    # The case with the fault taken out of its picture; by default, the fault is in the scene.
+    put_right: Make | None = None
+    # What the picture's pixels are after that, from those that are traced in the case with the
+    # fault, (h', w', 4); the shape is (h, w).
+    after: After | None = None
+    refine: Refine | None = None  # fits a guess in a finer sample
+    effort: int = 0  # of finding it: 1 if the camera is fitted, 2 and 3 if an object is, 4: pixels
+    examples: tuple[Example, ...] = ()
+
+    def told(self, guess: Guess) -> str:
+        """Return the sentence with a guess' numbers and names."""
+        numbers = dict(zip(self.numbers, guess.values, strict=False))
+        return self.sentence.format(object=guess.object, words=guess.words, **numbers)
+
+    def tried(self, case: Case, frame: Frame, guess: Guess) -> Case | None:
+        """Return the case that agrees if the picture has this fault."""
+        return (self.put_right or self.make)(case, frame, guess)
+
+
+def of_camera(change: Callable[..., Camera | None]) -> Make:
+    """Return what changes the camera of all scenes, by a function of it and the numbers."""
+
+    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
+        camera = change(case.scene.camera, *guess.values)
+        return None if camera is None else case.with_scenes(lambda scene: scene.seen_by(camera))
+
+    return make
+
+
+def options(*changes: Callable[[Camera], Camera | None]) -> tuple[Make, Find]:
+    """Return what makes a fault of the camera that has several forms, and what finds which."""
+
+    def make(camera: Camera, number: float) -> Camera | None:
+        return changes[int(number)](camera)
+
+    def find(evidence: Evidence) -> Work[list[Guess]]:
+        return [Guess((float(number),)) for number in range(len(changes))]
+        yield
+
+    return of_camera(make), find
+
+
+def instances_named(scene: Scene, name: str) -> list[int]:
+    """Return the instances of the meshes of an object."""
+    return [n for n, i in enumerate(scene.instances) if scene.objects[i.object] == name]
+
+
+def of_object(change: Callable[..., Instance | None]) -> Make:
+    """Return what changes an object's instances in all scenes, by a function of each.
+
+    It takes the instance and the guess' numbers; without a name, all objects are changed.
+    """
+
+    def make(case: Case, frame: Frame, guess: Guess) -> Case | None:
+        if guess.object and not instances_named(case.scene, guess.object):
+            return None
+
+        def changed(scene: Scene) -> Scene:
+            own = set(instances_named(scene, guess.object))
+            made = [
+                change(instance, *guess.values) if n in own or not guess.object else instance
+                for n, instance in enumerate(scene.instances)
+            ]
+            return replace(scene, instances=tuple(i for i in made if i is not None))
+
+        return case.with_scenes(changed)
+
+    return make

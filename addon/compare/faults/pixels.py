@@ -1,0 +1,212 @@
+"""Faults that mix a picture's pixels with others: another size, JPEG, something laid over it.
+
+No ray is asked: what is traced goes through the same, and is held against the picture.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable
+from dataclasses import replace
+from importlib.util import find_spec
+
+import numpy as np
+
+from ...arrays import Array, Bools, Colors, Floats
+from ...images import curve_undone, encoded
+from ...scene import Region
+from ...tracer.frame import Frame
+from ...tracer.progress import Work
+from ..case import Case
+from ..evidence import NEAR, Evidence
+from .fault import Fault, Guess
+
+SIZES = (1 / 2, 1 / 3, 1 / 4, 2 / 3, 3 / 4, 2.0)  # of what may have been resampled
+NEAREST, LINEAR, BOX = 0.0, 1.0, 2.0
+QUALITIES = (95, 90, 85, 80, 75, 70, 60, 50, 40, 30)
+JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its own way
+LEAST_SURFACES = 2  # that something laid over a picture must cover: else it is a recoloured object
+LEAST_COVERED = 0.03  # of what is covered, for a surface to count
+STRIPES = 8  # pixels on a side of JPEG's blocks
+
+
+def _other_size(case: Case, frame: Frame, guess: Guess) -> Case | None:
+    """Return the case with the whole picture traced at another size."""
+    camera = case.scene.camera
+    width, height = (max(1, round(guess.values[0] * n)) for n in (camera.width, camera.height))
+    r = camera.region
+    if (r.width, r.height) != (camera.width, camera.height):
+        return None  # a border's pixels would not fall on those of another size
+    camera = replace(camera, width=width, height=height, region=Region(0, 0, width, height))
+    return case.with_scenes(lambda scene: scene.seen_by(camera))
+
+
+def _resampled(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return a picture (h', w', 4) at the size of the evidence's, by nearest pixel or linearly."""
+    out: Array = colors
+    for axis, size in enumerate(evidence.open.shape):
+        have = colors.shape[axis]
+        place = (np.arange(size) + 0.5) * have / size - 0.5
+        if guess.values[1] == NEAREST:
+            out = out.take(np.clip(np.floor(place + 0.5), 0, have - 1).astype(int), axis=axis)
+            continue
+        if have > size and guess.values[1] == BOX:
+            edges = np.arange(size) * have // size
+            count = np.diff(np.append(edges, have))
+            shape = [1] * out.ndim
+            shape[axis] = -1
+            out = np.add.reduceat(out, edges, axis=axis) / count.reshape(shape)
+            continue
+        low = np.clip(np.floor(place), 0, have - 1).astype(int)
+        high = np.minimum(low + 1, have - 1)
+        shape = [1] * out.ndim
+        shape[axis] = -1
+        share = np.clip(place - low, 0, 1).reshape(shape)
+        out = (1 - share) * out.take(low, axis=axis) + share * out.take(high, axis=axis)
+    return out.astype(np.float32)
+
+
+def _sizes(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the sizes and ways that are tried."""
+    ways = {NEAREST: "the nearest pixel", LINEAR: "linearly", BOX: "the mean of pixels"}
+    return [
+        Guess((size, way), words=words)
+        for size in SIZES
+        for way, words in ways.items()
+        if way != BOX or size > 1
+    ]
+    yield
+
+
+def _jpeg(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return what a JPEG file makes of a picture (h, w, 4)."""
+    from PIL import Image
+
+    levels = np.rint(255 * encoded(colors)[::-1, :, :3]).astype(np.uint8)
+    file = io.BytesIO()
+    quality, sampling = (int(v) for v in guess.values)
+    Image.fromarray(levels).save(file, "JPEG", quality=quality, subsampling=sampling)
+    read = np.asarray(Image.open(file), np.float64)[::-1] / 255
+    return np.concatenate(
+        (curve_undone(read), np.ones_like(read[..., :1])), axis=-1, dtype=np.float32
+    )
+
+
+def _find_jpeg(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the quality whose errors are the nearest to the picture's, if it has 8 bits."""
+    if evidence.picture.levels not in (0, 255) or not find_spec("PIL"):
+        return []
+    shown = encoded(evidence.picture.color)[..., :3]
+    found: list[tuple[float, Guess]] = []
+    for sampling in (2, 0):  # 4:2:0, 4:4:4
+        for quality in QUALITIES:
+            guess = Guess((float(quality), float(sampling)))
+            made = encoded(_jpeg(evidence.frame.color, guess, evidence))[..., :3]
+            found.append((float(np.abs(made - shown).mean()), guess))
+            yield 0.0
+    plain = float(np.abs(encoded(evidence.frame.color)[..., :3] - shown).mean())
+    error, best = min(found, key=lambda pair: pair[0])
+    return [best] if error < plain / 2 else []
+
+
+def _as_jpeg(case: Case, frame: Frame, guess: Guess) -> Case:
+    """Allow for what two writers of a JPEG may differ by."""
+    picture = replace(case.picture, levels=255, dither=JPEG_LEVELS, opaque=True)
+    return replace(case, picture=picture)
+
+
+def _in_box(shape: tuple[int, ...], guess: Guess) -> Bools:
+    assert guess.box
+    left, bottom, right, top = guess.box
+    out = np.zeros(shape, bool)
+    out[bottom:top, left:right] = True
+    return out
+
+
+def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return a picture with a colour laid over it, wherever it is unexplained in the guess' box."""
+    opacity, *color = guess.values
+    where = _in_box(evidence.open.shape, guess) & evidence.open
+    out = colors.copy()
+    out[where, :3] = (1 - opacity) * colors[where, :3] + opacity * np.array(color)
+    out[where, 3] = (1 - opacity) * colors[where, 3] + opacity
+    return out
+
+
+def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
+    """Return one colour, laid over several surfaces, that makes all unexplained pixels of a box."""
+    yield 0.0
+    rows, columns = np.nonzero(evidence.open)
+    traced = evidence.frame.color[rows, columns].astype(np.float64)
+    shown = evidence.picture.color[rows, columns].astype(np.float64)
+    if len(_surfaces(evidence.frame.instance_index[rows, columns])) < LEAST_SURFACES:
+        return []
+    (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
+    box = (left, bottom, right, top)
+    blends = _blends(traced[:, :3], shown[:, :3])
+    return [replace(g, box=box) for g in blends if not _of_scene(evidence, g.values)]
+
+
+def _of_scene(evidence: Evidence, values: tuple[float, ...]) -> bool:
+    """Return whether what is laid over hides all, and has a colour that an object may have."""
+    opacity, *color = values
+    apart = np.abs(evidence.case.scene.color_table[:, :3] - color).max(axis=1)
+    return opacity > 1 - NEAR and bool((apart <= NEAR).any())
+
+
+def _surfaces(instance: Array) -> Array:
+    """Return the instances that make up a share of some pixels."""
+    found, count = np.unique(instance, return_counts=True)
+    return found[count >= LEAST_COVERED * count.sum()]
+
+
+def _blends(traced: Floats, shown: Floats) -> Iterable[Guess]:
+    """Yield opacity and colour of what may lie over traced colours (n, 3), so that n are shown."""
+    middle = traced - traced.mean(axis=0), shown - shown.mean(axis=0)
+    if not middle[0].any():
+        return
+    slope = float((middle[0] * middle[1]).sum() / (middle[0] ** 2).sum())
+    opacity = 1 - slope
+    if not 0.02 < opacity <= 1.02:
+        return
+    opacity = min(opacity, 1.0)
+    color = np.median(shown - (1 - opacity) * traced, axis=0) / opacity
+    values = (opacity, *color.tolist())
+    yield Guess(values, values, values)
+
+
+PIXEL_FAULTS = (
+    Fault(
+        "resampled",
+        "the picture is rendered at {size:.4g} of its size, and resampled by {words}",
+        "render it at the size at which it is compared",
+        _other_size,
+        _sizes,
+        ("size",),
+        effort=4,
+        after=_resampled,
+    ),
+    Fault(
+        "jpeg",
+        "the picture was stored as a JPEG of about quality {quality:.0f}",
+        "store it as PNG or EXR",
+        _as_jpeg,
+        _find_jpeg,
+        ("quality",),
+        put_right=_as_jpeg,
+        effort=4,
+        after=_jpeg,
+    ),
+    Fault(
+        "overlay",
+        "something is laid over the picture: opacity {opacity:.2f}, "
+        "colour ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
+        "switch off stamps, overlays, watermarks and cursors",
+        lambda case, frame, guess: case,
+        _find_overlay,
+        ("opacity", "red", "green", "blue"),
+        put_right=lambda case, frame, guess: case,
+        effort=4,
+        after=_laid_over,
+    ),
+)

@@ -1,0 +1,124 @@
+"""Tries a guess on the whole picture: traced with it, compared again with all the causes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..arrays import Bools
+from ..rendering import steps
+from ..scene import SceneError
+from ..tracer.frame import Frame
+from ..tracer.progress import Work, scaled
+from .bounds import differing, largest_within
+from .causes import explain
+from .evidence import Evidence
+from .faults.fault import Fault, Guess
+
+LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """What a guess makes of the whole picture."""
+
+    fault: Fault
+    guess: Guess
+    evidence: Evidence  # with the fault put right
+    settled: int  # pixels that were unexplained, and are not now
+    broken: int  # pixels that agreed or had a cause, and are unexplained now
+    stubborn: int  # unexplained pixels that it changes, and that stay unexplained
+    touched: int  # unexplained pixels of the regions in which it settles any
+
+    @property
+    def cost(self) -> int:
+        """How many numbers were fitted."""
+        return len(self.guess.low)
+
+    @property
+    def gain(self) -> int:
+        """How many more pixels are explained."""
+        return self.settled - self.broken
+
+    @property
+    def perfect(self) -> bool:
+        """Whether it settles all that is unexplained, and breaks nothing."""
+        return not self.broken and not still_open(self.evidence).any()
+
+    @property
+    def recall(self) -> float:
+        """The share of the unexplained pixels that it settles, in the regions that it touches."""
+        return self.settled / max(self.touched, 1)
+
+    @property
+    def precision(self) -> float:
+        """The share of the pixels that it changes for which it is right."""
+        return self.settled / max(self.settled + self.broken + self.stubborn, 1)
+
+
+def tried(
+    evidence: Evidence, fault: Fault, guess: Guess, of: Evidence | None = None
+) -> Work[Trial | None]:
+    """Try a guess on the whole picture; yields the share of the work done.
+
+    `of` is the evidence before other faults were put right, if there are any: what the trial counts
+    is of that. None if the guess cannot be tried.
+    """
+    before = of or evidence
+    case, frame = evidence.case, evidence.frame
+    try:
+        other = fault.tried(case, frame, guess)
+        if other is None:
+            return None
+        traced = frame
+        if other.scene is not case.scene:
+            traced = Frame.empty(other.scene)
+            yield from scaled(steps(other.scene, other.settings, traced, other.tracer), 0.0, 0.3)
+        if fault.after is not None:
+            color = fault.after(traced.color, guess, evidence)
+            traced = replace(frame, color=color.astype(np.float32))
+            other = replace(other, scene=case.scene, alternatives=case.alternatives)
+        if traced.shape != frame.shape:
+            return None
+    except SceneError:  # no such camera or scene can be
+        return None
+    explained = yield from scaled(explain(other, traced, LOOKED_AT), 0.3, 0.7)
+    after = replace(
+        evidence, case=explained.case, frame=explained.frame, causes=explained.causes, known={}
+    )
+    return Trial(fault, guess, after, *_counted(before, after))
+
+
+def _counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:
+    """Return how many pixels are settled, broken, stay wrong though changed, and are touched."""
+    open_ = still_open(after)
+    settled = before.open & ~open_ & ~after.causes.unjudged
+    stubborn = before.open & open_ & _changed(before, after)
+    counted = settled, open_ & before.judged, stubborn, _grown(settled, before.open)
+    settles, breaks, stays, touches = (int(some.sum()) for some in counted)
+    return settles, breaks, stays, touches
+
+
+def _grown(seed: Bools, within: Bools) -> Bools:
+    """Return the regions of a picture (h, w) that have a pixel of the seed."""
+    out = seed & within
+    while True:
+        more = (largest_within(out.astype(np.int8), 1) > 0) & within
+        if (more == out).all():
+            return out
+        out = more
+
+
+def still_open(evidence: Evidence) -> Bools:
+    """Return which pixels (h, w) are unexplained, or were not looked at for their number."""
+    out = evidence.open.copy()
+    out.flat[evidence.causes.passed_over] = True
+    return out
+
+
+def _changed(before: Evidence, after: Evidence) -> Bools:
+    """Return where other colours are traced, or the picture was changed."""
+    if before.case.picture.color is not after.case.picture.color:
+        return np.ones(before.open.shape, bool)
+    return differing(before.frame.color, after.frame.color)

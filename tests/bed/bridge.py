@@ -1,0 +1,111 @@
+"""From a scene's description to the comparison's Case: this side may use the add-on's code."""
+
+from __future__ import annotations
+
+import numpy as np
+from reference_tracer.compare.case import Case
+from reference_tracer.compare.picture import Picture, Source
+from reference_tracer.manifest import Manifest, ObjectEntry
+from reference_tracer.projections import ORTHOGRAPHIC, PERSPECTIVE
+from reference_tracer.scene import Camera, Instance, Mesh, Region, Scene, ViewWindow
+from reference_tracer.tracer.settings import Settings
+
+from .description import Description, Film, Item, Lens, Shape
+
+
+def window_of(lens: Lens, film: Film) -> ViewWindow:
+    """Return the view window, as the exporter has it of Blender's camera."""
+    width, height = film.size
+    tall = film.aspect_y / film.aspect_x
+    vertical = lens.fit == "VERTICAL" or (lens.fit == "AUTO" and width < tall * height)
+    fitted = tall * height if vertical else width
+    sensor = lens.sensor_height if lens.fit == "VERTICAL" else lens.sensor_width
+    pixel = (lens.ortho_scale if lens.parallel else sensor / lens.focal) / fitted
+    x, y = lens.shift_x * fitted * pixel, lens.shift_y * fitted * pixel
+    half_width, half_height = width * pixel / 2, tall * height * pixel / 2
+    return ViewWindow(x - half_width, x + half_width, y - half_height, y + half_height)
+
+
+def camera_of(lens: Lens, film: Film, matrix: np.ndarray, name: str = "Camera") -> Camera:
+    """Return the tracer's camera, without the scale of its object's matrix (4, 4)."""
+    matrix = matrix.copy()
+    matrix[:3, :3] /= np.linalg.norm(matrix[:3, :3], axis=0)
+    x0, x1, y0, y1 = film.cut
+    return Camera(
+        matrix,
+        window_of(lens, film),
+        *film.size,
+        projection=ORTHOGRAPHIC if lens.parallel else PERSPECTIVE,
+        clip_start=lens.clip_start,
+        clip_end=lens.clip_end,
+        region=Region(x0, y0, x1, y1),
+        name=name,
+    )
+
+
+def mesh_of(item: Item, shape: Shape) -> Mesh:
+    """Return an item's triangles in object space."""
+    return Mesh(shape.vertices, shape.triangles(), name=item.name)
+
+
+def scene_of(description: Description, frame: float | None = None) -> Scene:
+    """Return the whole scene at a frame, also what the camera does not see."""
+    frame = description.frame if frame is None else frame
+    shown = description.shown
+    camera = camera_of(description.lens, description.film, description.eye.world(frame))
+    return Scene(
+        camera,
+        tuple(mesh_of(item, item.shape) for item in shown),
+        tuple(Instance(n, n, item.world(frame), [item.color]) for n, item in enumerate(shown)),
+        background=premultiplied(description.background),
+        objects=tuple(item.name for item in shown),
+    )
+
+
+def premultiplied(color: tuple[float, ...]) -> np.ndarray:
+    """Return straight linear RGBA (4,) with its alpha multiplied in."""
+    *rgb, alpha = color
+    return np.array([*(c * alpha for c in rgb), alpha], np.float32)
+
+
+def manifest_of(description: Description, scene: Scene) -> Manifest:
+    """Return what was exported."""
+    entries = tuple(
+        ObjectEntry(
+            item.name,
+            "MESH",
+            not (item.hidden or item.other_layer),
+            "hidden in renders" if item.hidden else "in another layer" if item.other_layer else "",
+            instances=1,
+            hidden=item.hidden or item.other_layer,
+        )
+        for item in description.items
+    )
+    return Manifest(
+        f"{description.name}.blend",
+        "Scene",
+        "ViewLayer",
+        int(description.frame),
+        "RENDER",
+        scene.camera.name,
+        entries,
+        owners=scene.objects,
+    )
+
+
+def case_of(
+    description: Description, shown: np.ndarray, levels: int = 0, filter_radius: float = 0.0
+) -> Case:
+    """Return the case of a picture (h, w, 4) of linear RGBA, row 0 at the *top*, alpha multiplied.
+
+    Nothing is known of it but its pixels, as of any picture from outside Blender; `levels` are
+    those of its file, 255 for a PNG, and `filter_radius` is what its renderer says, in pixels.
+    """
+    scene = scene_of(description)
+    picture = Picture(
+        np.ascontiguousarray(shown[::-1], np.float32),
+        Source("picture", file=f"{description.name}.exr"),
+        levels=levels,
+        filter_radius=filter_radius,
+    )
+    return Case(scene, manifest_of(description, scene), Settings(), picture, curves=())

@@ -1,0 +1,115 @@
+"""Which names are right for a wrong picture: its own, and those of faults that are the same there.
+
+Two faults are the same in a scene if no picture could tell them apart: if both make the same one,
+or if the numbers of one, which a fit finds, make the other. Every name comes with this reason.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+
+from .description import Description
+from .faults import FAULTS
+from .making import Fault, Made, right
+from .renderer import Solid, Tracer
+
+# Pixels beside an edge in which Embree's float32 may tell the same picture apart.
+ROUNDED = 6
+LEAST = 20  # pixels of a second colour that a picture must have to say anything
+EXACT = 1e-9  # relative: sums of some float64 products
+
+
+def right_names(fault: Fault, scene: Description) -> dict[str, str]:
+    """Return every name that is right, and why."""
+    made = fault.make(scene, right(scene))
+    out = {fault.key: "it is this fault"}
+    if made is None:
+        return out
+    for key, reason in (*_of_camera(scene, made), *_of_solids(scene, made)):
+        out.setdefault(key, reason)
+    own = picture_of(fault, scene)
+    for other in FAULTS:
+        if other.key not in out and scene.number in other.only and _slow(other) == _slow(fault):
+            shown = picture_of(other, scene)
+            if shown is not None and same(own, shown):
+                out[other.key] = f"the same picture: {other.name}"
+    return out
+
+
+def _slow(fault: Fault) -> bool:
+    """Return whether a picture is filtered: no other fault makes the same."""
+    return fault.key == "filter_radius"
+
+
+@cache
+def picture_of(fault: Fault, scene: Description) -> np.ndarray | None:
+    """Return the wrong picture, (h, w, 4)."""
+    made = fault.make(scene, right(scene))
+    return None if made is None else made.stored()
+
+
+def same(first: np.ndarray, second: np.ndarray) -> bool:
+    """Return whether two pictures are the same but for pixels that an edge passes."""
+    return int((np.abs(first - second).max(axis=-1) > 1e-5).sum()) <= ROUNDED
+
+
+def says_nothing(picture: np.ndarray) -> bool:
+    """Return whether a picture has one colour: nothing of the fault could be seen in it."""
+    flat = np.ascontiguousarray(picture).reshape(-1, 4)
+    _, count = np.unique(flat, axis=0, return_counts=True)
+    return int(flat.shape[0] - count.max()) < LEAST
+
+
+def _of_camera(scene: Description, made: Made) -> list[tuple[str, str]]:
+    """Return what a fit in numbers finds of a camera, if nothing else is changed."""
+    own, other = right(scene).camera, made.camera
+    if made.after or made.draw or own.parallel != other.parallel or own.near != other.near:
+        return []
+    turn = other.r @ np.linalg.inv(own.r)
+    close = {"rtol": EXACT, "atol": EXACT}
+    if np.allclose(turn, np.eye(3), **close) and np.allclose(own.t, other.t, **close):
+        film = other.k @ np.linalg.inv(own.k)  # what is done to film positions
+        x, y = film[:2, 2]
+        if np.allclose(film[:2, :2], np.eye(2), **close) and np.hypot(x, y) > 1e-6:
+            return [("pixel_offset", f"the content moved by ({x:+.4g}, {y:+.4g}) px")]
+        ratio = film[0, 0]
+        middle = own.k[:2, 2]
+        stays = np.allclose(film[:2, :2], ratio * np.eye(2), **close)
+        stays = stays and np.allclose(film[:2, :2] @ middle + film[:2, 2], middle, atol=1e-6)
+        if stays and ratio > 0 and abs(ratio - 1) > EXACT:
+            key = "ortho_scale" if own.parallel else "focal_length"
+            return [(key, f"the film magnified by {ratio:.6g} around the principal point")]
+    turned = np.allclose(turn[2], (0, 0, 1), **close) and np.allclose(turn @ turn.T, np.eye(3))
+    if turned and np.linalg.det(turn) > 0 and np.allclose(turn @ own.t, other.t):
+        angle = np.degrees(np.arctan2(turn[1, 0], turn[0, 0]))
+        if np.array_equal(own.k, other.k) and abs(angle) > 1e-6:
+            return [("roll", f"turned by {angle:+.4g} degrees about the view axis")]
+    return []
+
+
+def _of_solids(scene: Description, made: Made) -> list[tuple[str, str]]:
+    """Return what a fit finds of the one object that is changed."""
+    before, after = ({s.name: s for s in m.solids} for m in (right(scene), made))
+    if before.keys() != after.keys() or len(made.solids) != len(before):
+        return []
+    found = [n for n in before if not _alike(before[n], after[n])]
+    if len(found) != 1:
+        return []
+    name = found[0]
+    own, other = before[name], after[name]
+    index = [s.name for s in made.solids].index(name)
+    if not (Tracer(made.camera, made.solids).owners() == index).any():
+        return [("object_missing", f"nothing is seen of '{name}'")]
+    if np.array_equal(own.triangles, other.triangles):
+        by = other.vertices - own.vertices
+        if np.allclose(by, by[0], atol=1e-9):
+            return [("object_moved", f"'{name}' moved by {np.round(by[0], 6).tolist()} m")]
+    return []
+
+
+def _alike(first: Solid, second: Solid) -> bool:
+    return np.array_equal(first.vertices, second.vertices) and np.array_equal(
+        first.triangles, second.triangles
+    )

@@ -1,0 +1,191 @@
+"""Faults of the picture, each by its own formula in linear premultiplied RGBA."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from PIL import Image
+
+from .description import Description
+from .making import (
+    LEVELS,
+    Change,
+    Fault,
+    Made,
+    afterwards,
+    decoded,
+    encoded,
+    once,
+    through_file,
+)
+
+BOX = 0.75  # pixels: a box filter reaches a pixel's corner, 0.707 from its centre
+Colors = Callable[[np.ndarray], np.ndarray]
+
+
+def of_straight(change: Colors) -> Colors:
+    """Return what changes straight RGB."""
+
+    def changed(picture: np.ndarray) -> np.ndarray:
+        alpha = picture[..., 3:]
+        straight = picture[..., :3] / np.where(alpha > 0, alpha, 1)
+        return np.concatenate((change(straight) * alpha, alpha), axis=-1)
+
+    return changed
+
+
+def colors(key: str, label: str, change: Colors, **numbers: float) -> Fault:
+    """Return a fault that changes straight RGB."""
+    return Fault(key, label, afterwards(of_straight(change)), numbers)
+
+
+def _divided(picture: np.ndarray) -> np.ndarray:
+    """Return the picture with its alpha divided out, told as if it were multiplied in."""
+    return np.concatenate((picture[..., :3] / picture[..., 3:], picture[..., 3:]), axis=-1)
+
+
+def _again(picture: np.ndarray) -> np.ndarray:
+    """Return the picture with its alpha multiplied in once more."""
+    return np.concatenate((picture[..., :3] * picture[..., 3:], picture[..., 3:]), axis=-1)
+
+
+def smooth(change: Colors) -> Change:
+    """Return what changes a picture of 8 x 8 samples a pixel, and says so.
+
+    Of one sample a pixel alpha is 1, but for the background: a picture may have its own.
+    """
+
+    def make(_: Description, made: Made) -> Made:
+        draw = partial(once, samples=8)
+        return replace(made, draw=draw, after=change, filter_radius=BOX)
+
+    return make
+
+
+def in_file(key: str, label: str, change: Colors, **numbers: float) -> Fault:
+    """Return a fault of what is stored in eight bits; a picture with alpha keeps that apart."""
+
+    def make(_: Description, made: Made) -> Made:
+        return replace(made, after=change, levels=LEVELS)
+
+    return Fault(key, label, make, numbers)
+
+
+def jpeg(quality: int) -> Fault:
+    """Return the picture after a JPEG, without its alpha."""
+
+    def change(picture: np.ndarray) -> np.ndarray:
+        straight = picture[..., :3] / np.maximum(picture[..., 3:], 1e-9)
+        coded = np.rint(LEVELS * encoded(straight)).astype(np.uint8)
+        held = io.BytesIO()
+        Image.fromarray(coded).save(held, "JPEG", quality=quality)
+        read = decoded(np.asarray(Image.open(held), np.float64) / LEVELS)
+        return np.concatenate((read * picture[..., 3:], picture[..., 3:]), axis=-1)
+
+    return in_file("jpeg", f"quality {quality}", change, quality=quality)
+
+
+def resized(picture: np.ndarray, width: int, height: int, nearest: bool) -> np.ndarray:
+    """Return a picture (h, w, 4) at another size, each pixel's centre kept in its place."""
+    rows, columns = picture.shape[:2]
+    v = (np.arange(height) + 0.5) * rows / height - 0.5
+    u = (np.arange(width) + 0.5) * columns / width - 0.5
+    if nearest:
+        v = np.clip(np.rint(v), 0, rows - 1).astype(int)
+        u = np.clip(np.rint(u), 0, columns - 1).astype(int)
+        return picture[v][:, u]
+    for axis, at, count in ((0, v, rows), (1, u, columns)):
+        at = np.clip(at, 0, count - 1)
+        low = np.minimum(np.floor(at).astype(int), count - 2)
+        share = np.expand_dims(at - low, (1, 2) if axis == 0 else (0, 2))
+        first, second = (np.take(picture, low + n, axis=axis) for n in (0, 1))
+        picture = first * (1 - share) + second * share
+    return picture
+
+
+def resampled(ratio: float, nearest: bool) -> Fault:
+    """Return a picture rendered at another size, then brought to this one."""
+
+    def draw(made: Made) -> np.ndarray:
+        own = made.camera
+        width, height = round(own.width * ratio), round(own.height * ratio)
+        k = np.diag((width / own.width, height / own.height, 1.0)) @ own.k
+        other = replace(own, k=k, width=width, height=height)
+        small = once(replace(made, camera=other))
+        return resized(small, own.width, own.height, nearest)
+
+    label = f"from {ratio:g} times the size, {'nearest' if nearest else 'bilinear'}"
+    return Fault("resampled", label, lambda _, m: replace(m, draw=draw), {"ratio": ratio})
+
+
+def filtered(radius: float, gauss: bool = False) -> Fault:
+    """Return a picture of many samples a pixel, by a filter that reaches `radius` pixels."""
+    n = 8  # samples a pixel, each way
+
+    def draw(made: Made) -> np.ndarray:
+        own = made.camera
+        edge = int(np.ceil(radius))
+        k = np.diag((n, n, 1.0)) @ np.array([[1.0, 0, edge], [0, 1, edge], [0, 0, 1]]) @ own.k
+        size = {"width": (own.width + 2 * edge) * n, "height": (own.height + 2 * edge) * n}
+        picture = once(replace(made, camera=replace(own, k=k, **size)))
+        for axis, count in ((0, own.height), (1, own.width)):
+            picture = _mixed(picture, axis, count, edge)
+        return picture
+
+    def _mixed(picture: np.ndarray, axis: int, count: int, edge: int) -> np.ndarray:
+        steps = np.arange(-edge * n, (edge + 1) * n)
+        away = (steps + 0.5) / n - 0.5  # of a sample from the pixel's centre, in pixels
+        weight = np.exp(-2 * (away / radius * 1.5) ** 2) if gauss else np.ones(len(away))
+        weight = np.where(np.abs(away) < radius, weight, 0.0)
+        first = np.arange(count) * n
+        parts = (
+            w * np.take(picture, first + k, axis=axis)
+            for k, w in enumerate(weight / weight.sum())
+            if w
+        )
+        return sum(parts)
+
+    label = f"{'gauss' if gauss else 'box'}, {radius:g} px"
+    return Fault("filter_radius", label, lambda _, m: replace(m, draw=draw), {"radius": radius})
+
+
+def _stamp(picture: np.ndarray) -> np.ndarray:
+    """Return the picture with a half-transparent box of stripes in its lower left corner."""
+    out = picture.copy()
+    height, width = out.shape[0] // 9, out.shape[1] // 4
+    box = out[-height - 6 : -6, 6 : 6 + width]
+    stripes = (np.arange(width) % 6 < 2) & (np.arange(height)[:, None] % 9 > 2)
+    ink = np.where(stripes[..., None], 0.95, 0.02)
+    box[..., :3] = 0.4 * box[..., :3] + 0.6 * ink * box[..., 3:]
+    return out
+
+
+PICTURE_FAULTS = (
+    Fault("rows", "from the top", afterwards(np.flipud)),
+    colors("exposure", "+0.6 stops", lambda c: c * 2**0.6, stops=0.6),
+    colors("exposure", "-0.15 stops", lambda c: c * 2**-0.15, stops=-0.15),
+    colors("gamma", "1.6", lambda c: c ** (1 / 1.6), gamma=1.6),
+    colors("gamma", "0.9", lambda c: c ** (1 / 0.9), gamma=0.9),
+    colors("channels", "blue and red swapped", lambda c: c[..., ::-1]),
+    Fault("premultiplied", "alpha divided out", smooth(_divided), only=(2,)),
+    Fault("premultiplied", "alpha multiplied in twice", smooth(_again), only=(2,)),
+    colors("srgb_for_linear", "the curve applied once more", encoded),
+    colors("srgb_for_linear", "the curve left out", decoded),
+    in_file("rounding_level", "cut off", lambda p: through_file(p, np.floor)),
+    in_file(
+        "rounding_level", "one level more", lambda p: through_file(p, lambda v: np.rint(v) + 1)
+    ),
+    jpeg(92),
+    jpeg(75),
+    resampled(0.5, nearest=True),
+    resampled(0.5, nearest=False),
+    resampled(0.9, nearest=False),
+    resampled(2.0, nearest=True),
+    filtered(0.5),
+    filtered(1.5, gauss=True),
+    Fault("overlay", "a box of stripes", afterwards(_stamp)),
+)

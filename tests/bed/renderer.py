@@ -1,0 +1,111 @@
+"""A small renderer of flat colours that shares nothing with the tracer: embreex, and K, R, t.
+
+The conventions are those of computer vision, not Blender's: camera space has x to the right, y
+*down* and z forward, x_camera = R x_world + t; film positions (u, v) are in pixels from the upper
+left corner of the picture, so that pixel (column, row) has its centre at (column + 0.5, row + 0.5)
+and row 0 is the *top* row. A pinhole sees x_camera at K x_camera, divided by its last component; a
+parallel camera at K (x, y, 1).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+
+
+@dataclass(frozen=True, eq=False)
+class Camera:
+    """Where a point appears in the picture: K [R | t]."""
+
+    k: np.ndarray  # (3, 3): pixels from camera space; last row (0, 0, 1)
+    r: np.ndarray  # (3, 3): camera space from world; axes may be scaled, sheared or mirrored
+    t: np.ndarray  # (3,)
+    width: int
+    height: int
+    parallel: bool = False
+    near: float = 0.0  # depths z in camera space, metres
+    far: float = np.inf
+
+    @property
+    def center(self) -> np.ndarray:
+        """Where the camera is, (3,) in world space."""
+        return -np.linalg.solve(self.r, self.t)
+
+    def rays(self, u: np.ndarray, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return origins relative to the centre, and directions one unit deep, (n, 3) each."""
+        film = np.stack((u, v, np.ones(len(u)))) if len(u) else np.ones((3, 0))
+        x = np.linalg.solve(self.k, film)
+        if not self.parallel:
+            directions = np.linalg.solve(self.r, x).T
+            return self.near * directions, directions
+        forward = np.broadcast_to(np.linalg.solve(self.r, [0.0, 0.0, 1.0]), (len(u), 3))
+        beside = np.linalg.solve(self.r, np.stack((x[0], x[1], np.zeros(len(u))))).T
+        return beside + self.near * forward, forward
+
+    def project(self, points: np.ndarray) -> np.ndarray:
+        """Return where world points (n, 3) appear, and their depths: (n, 3) of u, v, z."""
+        x = points @ self.r.T + self.t
+        plane = x.copy() if not self.parallel else np.column_stack((x[:, :2], np.ones(len(x))))
+        with np.errstate(all="ignore"):
+            film = plane @ self.k.T
+            return np.column_stack((film[:, :2] / film[:, 2:], x[:, 2]))
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """Triangles of one colour in world space."""
+
+    name: str
+    vertices: np.ndarray  # (v, 3) float64, metres
+    triangles: np.ndarray  # (n, 3) indices
+    color: tuple[float, float, float, float]  # linear RGBA
+
+
+def render(
+    camera: Camera, solids: Sequence[Solid], background: Sequence[float], samples: int = 1
+) -> np.ndarray:
+    """Return the picture, (height, width, 4) float32, row 0 at the top: the mean of n x n samples.
+
+    Each pixel shows the colour of the nearest surface between `near` and `far`.
+    """
+    seen = Tracer(camera, solids)
+    colors = np.array([*(s.color for s in solids), background], np.float32)
+    places = (np.arange(samples) + 0.5) / samples
+    total = np.zeros((camera.height, camera.width, 4))
+    for dy in places:
+        for dx in places:
+            total += colors[seen.owners(dx, dy)]
+    return (total / samples**2).astype(np.float32)
+
+
+class Tracer:
+    """Solids before a camera, in a tree of Embree's. The camera's centre is its origin."""
+
+    def __init__(self, camera: Camera, solids: Sequence[Solid]) -> None:
+        self._camera = camera
+        # What is subtracted in float64 first loses nothing far from the world's origin.
+        corners = [(s.vertices - camera.center)[s.triangles].reshape(-1, 3) for s in solids]
+        of_each = [np.full(len(s.triangles), n) for n, s in enumerate(solids)]
+        self._owner = np.append(np.concatenate([*of_each, np.zeros(0, int)]), -1).astype(int)
+        self._scene = None
+        if len(self._owner) > 1:
+            vertices = np.concatenate(corners).astype(np.float32)
+            self._scene = EmbreeScene()
+            TriangleMesh(
+                self._scene, vertices, np.arange(len(vertices), dtype=np.int32).reshape(-1, 3)
+            )
+
+    def owners(self, dx: float = 0.5, dy: float = 0.5) -> np.ndarray:
+        """Return which solid each pixel sees at (dx, dy) from its upper left corner; -1: none."""
+        c = self._camera
+        v, u = (n.ravel() for n in np.mgrid[: c.height, : c.width])
+        triangle = np.full(len(u), -1)
+        if self._scene is not None:
+            origins, directions = (a.astype(np.float32) for a in c.rays(u + dx, v + dy))
+            reach = np.full(len(u), min(c.far - c.near, 1e30), np.float32)
+            triangle = self._scene.run(origins, directions.copy(), reach)
+        return self._owner[triangle].reshape(c.height, c.width)

@@ -1,0 +1,212 @@
+"""Faults of the scene, each by its own formula in world-space vertices and triangles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from .description import Description, Item, Shape
+from .making import Change, Fault, Made
+from .renderer import Solid
+from .setup import placed, solid_of
+
+# Which object a fault is made with, by the scene's number: in the foreground, then a smaller one.
+FIRST = {1: "Cube", 2: "Cube", 3: "Cube", 4: "Ball", 5: "Pebble", 6: "Thing14"}
+SECOND = {1: "Ring", 2: "Post", 3: "Ring", 4: "Roller", 5: "Leaf", 6: "Near"}
+RINGS = {1: "Ring", 2: "Ring", 3: "Ring", 4: "Roller", 5: "Leaf"}
+FLOORS = dict.fromkeys((1, 3, 4, 5, 6), "Floor")
+
+
+def exchanged(made: Made, name: str, *others: Solid) -> Made:
+    """Return others in place of a solid; none: it is missing."""
+    out = []
+    for solid in made.solids:
+        out += others if solid.name == name else (solid,)
+    return replace(made, solids=tuple(out))
+
+
+def changed(of: dict[int, str], change: Callable[[Description, Item, Solid], Solid]) -> Change:
+    """Return what changes one solid."""
+
+    def make(scene: Description, made: Made) -> Made | None:
+        name = of.get(scene.number)
+        own = next((s for s in made.solids if s.name == name), None)
+        if own is None:
+            return None
+        return exchanged(made, own.name, change(scene, scene.item(own.name), own))
+
+    return make
+
+
+def missing(of: dict[int, str]) -> Change:
+    """Return what drops one solid."""
+    return lambda scene, made: exchanged(made, of[scene.number])
+
+
+def twice(of: dict[int, str], *by: float) -> Fault:
+    """Return an object that is there again, somewhere else."""
+
+    def make(scene: Description, made: Made) -> Made:
+        own = next(s for s in made.solids if s.name == of[scene.number])
+        again = replace(own, vertices=own.vertices + np.array(by))
+        return exchanged(made, own.name, own, again)
+
+    label = f"{'first' if of is FIRST else 'second'} by {', '.join(map(str, by))} m"
+    return Fault("object_twice", label, make, {"by": by})
+
+
+def moved(of: dict[int, str], *by: float) -> Fault:
+    """Return an object at another place."""
+    change = changed(of, lambda _, __, s: replace(s, vertices=s.vertices + np.array(by)))
+    label = f"{'first' if of is FIRST else 'second'} by {', '.join(map(str, by))} m"
+    return Fault("object_moved", label, change, {"by": by})
+
+
+def scaled(of: dict[int, str], factor: float) -> Fault:
+    """Return an object of another size, from its own origin."""
+
+    def change(scene: Description, item: Item, own: Solid) -> Solid:
+        origin = item.world(scene.frame)[:3, 3]
+        return replace(own, vertices=origin + factor * (own.vertices - origin))
+
+    return Fault("object_scaled", f"by {factor:g}", changed(of, change), {"factor": factor})
+
+
+def units(factor: float) -> Fault:
+    """Return everything in other units, but for the camera."""
+
+    def make(_: Description, made: Made) -> Made:
+        out = tuple(replace(s, vertices=factor * s.vertices) for s in made.solids)
+        return replace(made, solids=out)
+
+    return Fault("object_scaled", f"all by {factor:g}", make, {"factor": factor})
+
+
+def reshaped(name: str, shape: Callable[[Item], Shape | None]) -> Change:
+    """Return an object in another of its shapes."""
+
+    def change(scene: Description, item: Item, _: Solid) -> Solid:
+        return solid_of(item, scene.frame, shape(item))
+
+    return changed(dict.fromkeys(range(1, 7), name), change)
+
+
+def _no_instancer(scene: Description, made: Made) -> Made:
+    """Return instanced objects where they are in their own collection."""
+    for item in scene.shown:
+        if item.pose.instancer is not None:
+            at = item.pose.basis(scene.frame)
+            own = replace(solid_of(item, scene.frame), vertices=placed(item.shape.vertices, at))
+            made = exchanged(made, item.name, own)
+    return made
+
+
+def _no_parent_inverse(scene: Description, item: Item, own: Solid) -> Solid:
+    at = item.pose.parent @ item.pose.basis(scene.frame)
+    return replace(own, vertices=placed(item.shape.vertices, at))
+
+
+def without(of: dict[int, str], half: bool) -> Change:
+    """Return an object without half its triangles, drawn by lot, or without the first of them."""
+
+    def change(_: Description, __: Item, own: Solid) -> Solid:
+        lot = np.random.default_rng(7).random(len(own.triangles)) < 0.5
+        left = lot if half else np.arange(len(lot)) > 0
+        return replace(own, triangles=own.triangles[left])
+
+    return changed(of, change)
+
+
+def _other_diagonal(scene: Description, made: Made) -> Made:
+    """Return all quads, cut the other way."""
+    for item in scene.shown:
+        own = replace(solid_of(item, scene.frame), triangles=item.shape.triangles(True))
+        made = exchanged(made, item.name, own)
+    return made
+
+
+def displaced(by: float) -> Fault:
+    """Return an object with its vertices moved along their smooth normals."""
+
+    def change(_: Description, __: Item, own: Solid) -> Solid:
+        return replace(own, vertices=own.vertices + by * smooth_normals(own))
+
+    return Fault("smooth_displaced", f"{by:+g} m", changed(RINGS, change), {"by": by}, (1, 2, 3, 4))
+
+
+def smooth_normals(solid: Solid) -> np.ndarray:
+    """Return unit normals at the vertices: those of triangles, weighted by their angle there."""
+    corners = solid.vertices[solid.triangles]
+    total = np.zeros_like(solid.vertices)
+    for k in range(3):
+        a, b = corners[:, k - 2] - corners[:, k], corners[:, k - 1] - corners[:, k]
+        normal = np.cross(a, b)
+        length = np.linalg.norm(normal, axis=1, keepdims=True)
+        angle = np.arctan2(length[:, 0], (a * b).sum(axis=1))[:, None]
+        np.add.at(total, solid.triangles[:, k], angle * normal / length)
+    return total / np.linalg.norm(total, axis=1, keepdims=True)
+
+
+def _shown(name: str) -> Change:
+    """Return the scene with an object that a render does not show."""
+
+    def make(scene: Description, made: Made) -> Made:
+        return replace(made, solids=(*made.solids, solid_of(scene.item(name), scene.frame)))
+
+    return make
+
+
+def _culled(_: Description, made: Made) -> Made:
+    """Return only triangles that turn their front to the camera."""
+    out, camera = [], made.camera
+    forward = np.linalg.solve(camera.r, [0.0, 0.0, 1.0])
+    for solid in made.solids:
+        p = solid.vertices[solid.triangles]
+        normal = np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])
+        to = forward if camera.parallel else p[:, 0] - camera.center
+        out.append(replace(solid, triangles=solid.triangles[(normal * to).sum(axis=1) < 0]))
+    return replace(made, solids=tuple(out))
+
+
+def level(name: str, by: int) -> Fault:
+    """Return an object subdivided more or less."""
+    change = reshaped(name, lambda item: item.levels[item.level + by])
+    return Fault("subdivision", f"{name} {by:+d}", change, {"levels": by}, (5,))
+
+
+SCENE_FAULTS = (
+    Fault("object_missing", "first", missing(FIRST)),
+    Fault("object_missing", "second", missing(SECOND)),
+    twice(FIRST, 0.9, 1.1, 0.4),
+    twice(SECOND, -0.9, 0.2, 1.2),
+    Fault("rest_pose", "", reshaped("Mast", lambda item: item.rest), only=(4,)),
+    moved(FIRST, 0.03, -0.02, 0.01),
+    moved(FIRST, 0.4, -0.3, 0.2),
+    moved(SECOND, 0.0, 0.0, 0.15),
+    scaled(FIRST, 1.15),
+    scaled(FIRST, 0.01),
+    scaled(FIRST, 100.0),
+    units(0.01),
+    units(100.0),
+    Fault("instance_transform", "", _no_instancer, only=(5,)),
+    Fault("parent_inverse", "", changed({4: "Child"}, _no_parent_inverse), only=(4,)),
+    Fault("viewport_modifiers", "", reshaped("Tower", lambda i: i.viewport), only=(5,)),
+    Fault("no_modifiers", "", reshaped("Tower", lambda i: i.plain), only=(5,)),
+    level("Cage", -1),
+    level("Cage", 1),
+    level("Cage", -3),
+    level("Pebble", -1),
+    Fault("triangles_missing", "half of the first", without(FIRST, True)),
+    Fault("triangles_missing", "one of the floor", without(FLOORS, False), only=(1, 3, 4, 5, 6)),
+    Fault("other_diagonal", "", _other_diagonal, only=(5,)),
+    displaced(0.06),
+    displaced(-0.1),
+    Fault("hidden_shown", "Ghost", _shown("Ghost"), only=(5,)),
+    Fault("hidden_shown", "Secret", _shown("Secret"), only=(5,)),
+    Fault("hidden_shown", "Thing8", _shown("Thing8"), only=(6,)),
+    Fault("culled", "", _culled, only=(1, 3)),
+    Fault("other_layer", "Elsewhere", _shown("Elsewhere"), only=(5,)),
+    Fault("other_layer", "Thing4", _shown("Thing4"), only=(6,)),
+)

@@ -1,0 +1,276 @@
+"""The test bed itself: its renderer, its scenes, what its faults leave, its damage, its names."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations, pairwise
+
+import numpy as np
+import pytest
+from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.rendering import render as trace
+from reference_tracer.tracer.progress import result_of
+
+from . import damage, shapes
+from .bridge import case_of, scene_of, window_of
+from .faults import FAULTS
+from .making import Fault, right
+from .names import picture_of, right_names, same, says_nothing
+from .renderer import Camera, Solid, render
+from .scenes import scenes
+from .setup import FLIP, camera_through, intrinsics
+from .variants import variants_of
+
+EVERY = pytest.mark.parametrize("scene", scenes(), ids=lambda s: s.name)
+BLACK = (0.0, 0.0, 0.0, 0.0)
+RED = (1.0, 0.0, 0.0, 1.0)
+
+
+def of(key: str, label: str = "") -> Fault:
+    """Return the first fault of a key, and of a label that begins so."""
+    return next(f for f in FAULTS if f.key == key and f.label.startswith(label))
+
+
+def compared(scene, made):
+    case = case_of(scene, made.stored(), made.levels, made.filter_radius)
+    return result_of(trace_and_compare(case))
+
+
+# ---- the renderer, by closed forms
+
+
+def square(x0, x1, y0, y1, z) -> Solid:
+    corners = np.array([[x0, y0, z], [x1, y0, z], [x1, y1, z], [x0, y1, z]], float)
+    return Solid("Square", corners, np.array([[0, 1, 2], [0, 2, 3]]), RED)
+
+
+def red(camera, *solids) -> np.ndarray:
+    return render(camera, solids, BLACK)[..., 0] == 1
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+def test_a_square_covers_the_pixels_that_k_says(parallel):
+    """With R = 1 and t = 0 it is seen at f x / z + c, f y / z + c; parallel, at f x + c."""
+    k = np.array([[20.0, 0, 7.3], [0, 30.0, 5.1], [0, 0, 1]])
+    camera = Camera(k, np.eye(3), np.zeros(3), 40, 30, parallel)
+    z = 1.0 if parallel else 4.0
+    shown = red(camera, square(-0.9 * z, 1.2 * z, 0.1 * z, 0.7 * z, z))
+    u, v = np.meshgrid(np.arange(40) + 0.5, np.arange(30) + 0.5)
+    inside = (u > 20 * -0.9 + 7.3) & (u < 20 * 1.2 + 7.3)
+    inside &= (v > 30 * 0.1 + 5.1) & (v < 30 * 0.7 + 5.1)
+    assert np.array_equal(shown, inside) and inside.any()
+
+
+def test_the_nearer_square_is_seen_between_near_and_far():
+    camera = Camera(np.diag((10.0, 10, 1)), np.eye(3), np.zeros(3), 8, 8)
+    far = replace(square(-9, 9, -9, 9, 5), color=(0.0, 1.0, 0.0, 1.0))
+    both = far, square(-9, 9, -9, 9, 3)
+    assert red(camera, *both).all()
+    assert not red(replace(camera, near=3.5), *both).any()
+    assert (render(replace(camera, near=3.5), both, BLACK)[..., 1] == 1).all()
+    assert not render(replace(camera, near=3.5, far=4.5), both, BLACK).any()
+
+
+@EVERY
+def test_rays_pass_where_points_are_projected(scene):
+    camera = right(scene).camera
+    rng = np.random.default_rng(0)
+    u, v = rng.uniform(0, camera.width, 50), rng.uniform(0, camera.height, 50)
+    origins, directions = camera.rays(u, v)
+    points = camera.center + origins + rng.uniform(1, 20, (50, 1)) * directions
+    assert np.allclose(camera.project(points)[:, :2], np.stack((u, v), 1), atol=1e-8)
+
+
+# ---- both sides are built from one description
+
+
+@EVERY
+def test_k_has_the_edges_of_the_view_window(scene):
+    """Two formulas, one in pixels from above, one in lengths from below."""
+    w, k = window_of(scene.lens, scene.film), intrinsics(scene.lens, scene.film)
+    corners = np.array([[w.left, -w.top, 1], [w.right, -w.bottom, 1]]).T
+    width, height = scene.film.size
+    assert np.allclose((k @ corners)[:2].T, [[0, 0], [width, height]], atol=1e-9)
+
+
+@pytest.mark.blender
+@EVERY
+def test_the_view_window_is_blenders(scene):
+    import bpy
+    from reference_tracer.blender.reading.camera import window_of as blenders
+
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    own, lens, film = bpy.context.scene, scene.lens, scene.film
+    data = bpy.data.cameras.new("Camera")
+    own.camera = bpy.data.objects.new("Camera", data)
+    data.type = "ORTHO" if lens.parallel else "PERSP"
+    data.lens, data.ortho_scale, data.sensor_fit = lens.focal, lens.ortho_scale, lens.fit
+    data.sensor_width, data.sensor_height = lens.sensor_width, lens.sensor_height
+    data.shift_x, data.shift_y = lens.shift_x, lens.shift_y
+    own.render.resolution_x, own.render.resolution_y = film.resolution_x, film.resolution_y
+    own.render.resolution_percentage = film.percentage
+    own.render.pixel_aspect_x, own.render.pixel_aspect_y = film.aspect_x, film.aspect_y
+    found = [*vars(blenders(own)).values()]
+    assert np.allclose(found, [*vars(window_of(lens, film)).values()], rtol=1e-6)
+
+
+@EVERY
+def test_the_right_picture_agrees_everywhere(scene):
+    found = compared(scene, right(scene))
+    assert found.pixels["agree"] == found.pixels["total"]
+
+
+@EVERY
+def test_colours_tell_objects_apart(scene):
+    """By more than ten levels in linear colours of eight bits."""
+    colors = np.array([*(i.color for i in scene.items), scene.background])[:, :3]
+    assert min(np.abs(a - b).max() for a, b in combinations(colors, 2)) > 1 / 256
+
+
+def test_subdivision_keeps_a_closed_surface_and_comes_to_rest():
+    """Euler's formula holds, and each level moves the corners less than the one before."""
+    every = shapes.levels(shapes.box(), 4)
+    moved = []
+    for coarse, fine in pairwise(every):
+        assert len(fine.faces) == 4 * len(coarse.faces)
+        assert len(fine.vertices) == len(fine.faces) + 2
+        count = len(coarse.vertices)
+        moved.append(np.abs(fine.vertices[:count] - coarse.vertices).max())
+    assert moved[0] > 2 * moved[1] > 4 * moved[2] > 0
+    # Of a cube, (F + 2 E + (3 - 3) P) / 3 with F = P / 3 and E = 2 P / 3 is 5/9 P.
+    assert np.allclose(every[1].vertices[:8], 5 / 9 * every[0].vertices, atol=1e-6)
+
+
+# ---- faults
+
+
+def where(fault: Fault):
+    """Return the scenes in which a fault can be seen."""
+    for scene in scenes():
+        if scene.number in fault.only:
+            picture = picture_of(fault, scene)
+            if not (same(picture, right(scene).picture()) or says_nothing(picture)):
+                yield scene
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(len(FAULTS)), ids=[f.name for f in FAULTS])
+def test_a_fault_is_seen(number):
+    """It leaves unexplained pixels, or the comparison names a transform of the colours."""
+    fault = FAULTS[number]
+    every = list(where(fault))
+    scene = every[number % len(every)]
+    found = compared(scene, fault.make(scene, right(scene)))
+    assert found.pixels["unexplained"] or found.causes.transform
+
+
+def test_every_fault_of_the_issue_is_there():
+    assert len({f.name for f in FAULTS}) == len(FAULTS)
+    assert len({f.key for f in FAULTS}) == 53
+
+
+# ---- variants
+
+
+@pytest.mark.slow
+@EVERY
+def test_a_variant_is_what_its_fault_makes(scene):
+    """Two ways to the same wrong picture: from the description by export, and by formula."""
+    variants = variants_of(scene)
+    frames = {key: [] for key, *_ in variants}
+    for key, _, _, other in variants:
+        frames[key].append(trace(other).color[::-1])
+    found = [f for f in FAULTS if f.key in frames and scene.number in f.only]
+    assert found
+    for fault in found:
+        own = picture_of(fault, scene)
+        if fault.label == "the same length on the other side":  # not what Blender has
+            continue
+        assert any(same(own, frame) for frame in frames[fault.key]), fault.name
+
+
+@EVERY
+def test_most_variants_are_wrong_for_any_picture(scene):
+    base = trace(scene_of(scene)).color[::-1]
+    others = [trace(s).color[::-1] for *_, s in variants_of(scene)]
+    differ = [o for o in others if o.shape == base.shape and not same(o, base)]
+    assert len(differ) >= len(others) / 2
+
+
+# ---- names that are the same fault
+
+
+def names(key: str, number: int, label: str = "") -> set[str]:
+    return set(right_names(of(key, label), scenes()[number - 1]))
+
+
+def test_names_are_the_same_where_no_picture_tells_them_apart():
+    assert names("mirrored_y", 1) == {"mirrored_y", "rows"}
+    assert names("sensor_fit", 1) == {"sensor_fit", "focal_length"}
+    assert names("principal_point", 1) == {"principal_point", "pixel_offset"}
+    assert names("ortho_scale", 2, "the height") == {"ortho_scale", "sensor_fit"}
+    assert names("object_scaled", 1, "by 0.01") == {"object_scaled", "object_missing"}
+
+
+def test_names_are_not_the_same_where_a_picture_does():
+    """With a shift, a mirrored camera is no mirrored picture, and a fit moves the film, too."""
+    assert names("mirrored_y", 3) == {"mirrored_y"}
+    assert names("sensor_fit", 3) == {"sensor_fit"}
+    assert names("roll", 1) == {"roll"}
+    assert names("other_frame", 4) == {"other_frame"}
+    assert names("object_moved", 1) == {"object_moved"}
+
+
+def test_numbers_of_a_fit_are_found():
+    scene = scenes()[2]
+    reason = right_names(of("shift_left_out"), scene)["pixel_offset"]
+    assert "(+33.6, +16)" in reason  # 0.12 and 0.08 of 280 pixel widths, the latter 1.4 high
+
+
+def test_a_camera_with_a_scale_is_no_other_lens():
+    scene = scenes()[3]
+    assert right_names(of("camera_scale"), scene).keys() == {"camera_scale"}
+    through = camera_through(scene.lens, scene.film, scene.eye.world(scene.frame))
+    turned = FLIP @ through.r
+    assert np.allclose(turned @ turned.T, np.eye(3))
+
+
+# ---- damage
+
+
+@pytest.mark.parametrize("number", range(20))
+def test_a_damaged_picture_differs_and_comes_again(number):
+    kind, scene, picture = damage.damaged(number)
+    base = right(scene).picture()
+    assert picture.shape == base.shape and np.isfinite(picture).all()
+    assert (np.abs(picture - base).max(axis=-1) > 0.01).sum() > 100, kind
+    assert np.array_equal(picture, damage.damaged(number)[2])
+    if number + 20 < damage.COUNT:
+        assert damage.damaged(number + 20)[0] == kind
+
+
+def test_damage_leaves_unexplained_pixels():
+    for number in range(20):
+        kind, scene, picture = damage.damaged(number)
+        found = result_of(trace_and_compare(case_of(scene, picture)))
+        assert found.pixels["unexplained"] > 20, kind
+
+
+def test_damage_is_what_it_says():
+    base = right(scenes()[0]).picture().astype(np.float64)
+    rng = np.random.default_rng(1)
+
+    def done(of):
+        return of(base.copy(), rng)
+
+    black = (done(damage.dead_rows)[..., :3] == 0).all(axis=(1, 2))
+    assert 5 <= black.sum() <= 40
+    woven = done(damage.interlaced)
+    assert np.array_equal(woven[::2], base[::2]) and not np.array_equal(woven[1::2], base[1::2])
+    dark = done(damage.vignette)
+    middle = base.shape[0] // 2, base.shape[1] // 2
+    assert np.allclose(dark[middle], base[middle], rtol=1e-4)
+    assert (dark[0, 0, :3] < 0.7 * base[0, 0, :3]).all()
+    bent = done(damage.radial)
+    assert np.array_equal(bent[middle], base[middle])
+    assert not done(damage.noise).min() < 0
