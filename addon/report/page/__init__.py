@@ -16,7 +16,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ...arrays import Colors
 from ...compare.comparison import Comparison
 from ...explain import html as explained
 from ..folders import replacing_file
@@ -33,20 +32,15 @@ _NO_SCRIPT = "script-src 'none'"  # of the template's policy
 _DATA = '<script type="application/json" id="data"></script>'
 
 
-def write(
-    path: str | Path,
-    comparison: Comparison,
-    extras: Extras | None = None,
-    put_right: Sequence[Colors | None] = (),
-) -> None:
-    """Write the page of a comparison, and of what else was found out: see :func:`content`.
+def write(path: str | Path, comparison: Comparison, extras: Extras | None = None) -> None:
+    """Write the page of a comparison, and of what else was found out.
 
     Raises
     ------
     OSError
         If the file cannot be written.
     """
-    text = html(content(comparison, extras, put_right=put_right))
+    text = html(content(comparison, extras))
     with replacing_file(Path(path)) as new:
         new.write_text(text, encoding="utf-8")
 

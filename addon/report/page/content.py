@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import Colors
 from ...certainty import Certainty
 from ...compare.cause import AGREE, UNEXPLAINED
 from ...compare.causes import CAUSES
@@ -33,22 +32,11 @@ MOST_CHARACTERS = 32 << 20  # characters of the packed arrays: what a browser st
 
 
 def content(
-    comparison: Comparison,
-    extras: Extras | None = None,
-    limit: int = MOST_CHARACTERS,
-    put_right: Sequence[Colors | None] = (),
+    comparison: Comparison, extras: Extras | None = None, limit: int = MOST_CHARACTERS
 ) -> dict[str, Any]:
     """Return all that a page shows.
 
-    Parameters
-    ----------
-    comparison : Comparison
-    extras : Extras, optional
-        What else was found out.
-    limit : int
-        How many characters the packed arrays take at most.
-    put_right : sequence of (h, w, 4) float32 or None
-        Linear RGBA: the picture with each fault put right that the diagnosis tells, in its order.
+    `extras` is what else was found out. The packed arrays take at most `limit` characters.
     """
     scene, frame = comparison.scene, comparison.frame
     extras = extras or Extras()
@@ -72,7 +60,7 @@ def content(
         "tolerance": {str(dtype): value for dtype, value in SUM_TOLERANCE.items()},
         "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
         "errata": ERRATA,
-        "pictures": [*_pictures(comparison, extras.literal), *_put_right(put_right)],
+        "pictures": [*_pictures(comparison, extras.literal), *_put_right(comparison)],
         "regions": [r.to_dict() for r in _unexplained(comparison)],
         "pixels": pixels,
         "derivations": [
@@ -129,13 +117,28 @@ def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[s
     ]
 
 
-def _put_right(pictures: Sequence[Colors | None]) -> Iterator[dict[str, str]]:
-    """Return the pictures with a fault put right; the page knows by their ids which fault it is."""
-    for number, color in enumerate(pictures):
-        if color is not None:
-            label = "Put right" if len(pictures) == 1 else f"Put right, {number + 1}"
-            note, png = "with what the diagnosis tells put right", data_uri(to_display(color))
-            yield {"id": f"put_right_{number}", "label": label, "note": note, "png": png}
+def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
+    """Yield the picture that each told fault changes, put right: none where it changes no colour.
+
+    A curve, or a tolerance, is in how colours are compared, not in a picture.
+    """
+    told = comparison.diagnosis.told if comparison.diagnosis else ()
+    before = then = {"traced": comparison.frame.color, "blender": comparison.picture}
+    for number, one in enumerate(told):
+        if not one.alternative:  # it was found with those before it put right
+            before = then
+        after = {"traced": one.frame.color, "blender": one.picture}
+        side = next((s for s in after if not np.array_equal(after[s], before[s], True)), None)
+        if not one.alternative:
+            then = after
+        if side:
+            yield {
+                "id": f"put_right_{number}",
+                "of": side,
+                "label": "Put right" if len(told) == 1 else f"Put right, {number + 1}",
+                "note": one.sentence,
+                "png": data_uri(to_display(after[side])),
+            }
 
 
 def _unexplained(comparison: Comparison) -> list[Region]:

@@ -19,12 +19,14 @@ function drawDiagnosis() {
   byId("diagnosis").hidden = !diagnosis;
   byId("told").hidden = !diagnosis?.told.length;
   if (!diagnosis) return;
-  const { told, tried, regions } = diagnosis;
-  const work = `${count(tried)} hypotheses were tried in ${seconds(diagnosis.seconds)}.`;
+  const { told, guesses, regions, ended } = diagnosis;
+  const work =
+    `${count(guesses)} guesses were tried in ${seconds(diagnosis.seconds)}` +
+    (ended ? ", and it ended before all were." : ".");
   byId("told").replaceChildren(
     element("strong", {}, "Diagnosis: "),
-    ...told.flatMap(({ sentence }, k) => [
-      k ? "; " : "",
+    ...told.flatMap(({ sentence, alternative }, k) => [
+      alternative ? ", or, as likely, " : k ? ", and " : "",
       element("a", { href: "#diagnosis" }, sentence),
     ]),
   );
@@ -38,7 +40,7 @@ function drawDiagnosis() {
         : `${work} None accounts for the unexplained pixels.`,
     ),
     ...told.map(faultOf),
-    ...(regions.length ? [leftOf(regions)] : []),
+    ...(regions.length ? [leftOf(diagnosis)] : []),
   );
 }
 
@@ -46,22 +48,24 @@ function drawDiagnosis() {
 function faultOf(fault, k) {
   const numbers = Object.entries(fault.numbers).map(([name, [value, low, high]]) => [
     name.replaceAll("_", " "),
-    low === high ? general(value) : `${general(value)} (${general(low)} to ${general(high)})`,
+    low === undefined || low === high
+      ? general(value)
+      : `${general(value)} (${general(low)} to ${general(high)})`,
   ]);
   return element(
     "article",
     { class: "fault" },
-    element("h3", {}, fault.sentence),
+    element("h3", {}, fault.alternative ? "Or, as likely: " : "", fault.sentence),
     element("p", {}, settledBy(fault)),
-    fault.advice ? element("p", {}, fault.advice) : null,
+    fault.advice ? element("p", { class: "advice" }, fault.advice) : null,
     numbers.length ? facts(numbers) : null,
-    layers.has(PUT_RIGHT + k) ? putRight(fault, k) : null,
+    layers.has(PUT_RIGHT + k) ? putRight(k) : null,
   );
 }
 
 /** One slider between a picture as it is and with the fault put right, over all and from near. */
-function putRight(fault, k) {
-  const side = fault.side ?? "traced";
+function putRight(k) {
+  const side = page.pictures.find(({ id }) => id === PUT_RIGHT + k).of;
   const other = side === "traced" ? "blender" : "traced";
   const ids = [side, PUT_RIGHT + k];
   const [x, y] = closeUp();
@@ -146,7 +150,7 @@ function crop(id, x, y, [width, height] = CROP) {
 }
 
 /** The regions that nothing accounts for: each by the objects in it. */
-function leftOf(regions) {
+function leftOf({ left, regions }) {
   const one = (region) =>
     element(
       "button",
@@ -164,7 +168,7 @@ function leftOf(regions) {
   return element(
     "div",
     { class: "chips" },
-    element("span", {}, `Nothing accounts for ${many}:`),
+    element("span", {}, `Nothing accounts for ${count(left)} px, in ${many}:`),
     ...regions.map(one),
   );
 }
