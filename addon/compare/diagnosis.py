@@ -202,10 +202,15 @@ class _Search:
         for fault in faults:
             if self.ended:
                 break
-            for guess in (yield from fault.find(evidence)):
+            given = [
+                Guess(object=v.object, scene=v.scene, words=v.words)
+                for v in evidence.variants
+                if v.fault == fault.name
+            ]
+            for guess in (*given, *(yield from fault.find(evidence))):
                 self.guesses += 1
                 gain = yield from _gain(evidence, fault, guess)
-                if gain > 0:
+                if gain >= max(LEAST, SHARE * evidence.open.sum()):
                     out.append((gain, fault, guess))
         return out
 
@@ -267,7 +272,8 @@ def diagnose(
             break
         for trials in chain:
             told += [_told(evidence, trial, bool(n)) for n, trial in enumerate(trials)]
-        evidence = chain[-1][0].evidence
+        for first, *_ in chain:
+            evidence = _carried(evidence, first)
         if not evidence.open.any():
             break
     seconds = time.monotonic() - search.began
@@ -306,6 +312,20 @@ def _with_variants(evidence: Evidence) -> Work[Evidence]:
     return replace(evidence, variants=others)
 
 
+def _carried(evidence: Evidence, trial: Trial) -> Evidence:
+    """Return the evidence with a fault put right, in the variants, too."""
+    variants = []
+    for variant in evidence.variants:
+        scene, given = variant.scene, trial.guess.scene
+        if given is not None:  # of two faults that only Blender can make, one may be the camera's
+            other = given.camera is not evidence.case.scene.camera
+            scene = scene.seen_by(given.camera) if other else scene
+        elif case := trial.fault.tried(evidence.case.in_scene(scene), evidence.frame, trial.guess):
+            scene = case.scene
+        variants.append(replace(variant, scene=scene))
+    return replace(trial.evidence, variants=tuple(variants))
+
+
 def _as_in(own: Scene, other: Scene) -> Scene:
     """Return another scene before the background, and with the objects' colours, of one's own."""
     colors = {own.objects[i.object]: i.colors for i in own.instances}
@@ -323,7 +343,7 @@ def _found(search: _Search, evidence: Evidence) -> Work[list[list[Trial]]]:
     for first in trials[:STARTS]:
         if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
             continue
-        seconds = yield from search.trials(first.evidence, evidence)
+        seconds = yield from search.trials(_carried(evidence, first), evidence)
         if best := _best(evidence, seconds):
             return [[first], best]
     return []
@@ -336,7 +356,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         t
         for t in trials
         if t.precision >= PRECISE
-        and t.settled >= min(LEAST * (1 + t.cost), open_)
+        and t.settled >= LEAST * (1 + t.cost)
         and t.settled >= SHARE * open_
         and t.recall >= COMPLETE
     ]

@@ -29,6 +29,8 @@ from .picture import Picture
 
 SAMPLE = 1024  # pixels of each kind that are looked at
 SEED = 27
+WORTH = 0.2  # of unexplained pixels
+NOISE = 0.03  # of all, which may be wrong for another reason
 LEAST = 4  # unexplained pixels for which an object is suspected
 INVOLVED = 0.1  # of the pixels of the first suspect: others are suspected with as many
 MOST_SUSPECTS = 4
@@ -87,6 +89,11 @@ class Evidence:
             chosen.flat[_spread(some, most)] = True
         rows, columns = np.nonzero(chosen)
         return rows, columns
+
+    @property
+    def least_right(self) -> float:
+        """How many of the sampled pixels must be right for a guess to be worth a closer look."""
+        return float((~self.was_open).sum() + WORTH * self.was_open.sum()) * (1 - NOISE)
 
     @cached_property
     def shown(self) -> Picture:

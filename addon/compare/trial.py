@@ -12,10 +12,13 @@ from ..scene import SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
 from .bounds import differing, largest_within
+from .case import Case
 from .causes import explain
+from .checks.unmodelled import as_known
 from .evidence import Evidence
 from .faults.fault import Fault, Guess
 
+HOPE = 2.0  # pixels that a guess settles, at least, for each one that it breaks
 LOOKED_AT = 1 << 14  # differing pixels whose cause is looked for, at most
 
 
@@ -79,7 +82,7 @@ def tried(
             color = fault.after(traced.color, guess, evidence)
             traced = replace(frame, color=color.astype(np.float32))
             other = replace(other, scene=case.scene, alternatives=case.alternatives)
-        if traced.shape != frame.shape:
+        if traced.shape != frame.shape or not _hopeful(before, other, traced):
             return None
     except SceneError:  # no such camera or scene can be
         return None
@@ -88,6 +91,20 @@ def tried(
         evidence, case=explained.case, frame=explained.frame, causes=explained.causes, known={}
     )
     return Trial(fault, guess, after, *_counted(before, after))
+
+
+def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
+    """Return whether most pixels that are to be settled have the right colour at once.
+
+    The others are left to the checks, which take long where whole pictures differ.
+    """
+    if case.picture.filter_radius > before.case.picture.filter_radius:
+        return True
+    picture = as_known(case)
+    right = picture.alike(case.scene, frame.instance_index, frame.color)
+    right &= ~picture.other_object(frame.instance_index)
+    settled = int((right & before.open).sum())
+    return settled > HOPE * int((~right & before.judged).sum())
 
 
 def _counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:

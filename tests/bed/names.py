@@ -21,10 +21,30 @@ LEAST = 20  # pixels of a second colour that a picture must have to say anything
 EXACT = 1e-9  # relative: sums of some float64 products
 
 
+# The diagnosis' own names of what the bed calls otherwise: by key, and by how the label begins.
+SPOKEN = {
+    ("matrix_transposed", ""): "camera_transposed",
+    ("smooth_displaced", ""): "displaced",
+    ("srgb_for_linear", "the curve applied"): "srgb_twice",
+    ("srgb_for_linear", "the curve left"): "srgb_left_out",
+    ("premultiplied", "alpha divided"): "straight_alpha",
+    ("rounding_level", "cut off"): "cut_off",
+    ("object_scaled", "all"): "scene_scaled",
+    ("sensor_fit", "horizontal"): "sensor_fit_setting",
+}
+
+
+def spoken(fault: Fault) -> str:
+    """Return the diagnosis' name of a fault."""
+    found = (n for (k, b), n in SPOKEN.items() if k == fault.key and fault.label.startswith(b))
+    return next(found, fault.key)
+
+
 def right_names(fault: Fault, scene: Description) -> dict[str, str]:
     """Return every name that is right, and why."""
     made = fault.make(scene, right(scene))
     out = {fault.key: "it is this fault"}
+    out.setdefault(spoken(fault), "it is this fault, by the diagnosis' name")
     if made is None:
         return out
     for key, reason in (*_of_camera(scene, made), *_of_solids(scene, made)):
@@ -34,7 +54,7 @@ def right_names(fault: Fault, scene: Description) -> dict[str, str]:
         if other.key not in out and scene.number in other.only and _slow(other) == _slow(fault):
             shown = picture_of(other, scene)
             if shown is not None and same(own, shown):
-                out[other.key] = f"the same picture: {other.name}"
+                out[spoken(other)] = out[other.key] = f"the same picture: {other.name}"
     return out
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from reference_tracer.compare.case import Case
+from reference_tracer.compare.case import Case, Variant
 from reference_tracer.scene import Scene, ViewWindow
 
 from .bridge import camera_of, scene_of
@@ -27,10 +27,14 @@ def variants_of(scene: Description) -> tuple[Found, ...]:
 
 
 def with_variants(case: Case, scene: Description) -> Case:
-    """Return the case with all variants of its scene."""
-    from reference_tracer.compare.case import Variant
+    """Return the case with all variants of its scene, made once they are asked for."""
 
-    return replace(case, variants=tuple(Variant(*found) for found in variants_of(scene)))
+    def made() -> tuple[Variant, ...]:
+        return tuple(
+            Variant(key, other, text, name) for key, name, text, other in variants_of(scene)
+        )
+
+    return replace(case, variants=made)
 
 
 def _cameras(scene: Description) -> Iterator[Found]:
@@ -44,8 +48,13 @@ def _cameras(scene: Description) -> Iterator[Found]:
         camera = camera_of(lens, film, pose.basis(scene.frame))
         yield "parent_left_out", "Camera", "without its parent", right.seen_by(camera)
     camera = right.camera
-    if not np.allclose(np.linalg.norm(own[:3, :3], axis=0), 1):
-        scaled = replace(camera, world_from_camera=own)
+    x, y, z = np.linalg.norm(own[:3, :3], axis=0)
+    if not np.allclose((x, y, z), 1):
+        # Rays that are x and y times as far aside, z times as deep: a window of another shape.
+        w = camera.window
+        window = ViewWindow(w.left * x / z, w.right * x / z, w.bottom * y / z, w.top * y / z)
+        ends = {"clip_start": z * camera.clip_start, "clip_end": z * camera.clip_end}
+        scaled = replace(camera, window=window, **ends)
         yield "camera_scale", "Camera", "with its object's scale", right.seen_by(scaled)
     for key, text, changed in _lenses(lens):
         through = camera_of(changed, film, own)

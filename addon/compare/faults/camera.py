@@ -252,7 +252,7 @@ CAMERA_FAULTS = (
         ),
     ),
     Fault(
-        "camera_transposed",
+        "matrix_transposed",
         "the camera's rotation is transposed",
         "the axes right, up and backward are the columns of world_from_camera",
         *_TRANSPOSED,

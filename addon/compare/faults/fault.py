@@ -92,6 +92,8 @@ class Fault:
 
     def tried(self, case: Case, frame: Frame, guess: Guess) -> Case | None:
         """Return the case that agrees if the picture has this fault."""
+        if guess.scene is not None:
+            return case.in_scene(guess.scene)
         return (self.put_right or self.make)(case, frame, guess)
 
 

@@ -23,7 +23,8 @@ from .search import Search, Values
 
 REACH = 2.0  # pixels that rays may pass beside where they start; beyond, they start anew
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
-KEPT = 3  # starts that are fitted
+KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+BETTER = 0.03  # by how much larger the share of right pixels must be for a start
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
 
     def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
         units = family.units(evidence.case.scene.camera)
-        search = Search(_Traced(evidence, family).right, units)
+        search = Search(_Traced(evidence, family).right, units, least=evidence.least_right)
         found = yield from search.guess([guess.values])
         return found and replace(found, words=family.words(found))
 
@@ -149,11 +150,15 @@ def _likely(evidence: Evidence, family: Family) -> Work[list[Values]]:
     camera = evidence.case.scene.camera
     if family.camera(camera, *([0.0] * len(family.units(camera)))) is None:
         return []
-    scores: list[tuple[float, Values]] = []
+    none = (0.0,) * len(family.units(camera))
+    least = looked_up(evidence, camera) + BETTER
+    scores: list[tuple[float, Values]] = [(2.0, none)]  # nearer than a pixel nothing can be seen
     for number, values in enumerate(family.starts(evidence)):
         other = family.camera(camera, *values)
         if other is not None:
-            scores.append((looked_up(evidence, other), values))
+            score = looked_up(evidence, other)
+            if score > least:
+                scores.append((score, values))
         if number % 32 == 0:
             yield 0.0
     best: list[Values] = []

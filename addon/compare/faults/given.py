@@ -9,21 +9,13 @@ from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
 from ..evidence import Evidence
-from .fault import Example, Fault, Find, Guess
+from .fault import Example, Fault, Guess
 
 
-def _variants(name: str) -> Find:
-    """Return what gives the case's variants with a fault."""
-
-    def find(evidence: Evidence) -> Work[list[Guess]]:
-        return [
-            Guess(object=v.object, scene=v.scene, words=v.words)
-            for v in evidence.variants
-            if v.fault == name
-        ]
-        yield
-
-    return find
+def _nothing(evidence: Evidence) -> Work[list[Guess]]:
+    """Return no guess but the case's variants, which are tried of every fault."""
+    return []
+    yield
 
 
 def _there(case: Case, frame: Frame, guess: Guess) -> Case | None:
@@ -36,7 +28,7 @@ def _a_frame_later(case: Case, frame: Frame) -> Guess | None:
 
 
 def _given(name: str, sentence: str, advice: str, *examples: Example) -> Fault:
-    return Fault(name, sentence, advice, _there, _variants(name), examples=examples)
+    return Fault(name, sentence, advice, _there, _nothing, examples=examples)
 
 
 GIVEN_FAULTS = (

@@ -433,7 +433,7 @@ OBJECT_FAULTS = (
         effort=3,
     ),
     Fault(
-        "displaced",
+        "smooth_displaced",
         "the vertices of '{object}' are displaced along their normals by {distance:+.4g} m",
         "check a displacement's strength and midlevel, and whether normals are smooth",
         inflated,

@@ -22,7 +22,7 @@ from ...tracer.vector import cross
 from ..bounds import largest_within
 from ..case import Case
 from ..checks.probe import SOUND, Probe
-from ..evidence import SEED, Evidence, shows_colors
+from ..evidence import SEED, WORTH, Evidence, shows_colors
 from ..picture import Picture
 from .fault import Find, Guess, Refine, instances_named
 from .search import Search, Values
@@ -157,6 +157,12 @@ class _Looked:
         return out
 
     @property
+    def least_right(self) -> float:
+        """How many of the n pixels must be right for a guess to be worth a closer look."""
+        open_ = self.evidence.open[self.at]
+        return float((~open_).sum() + WORTH * open_.sum())
+
+    @property
     def pixel(self) -> float:
         """The width of a pixel at the object, in metres."""
         camera = self.evidence.case.scene.camera
@@ -277,7 +283,8 @@ def posing(of: Callable[[_Looked], Pose], kept: bool = False) -> tuple[Find, Ref
         starts, step = pose.starts, FIRST * looked.width
         if guess.values:
             starts, step = [tuple((np.linalg.pinv(pose.axes) @ guess.values).tolist())], 1.0
-        search = Search(right, (1.0,) * len(starts[0]), FINEST)
+        least = looked.least_right
+        search = Search(right, (1.0,) * len(starts[0]), FINEST, least)
         found = yield from search.guess(starts, step, guess.object)
         return found and _in_numbers(found, pose.axes)
 

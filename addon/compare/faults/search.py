@@ -21,17 +21,20 @@ Right = Callable[[Values], Work[int]]  # how many pixels are right, -1 if these 
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
 COARSE = 1 / 2  # of a unit: with smaller steps only the best start is followed
-ASKEW = 12  # directions besides those of the axes, where there are three numbers
+ASKEW = 8  # directions besides those of the axes, where there are three numbers
 FARTHEST = 2.0  # units to which a number is enclosed, at most
 
 
 class Search:
     """A search among the numbers of one fault; each place is looked at once."""
 
-    def __init__(self, right: Right, units: Sequence[float], finest: float = FINEST) -> None:
+    def __init__(
+        self, right: Right, units: Sequence[float], finest: float = FINEST, least: float = 0
+    ) -> None:
         self._right = right
         self.units = np.array(units)
         self.finest = finest
+        self.least = least  # right pixels after large steps, for smaller ones to be worth while
         self._known: dict[Values, int] = {}
 
     def guess(
@@ -43,7 +46,7 @@ class Search:
             values, right = yield from self._climbed(start, step, COARSE)
             if right > most:
                 best, most = values, right
-        if most < 0:
+        if most < max(self.least, 0):
             return None
         # What stopped on a ridge goes on from there with larger steps, once.
         best, _ = yield from self._climbed(best, step / 2, COARSE)
