@@ -19,6 +19,7 @@ FLOORS = {
     "projections": 0,
     "runs": 0,
     "scene": 0,
+    "svg": 0,
     "methods": 1,
     "tracer": 1,
     "framing": 1,

@@ -11,6 +11,7 @@ from html import escape
 from pathlib import Path
 from string import Template
 
+from . import drawing
 from .blocks import Block, Cell, Heading, Paragraph, Table
 from .derivation import Derivation
 from .digits import Parts
@@ -30,7 +31,8 @@ STYLE, _PAGE_STYLE = (
 def fragment(derivation: Derivation) -> str:
     """Return a <section> for a page that has STYLE in it."""
     first, *others = parts = _parts(lecture(derivation))
-    inner = "\n".join([_part(first), _contents(parts), *map(_part, others)])
+    drawn = drawing.figures(derivation)
+    inner = "\n".join([_part(first), _contents(parts), drawn, *map(_part, others)])
     return f'<section class="derivation">\n{inner}\n</section>\n'
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from html import escape
 from pathlib import Path
 from string import Template
@@ -19,6 +21,8 @@ JSON, PAGE = "animation.json", "animation.html"
 _MADE_BY = "made_by.json"  # in the folder of a frame that is whole
 _HEAD = "frame", "agree", "explained", "unexplained", "verdict"
 _LISTED = 10  # of the worst frames, on a terminal
+_PICTURED = 6  # of the worst frames, on the page
+_SHOWN = {"blender.png": "the picture", "difference.png": "causes"}
 _CURVES = {"explained": "#0072b2", "unexplained": "#d55e00"}  # colours of the page's two curves
 
 
@@ -67,7 +71,7 @@ def write(directory: Path, title: str, frames: range, rows: Sequence[FrameRow]) 
         "verdict": verdict(rows),
     }
     with replacing(directory, (PAGE, JSON)) as new:
-        text = _page(title, frames, rows)
+        text = _page(title, frames, rows, directory)
         (new / PAGE).write_text(text, encoding="utf-8", errors="backslashreplace")
         write_json(new / JSON, held)
 
@@ -98,7 +102,7 @@ def _cells(row: FrameRow) -> list[str]:
     return [str(row.frame), *(f"{n:,}" for n in counts), row.verdict]
 
 
-def _page(title: str, frames: range, rows: Sequence[FrameRow]) -> str:
+def _page(title: str, frames: range, rows: Sequence[FrameRow], directory: Path) -> str:
     table = ["".join(f"<th>{name}</th>" for name in _HEAD)]
     for row in worst_first(rows):
         frame, *cells = map(escape, _cells(row))
@@ -107,8 +111,29 @@ def _page(title: str, frames: range, rows: Sequence[FrameRow]) -> str:
         title=escape(title),
         summary=", ".join(lines(frames, rows)[-2:]),
         curves=_curves(frames, [r for r in rows if not r.error]),
+        pictures="".join(_pictures(directory, rows)),
         table="\n".join(f"<tr>{cells}</tr>" for cells in table),
     )
+
+
+def _pictures(directory: Path, rows: Sequence[FrameRow]) -> Iterator[str]:
+    """Return figures of the worst frames in which something differs, with their files."""
+    worst = [r for r in worst_first(rows) if r.explained or r.unexplained][:_PICTURED]
+    for row in worst:
+        shown = ""
+        for name, what in _SHOWN.items():
+            with suppress(OSError):
+                stored = (folder_of(directory, row.frame) / name).read_bytes()
+                data = base64.b64encode(stored).decode("ascii")
+                said = escape(f"frame {row.frame}: {what}")
+                shown += f'<img src="data:image/png;base64,{data}" alt="{said}" />'
+        if shown:
+            bad = ' class="bad"' if row.unexplained else ""
+            caption = (
+                f"frame {row.frame}: {row.unexplained:,} unexplained, {row.explained:,} explained"
+            )
+            below = f"<figcaption{bad}>{escape(caption)}</figcaption>"
+            yield f"<figure>{_linked(row, shown)}{below}</figure>\n"
 
 
 def _linked(row: FrameRow, content: str) -> str:
@@ -119,8 +144,8 @@ def _linked(row: FrameRow, content: str) -> str:
 def _curves(frames: range, rows: Sequence[FrameRow]) -> str:
     """Draw how many pixels of each frame differ; a point says its frame's numbers."""
     most = max((max(r.explained, r.unexplained) for r in rows), default=0)
-    x = plots.linear(frames[0], max(frames[-1], frames[0] + 1))
-    axes = plots.Axes(200, 70, 1680, 330, x, plots.linear(0, max(most, 1)))
+    x = plots.integers(frames[0], max(frames[-1], frames[0] + 1))
+    axes = plots.Axes(220, 70, 1660, 330, x, plots.integers(0, max(most, 1)))
     series = {
         kind: plots.Series(
             color,

@@ -1,16 +1,18 @@
 """Draws plots as SVG: scales with round numbers, axes, marks, lines and words.
 
 A plot is text that every browser draws, without a library. Each function returns elements of it, in
-pixels, y down. No font is known here, so the widths of words are estimated.
+pixels, y down.
 """
 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
-from html import escape
 from typing import NamedTuple
+
+from ..svg import element as element
+from ..svg import said as said
+from ..svg import width_of as width_of
 
 WIDTH, HEIGHT = 1920, 1080  # what a projector shows
 # Sizes of a title, the labels and the numbers at the axes: legible from the back row, or as large
@@ -18,25 +20,9 @@ WIDTH, HEIGHT = 1920, 1080  # what a projector shows
 LARGE, SMALL = (32.0, 27.0, 23.0), (22.0, 19.0, 17.0)
 INK, GREY, FAINT = "#222222", "#707070", "#c8c8c8"
 
-_LETTER, _WIDE = 0.64, 1.0  # widths in sizes of the font, with room: of a letter; of an ideograph
 _LINE = 1.25  # from one line of words to the next, in sizes of the font
-_NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 Place = tuple[float, float]
 Box = tuple[float, float, float, float]  # left, top, width, height
-
-
-def element(name: str, *inside: str, **attributes: str | float) -> str:
-    """Return an element that holds others; `stroke_width` is its attribute stroke-width."""
-    written = (
-        f' {key.replace("_", "-")}="{v if isinstance(v, str) else f"{v:.7g}"}"'
-        for key, v in attributes.items()
-    )
-    return f"<{name}{''.join(written)}>{''.join(inside)}</{name}>"
-
-
-def said(name: str, words: str, **attributes: str | float) -> str:
-    """Return an element that holds words, whatever they hold."""
-    return element(name, escape(_NO_XML.sub("\ufffd", words)), **attributes)
 
 
 def picture(width: float, height: float, title: str, about: str, inside: str) -> str:
@@ -54,12 +40,6 @@ def picture(width: float, height: float, title: str, about: str, inside: str) ->
         font_family="sans-serif",
     )
     return drawn + "\n"
-
-
-def width_of(words: str, size: float) -> float:
-    """Return how wide the longest line of words is, at most."""
-    wide = (sum(_WIDE if c > "\u2e80" else _LETTER for c in line) for line in words.split("\n"))
-    return size * max(wide)
 
 
 def text(
@@ -153,6 +133,12 @@ class Scale(NamedTuple):
 def linear(low: float, high: float) -> Scale:
     """Return a scale with about five to ten round numbers."""
     return Scale(low, high, {v: f"{v:g}" for v in _round(low, high, 8)})
+
+
+def integers(low: int, high: int) -> Scale:
+    """Return a scale with at most nine round integers, written with commas."""
+    ticks = [v for v in _round(low, high, 8) if v == round(v)]
+    return Scale(low, high, {v: f"{round(v):,}" for v in ticks})
 
 
 def logarithmic(low: float, high: float) -> Scale:

@@ -113,6 +113,11 @@ def choose(tab, mode):
     settled(tab)
 
 
+def both(tab):
+    """Show the two pictures, a half of the stage each, in place of the map of causes."""
+    tab.evaluate("() => change({ left: 'traced', right: 'blender', split: 0.5 })")
+
+
 def unmarked(tab):
     """Take the marks off the pictures."""
     tab.locator("#marks").uncheck()

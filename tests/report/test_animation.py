@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
 
+import numpy as np
 import pytest
 from reference_tracer.compare.animation import FrameRow
+from reference_tracer.images import save_png
 from reference_tracer.report import animation as report
 
 FRAMES = range(1, 31)
@@ -44,3 +47,63 @@ def test_few_frames_make_a_page_too(rows, tmp_path):
     page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
     assert f"{len(rows)} of 30 frames are done" in page
     assert "nan" not in page
+
+
+def test_the_worst_frames_have_their_pictures_in_the_page(tmp_path):
+    """Those of the frames that differ, from their folders: a frame that agrees has none."""
+    rows = [*(FrameRow(f, "agree", 1000) for f in range(1, 4)), *(r for r in ROWS if r.frame > 3)]
+    for row in rows:
+        folder = report.folder_of(tmp_path, row.frame)
+        folder.mkdir()
+        for name in ("blender.png", "difference.png"):
+            picture = np.full((4, 6, 4), row.frame % 256, np.uint8)
+            picture[..., 3] = 255 - (name == "difference.png")
+            save_png(folder / name, picture)
+    report.write(tmp_path, "shot.blend", FRAMES, rows)
+    page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
+    found = re.findall(
+        r'<figure><a href="frame_(\d+)/page.html">((?:<img [^>]*>)+)</a>'
+        r"<figcaption([^>]*)>([^<]*)</figcaption></figure>",
+        page,
+    )
+    worst = [row["frame"] for row in json.loads((tmp_path / report.JSON).read_text())["frames"]]
+    assert [int(n) for n, *_ in found] == worst[1:7]  # the first has an error, and no pictures
+    assert found[0][2] == ' class="bad"' and found[0][3] == (
+        "frame 9: 40 unexplained, 60 explained"
+    )
+    for frame, images, *_ in found:
+        for name, data in zip(
+            ("blender.png", "difference.png"), re.findall(r"base64,([^\"]*)", images), strict=True
+        ):
+            stored = (report.folder_of(tmp_path, int(frame)) / name).read_bytes()
+            assert base64.b64decode(data) == stored
+
+
+@pytest.mark.parametrize(
+    ("frames", "most"), [(range(1, 3), 1), (range(7, 8), 0), (range(1, 251), 2_000_000)]
+)
+def test_the_axes_have_whole_numbers(tmp_path, frames, most):
+    rows = [FrameRow(f, "differences", 10, 0, most) for f in frames]
+    report.write(tmp_path, "shot.blend", frames, rows)
+    page = (tmp_path / report.PAGE).read_text(encoding="utf-8")
+    words = re.findall(r'<text[^>]*text-anchor="(middle|end)"[^>]*>([^<]*)</text>', page)
+    for side in ("middle", "end"):
+        numbers = [w.replace(",", "") for anchor, w in words if anchor == side and w[0].isdigit()]
+        assert 2 <= len(numbers) <= 10 and all(n.isdigit() for n in numbers)
+        assert len(set(numbers)) == len(numbers)
+    assert "2,000,000" in page or most < 2_000_000
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_numbers_at_the_axes_are_legible(chromium, tmp_path, width):
+    report.write(tmp_path, "shot.blend", FRAMES, ROWS)
+    tab = chromium.new_page(viewport={"width": width, "height": 800})
+    tab.goto((tmp_path / report.PAGE).as_uri())
+    sizes = tab.locator("svg text").evaluate_all(
+        "all => all.map((t) => t.getAttribute('font-size') * t.ownerSVGElement.getScreenCTM().a)"
+    )
+    assert len(sizes) > 15 and min(sizes) >= 11
+    assert tab.evaluate("() => document.documentElement.scrollWidth") <= width
+    assert tab.locator(".scrolls").first.is_visible() == (width < 1000)
+    tab.close()

@@ -9,7 +9,7 @@ from reference_tracer.images import to_display
 from reference_tracer.report import animation
 from reference_tracer.report.page.content import content
 
-from .browser import choose, color_at, place_of, settled, shown, state, unmarked
+from .browser import both, choose, color_at, place_of, settled, shown, state, unmarked
 
 pytestmark = pytest.mark.browser
 
@@ -20,12 +20,14 @@ def test_it_opens_and_says_the_verdict_at_a_glance(show, differing):
     assert "1,720 of 1,728" in tab.locator("#headline").inner_text()
     assert tab.locator(".tile.bad dd").inner_text() == "2"
     assert "of 8 that differ" in tab.locator(".tile").nth(1).inner_text()
-    assert tab.title() == "Scene – Reference Tracer"
-    assert "a.blend" in tab.locator("#subtitle").inner_text()
+    assert tab.title() == "a.blend – Reference Tracer"
+    assert tab.locator("#title").inner_text() == "a.blend"
+    assert "scene Scene" in tab.locator("#subtitle").inner_text()
 
 
 def test_the_slider_shows_one_picture_on_each_side(show, differing):
     tab = show(differing)
+    both(tab)
     unmarked(tab)
     x, y = 8, 4
     mine, theirs = shown(differing.frame.color[y, x]), shown(differing.picture[y, x])
@@ -50,6 +52,7 @@ def test_the_slider_shows_one_picture_on_each_side(show, differing):
 
 def test_hovering_swaps_and_so_does_a_key(show, differing):
     tab = show(differing)
+    both(tab)
     unmarked(tab)
     choose(tab, "swap")
     x, y = 8, 4

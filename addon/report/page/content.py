@@ -6,16 +6,17 @@ arrays. The least useful arrays are left out where the page would grow beyond MO
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 from ...certainty import Certainty
-from ...compare.cause import AGREE
+from ...compare.cause import AGREE, UNEXPLAINED
 from ...compare.causes import CAUSES
 from ...compare.comparison import Comparison
+from ...compare.regions import Region, regions, sides
 from ...explain import html
 from ...explain.formulas import ERRATA, PLANE, TRIANGLE, VECTORS
 from ...images import data_uri, to_display
@@ -59,7 +60,8 @@ def content(
         "tolerance": {str(dtype): value for dtype, value in SUM_TOLERANCE.items()},
         "formulas": {"plane": PLANE, "triangle": TRIANGLE, "vectors": sorted(VECTORS)},
         "errata": ERRATA,
-        "pictures": _pictures(comparison, extras.literal),
+        "pictures": [*_pictures(comparison, extras.literal), *_put_right(comparison)],
+        "regions": [r.to_dict() for r in _unexplained(comparison)],
         "pixels": pixels,
         "derivations": [
             {"pixel": list(pixel), "html": html.fragment(derivation)}
@@ -115,6 +117,36 @@ def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[s
     ]
 
 
+def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
+    """Yield the picture that each told fault changes, put right: none where it changes no colour.
+
+    A curve, or a tolerance, is in how colours are compared, not in a picture.
+    """
+    told = comparison.diagnosis.told if comparison.diagnosis else ()
+    before = then = {"traced": comparison.frame.color, "blender": comparison.picture}
+    for number, one in enumerate(told):
+        if not one.alternative:  # it was found with those before it put right
+            before = then
+        after = {"traced": one.frame.color, "blender": one.picture}
+        side = next((s for s in after if not np.array_equal(after[s], before[s], True)), None)
+        if not one.alternative:
+            then = after
+        if side:
+            yield {
+                "id": f"put_right_{number}",
+                "of": side,
+                "label": "Put right" if len(told) == 1 else f"Put right, {number + 1}",
+                "note": one.sentence,
+                "png": data_uri(to_display(after[side])),
+            }
+
+
+def _unexplained(comparison: Comparison) -> list[Region]:
+    """Return the regions of unexplained pixels, which the page frames."""
+    shown = sides(comparison.scene, comparison.frame, comparison.identity)
+    return regions(comparison.causes.cause == UNEXPLAINED, shown)
+
+
 def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[str]]:
     """Return as many of the pixels' numbers as fit, and sentences on what was left out."""
     frame, causes = comparison.frame, comparison.causes
@@ -133,7 +165,10 @@ def _pixels(comparison: Comparison, limit: int) -> tuple[dict[str, Any], list[st
         found["identity"] = {"traced": packed(identity.traced), "shown": packed(identity.shown)}
     missing, taken = [], arrays.size(found)
     scene, both = comparison.scene, {"traced": frame.color, "blender": comparison.picture}
-    triangles = "The triangles that are seen, and with them t and the derivation of every pixel"
+    triangles = (
+        "The triangles that are seen, and with them t and the derivation of every pixel and the "
+        "pictures of objects, facing, normal, depth and triangles"
+    )
     colors = "The linear colours of every pixel (those of the screen are there)"
     for name, what, made in (  # the most useful first
         ("surfaces", triangles, lambda: arrays.surface_table(scene, seen)),

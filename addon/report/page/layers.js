@@ -14,6 +14,7 @@ async function loadLayers() {
     layers.set("certainty", emptyLayer("certainty", "Certainty", "how each pixel was decided"));
     drawCertainty();
   }
+  addMaps();
 }
 
 function emptyLayer(id, label, note) {
@@ -60,11 +61,29 @@ function drawCertainty() {
   layer.values = image.data;
 }
 
+const painted = new Map(); // by cause
+
+/** A canvas with a cause's pixels in its colour, and nothing else. */
+function paintedOf(value) {
+  if (!painted.has(value)) {
+    const { canvas } = emptyLayer();
+    const image = new ImageData(WIDTH, HEIGHT);
+    const color = [...rgbOf(CAUSES.get(value).color), 255];
+    pixels.differing.index.forEach((pixel, k) => {
+      if (pixels.differing.cause[k] !== value) return;
+      image.data.set(color, offsetOf(pixel % WIDTH, Math.floor(pixel / WIDTH)));
+    });
+    canvas.getContext("2d").putImageData(image, 0, 0);
+    painted.set(value, canvas);
+  }
+  return painted.get(value);
+}
+
 /** [r, g, b] of #rrggbb. */
 const rgbOf = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
 
 /** The colour that a screen shows at a pixel, [r, g, b, a] of 255. */
-const shownColor = (id, x, y) => layers.get(id).values.slice(offsetOf(x, y), offsetOf(x, y) + 4);
+const shownColor = (id, x, y) => layerOf(id).values.slice(offsetOf(x, y), offsetOf(x, y) + 4);
 
 /** The linear colour of a pixel, [r, g, b, a]; null where the page does not have it. */
 function linearColor(id, x, y) {

@@ -86,6 +86,9 @@ function connect() {
 
 /** Look at what the address names, else the first example, else the middle of the picture. */
 function begin() {
+  // What is unexplained is what one came for: its map covers the stage, and the slider uncovers.
+  if (page.comparison.verdict === "differences" && page.comparison.pixels.unexplained)
+    change({ right: "causes", split: 0 });
   const [first] = shownExamples();
   const [x, y] = linked() ?? first ?? [Math.floor(WIDTH / 2), Math.floor(HEIGHT / 2)];
   goTo(linked() ? visit : select, x, y);
@@ -95,8 +98,11 @@ function begin() {
     drawHelp,
     drawLegend,
     drawExamples,
+    drawRegions,
+    drawDiagnosis,
     drawPixel,
     drawDerivation,
+    drawReadout,
     keepControls,
     redraw,
   ])

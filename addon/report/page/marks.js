@@ -1,7 +1,9 @@
 "use strict";
 // What is drawn onto the pictures: marks of the pixels that differ, names, the frame of one pixel.
 
-const DENSE = 0.12; // of a pane: so many marks would hide a picture, and the map shows them
+const DENSE = 0.12; // of a pane: so many marks would hide a picture, so they are drawn otherwise
+
+const marking = { dense: new Set(), shared: false }; // of what is drawn now: what the note says
 
 /** Mark the pixels that differ: each by its shape when near, else one a cell and cause. */
 function drawMarks(context, pane, inMap) {
@@ -10,10 +12,53 @@ function drawMarks(context, pane, inMap) {
   const size = near ? Math.min(0.6 * scaleNow(), 22) : 11;
   for (const [value, places] of markedPlaces(pane, near)) {
     const many = places.length * area > DENSE * pane.width * pane.height;
-    if (many && !inMap) continue;
+    const cause = CAUSES.get(value);
+    if (many && !inMap) {
+      marking.dense.add(value);
+      if (near) drawCorners(context, cause, places);
+      else drawPainted(context, pane, value);
+      continue;
+    }
     const own = many && !near ? 0.6 * size : size; // a texture on an area of its colour
-    for (const [x, y] of places) drawGlyph(context, CAUSES.get(value), x, y, own, many ? 1.2 : 1.9);
+    for (const [x, y] of places) drawGlyph(context, cause, x, y, own, many ? 1.2 : 1.9);
   }
+}
+
+/** Where marks would hide a picture from afar: the pixels themselves, in their cause's colour. */
+function drawPainted(context, pane, value) {
+  const s = scaleNow();
+  const [x0, x1, y0, y1] = inView(pane);
+  const [left, top] = toPane(pane, x0, y1);
+  const from = [x0, HEIGHT - y1, x1 - x0, y1 - y0];
+  context.imageSmoothingEnabled = s * (window.devicePixelRatio || 1) < 1;
+  context.drawImage(paintedOf(value), ...from, left, top, (x1 - x0) * s, (y1 - y0) * s);
+}
+
+/** Where marks would hide a picture from near: a small one in a corner of each pixel. */
+function drawCorners(context, cause, places) {
+  const s = scaleNow();
+  const size = clamp(0.28 * s, 3, 9);
+  for (const [x, y] of places) drawGlyph(context, cause, x - 0.3 * s, y + 0.3 * s, size, 1);
+}
+
+/** Say how marks are drawn where not every pixel has one of its own. */
+function drawMarksNote() {
+  const near = scaleNow() >= 10;
+  const dense = [...marking.dense].map((value) => CAUSES.get(value));
+  const named = dense.map(({ label, pixels: n }) => `${label} (${count(n)} px)`).join(", ");
+  const said = [];
+  if (dense.length)
+    said.push(
+      near
+        ? `Too many for a mark each: ${named}. These have a small one in a corner of each pixel.`
+        : `Too many for a mark each: ${named}. These pixels are painted in their cause's colour.`,
+    );
+  if (marking.shared)
+    said.push(`A mark stands for all pixels of its cause within ${CELL} screen pixels.`);
+  if (state.mode === "all" && framesShown())
+    said.push("Frames of regions are on the map of causes alone.");
+  byId("marks-note").textContent = said.join(" ");
+  byId("marks-note").hidden = !said.length;
 }
 
 /** Where a pane has marks, by cause. */
@@ -29,7 +74,10 @@ function markedPlaces(pane, near) {
     if (near && x === state.x && y === state.y) continue; // its frame marks it: its colour is seen
     const place = toPane(pane, x + 0.5, y + 0.5);
     const cell = (Math.floor(place[1] / CELL) * 8192 + Math.floor(place[0] / CELL)) * 32 + cause[k];
-    if (!near && taken.has(cell)) continue;
+    if (!near && taken.has(cell)) {
+      marking.shared = true;
+      continue;
+    }
     taken.add(cell);
     if (!found.has(cause[k])) found.set(cause[k], []);
     found.get(cause[k]).push(place);

@@ -12,11 +12,14 @@ function drawPixel() {
   byId("permalink").href = `#x=${x}&y=${y}`;
   byId("pixel").replaceChildren(
     causeOf(pixel),
-    element("div", { class: "loupes" }, ...page.pictures.map((p) => loupe(p.id, x, y))),
+    element("div", { class: "loupes" }, ...LOUPES().map((p) => loupe(p.id, x, y))),
     sidesOf(x, y, pixel),
     factsOf(x, y, pixel),
   );
 }
+
+/** The pictures that are enlarged; those of a fault put right are seen on the stage. */
+const LOUPES = () => page.pictures.filter(({ id }) => !id.startsWith(PUT_RIGHT));
 
 /** What is said of the pixel, in a sentence with its figure. */
 function causeOf(pixel) {
@@ -189,6 +192,11 @@ function factsOf(x, y, pixel) {
   const certainty = page.certainties[pixels.certainty[pixel]];
   const surface = surfaceOf(pixels.surface[pixel]);
   const facts = [["Certainty", [element("strong", {}, certainty.name), `: ${certainty.sentence}`]]];
+  if (surface)
+    facts.push(
+      ["Facing", [VALUES.facing(pixel)]],
+      ["Normal", [lines(normalOf(surface.number).map((v) => shortest(v)))]],
+    );
   const t = tracedT(pixel);
   if (surface && t !== null)
     facts.push(["t", [element("span", { id: "t" }, shortest(t)), ` m (${originOf(pixel)})`]]);

@@ -127,10 +127,13 @@ function draw() {
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.fillStyle = getComputedStyle(stage).backgroundColor;
   context.fillRect(0, 0, width, height);
+  marking.dense.clear();
+  marking.shared = false;
   for (const pane of panes()) drawPane(context, pane);
+  drawMarksNote();
   const split = byId("split");
   split.hidden = state.mode !== "slider";
-  split.style.left = `${100 * state.split}%`;
+  split.style.setProperty("--split", state.split);
   split.setAttribute("aria-valuenow", Math.round(100 * state.split));
   byId("zoom").value = `${count(Math.round(100 * scaleNow()))} %`;
   canvas.setAttribute("aria-label", stageLabel());
@@ -145,16 +148,23 @@ function drawPane(context, pane) {
   context.save();
   clip(context, pane.x, pane.y, pane.width, pane.height);
   const border = pane.x + pane.width * state.split;
-  pane.ids.forEach((id, k) => {
-    context.save();
-    if (pane.ids.length > 1) {
-      const start = k ? border : pane.x;
-      clip(context, start, pane.y, (k ? pane.x + pane.width : border) - start, pane.height);
-    }
-    drawPicture(context, pane, layers.get(id));
+  const onEach = (draw) =>
+    pane.ids.forEach((id, k) => {
+      context.save();
+      if (pane.ids.length > 1) {
+        const start = k ? border : pane.x;
+        clip(context, start, pane.y, (k ? pane.x + pane.width : border) - start, pane.height);
+      }
+      draw(id);
+      context.restore();
+    });
+  onEach((id) => {
+    drawPicture(context, pane, layerOf(id));
     if (state.marks || id === "causes") drawMarks(context, pane, id === "causes");
-    context.restore();
-    drawLabel(context, pane, layers.get(id), k);
+  });
+  pane.ids.forEach((id, k) => drawLabel(context, pane, layers.get(id), k));
+  onEach((id) => {
+    if (id === "causes" || (state.marks && state.mode !== "all")) drawFrames(context, pane);
   });
   drawCursor(context, pane);
   if (pane.x) line(context, pane.x, pane.y, pane.x, pane.y + pane.height);

@@ -71,6 +71,10 @@ function goToExample(step) {
 /** Look at a pixel from near, so that it is seen in both pictures. */
 function visit(x, y) {
   select(x, y);
-  if (state.mode === "slider") change({ mode: "pair" });
+  if (state.mode === "slider") {
+    const sides = [state.left, state.right];
+    change({ mode: "pair" });
+    if (sides.includes("causes")) change({ left: "traced", right: "blender" });
+  }
   change({ view: { x: state.x + 0.5, y: state.y + 0.5, scale: Math.max(state.view.scale, 20) } });
 }

@@ -16,10 +16,12 @@ const VERDICTS = {
 
 function drawSummary() {
   const { scene, blender, verdict, pixels: score } = page.comparison;
-  document.title = `${scene.scene} – Reference Tracer`;
-  byId("title").textContent = scene.scene;
+  const name = scene.file.split(/[\\/]/).pop() || scene.scene;
+  document.title = `${name} – Reference Tracer`;
+  byId("title").textContent = name;
   byId("subtitle").textContent = [
-    scene.file,
+    scene.file === name ? "" : scene.file,
+    scene.scene === name ? "" : `scene ${scene.scene}`,
     scene.view_layer && `view layer ${scene.view_layer}, frame ${scene.frame}`,
     `camera ${scene.camera}`,
     `${WIDTH} × ${HEIGHT} pixels`,

@@ -9,6 +9,7 @@ function table(caption, heads, rows, right = [], kind = "") {
   return element(
     "div",
     { class: `scroll ${kind}`, tabindex: "0", role: "group", "aria-label": caption },
+    element("p", { class: "scrolls", hidden: true }, "This table goes on to the right: scroll it."),
     element(
       "table",
       {},
@@ -28,7 +29,13 @@ function table(caption, heads, rows, right = [], kind = "") {
         ...rows
           .slice(0, ROWS)
           .map((row) =>
-            element("tr", {}, ...row.map((cell, k) => element("td", { class: side(k) }, cell))),
+            element(
+              "tr",
+              {},
+              ...row.map((cell, k) =>
+                element("td", { class: side(k), "data-head": side(k) && heads[k] }, cell),
+              ),
+            ),
           ),
       ),
     ),
@@ -37,6 +44,21 @@ function table(caption, heads, rows, right = [], kind = "") {
       : null,
   );
 }
+
+/** Say of each table whether it is wider than its place, now and whenever that changes. */
+const watched = new ResizeObserver((entries) => {
+  for (const { target } of entries) {
+    const box = target.closest(".scroll");
+    if (box) box.querySelector(".scrolls").hidden = box.scrollWidth <= box.clientWidth;
+  }
+});
+new MutationObserver(() => {
+  watched.disconnect();
+  for (const box of document.querySelectorAll(".scroll:has(> .scrolls)")) {
+    watched.observe(box);
+    watched.observe(box.querySelector("table"));
+  }
+}).observe(document.querySelector("main"), { childList: true, subtree: true });
 
 const card = (title, ...children) =>
   element("section", { class: "card" }, element("h2", {}, title), ...children);
