@@ -46,7 +46,6 @@ SHARE = 0.05  # of the unexplained pixels
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
 PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
 NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
-REFINED = 0.5  # the least precision of a guess for which it is fitted finely
 ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
 TRIED = 6  # guesses that are tried on the whole picture together, at most
 MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
@@ -226,11 +225,10 @@ class _Search:
                 continue
             if gain < PROMISING * scored[0][0] or self.ended:
                 break
-            trial = yield from tried(evidence, fault, guess, of)
-            if trial and fault.refine and guess.low and trial.precision > REFINED:
+            if fault.refine and guess.low:
                 finer = replace(evidence, size=ALL_EDGES)
-                better = yield from fault.refine(finer, guess)
-                trial = (better and (yield from tried(evidence, fault, better, of))) or trial
+                guess = (yield from fault.refine(finer, guess)) or guess
+            trial = yield from tried(evidence, fault, guess, of)
             if trial and trial.gain > 0:
                 out.append(trial)
                 if trial.perfect:

@@ -86,7 +86,7 @@ class Evidence:
             (edge, 3 * self.size // 4),
             (self.judged & ~edge, self.size // 4),
         ):
-            chosen.flat[_spread(some, most)] = True
+            chosen.flat[spread(some, most)] = True
         rows, columns = np.nonzero(chosen)
         return rows, columns
 
@@ -187,8 +187,8 @@ def film_beside_camera(camera: Camera, other: Camera, px: Floats, py: Floats) ->
     return np.stack((x, y))
 
 
-def _spread(where: Bools, most: int) -> Places:
-    """Return some of the pixels, by their index, spread evenly over all but for a random start."""
+def spread(where: Bools, most: int) -> Places:
+    """Return some of the pixels of a mask, by their index, chosen at random."""
     found = np.flatnonzero(where)
     if len(found) <= most:
         return found

@@ -184,14 +184,17 @@ def _peeled(evidence: Evidence, name: str, instance: int) -> Work[Guess | None]:
     case, frame = evidence.case, evidence.frame
     gone: set[int] = set()
     wrong = evidence.open
+    mesh = case.scene.meshes[case.scene.instances[instance].mesh]
+    left = np.arange(len(mesh.triangles))  # their numbers in the scene as it is
     for _ in range(MOST_LAYERS):
         found = frame.triangle_index[wrong & (frame.instance_index == instance)]
         # A triangle that is there is nowhere wrong, but for what another fault does at its rim.
         number, count = np.unique(found, return_counts=True)
-        more = {int(n) for n in number[count >= LEAST_WRONG]} - gone
-        if not more:
+        more = left[number[count >= LEAST_WRONG]]
+        if not len(more):
             break
-        gone |= more
+        gone |= set(more.tolist())
+        left = np.setdiff1d(left, more)
         values = (float(len(gone)), float(instance), *map(float, sorted(gone)))
         guess = Guess(values, object=name)
         if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:

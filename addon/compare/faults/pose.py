@@ -22,7 +22,7 @@ from ...tracer.vector import cross
 from ..bounds import largest_within
 from ..case import Case
 from ..checks.probe import SOUND, Probe
-from ..evidence import SEED, WORTH, Evidence, shows_colors
+from ..evidence import WORTH, Evidence, shows_colors, spread
 from ..picture import Picture
 from .fault import Find, Guess, Refine, instances_named
 from .search import Search, Values
@@ -110,10 +110,10 @@ class _Looked:
         if not seen.any() or not shown.any():
             return None
         around = largest_within((seen | shown).astype(np.int8), AROUND) > 0
-        found = np.flatnonzero(around)
-        if len(found) > evidence.size:
-            found = np.sort(np.random.default_rng(SEED).choice(found, evidence.size, replace=False))
-        rows, columns = np.unravel_index(found, seen.shape)
+        chosen = np.zeros_like(seen)
+        for some in (around & evidence.open, around & ~evidence.open):
+            chosen.flat[spread(some, evidence.size // 2)] = True
+        rows, columns = np.nonzero(chosen)
         at = rows, columns
         left = [i for n, i in enumerate(scene.instances) if kept or n not in own]
         rest = replace(scene, instances=tuple(left))
