@@ -79,16 +79,22 @@ class Evidence:
     @cached_property
     def sample(self) -> tuple[Places, Places]:
         """Rows and columns of the n sampled pixels, row by row from the lowest."""
-        chosen = np.zeros(self.open.shape, bool)
+        rows, columns = np.nonzero(self._weights)
+        return rows, columns
+
+    @cached_property
+    def _weights(self) -> Floats:
+        """How many pixels each sampled pixel stands for, 0 for the others, (h, w)."""
+        out = np.zeros(self.open.shape)
         edge = self.judged & boundary(self.frame)
         for some, most in (
             (self.open, self.size),
             (edge, 3 * self.size // 4),
             (self.judged & ~edge, self.size // 4),
         ):
-            chosen.flat[spread(some, most)] = True
-        rows, columns = np.nonzero(chosen)
-        return rows, columns
+            chosen = spread(some, most)
+            out.flat[chosen] = int(some.sum()) / max(len(chosen), 1)
+        return out
 
     @property
     def least_right(self) -> float:
@@ -126,12 +132,9 @@ class Evidence:
 
     def scored(self, right: Bools) -> Score:
         """Return the score of the n sampled pixels, (n,) of them right."""
-        was_open = self.was_open
-        weight = int(self.open.sum()) / max(int(was_open.sum()), 1)
-        others = int(self.judged.sum()) / max(int((~was_open).sum()), 1)
-        return Score(
-            float(weight * (right & was_open).sum()), float(others * (~right & ~was_open).sum())
-        )
+        was_open, weights = self.was_open, self._weights[self.sample]
+        settled, broken = right & was_open, ~right & ~was_open
+        return Score(float(weights[settled].sum()), float(weights[broken].sum()))
 
     def looked_up(self, camera: Camera) -> Floats:
         """Return where the traced picture has what another camera sees in the n sampled pixels.

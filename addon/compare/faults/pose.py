@@ -30,6 +30,7 @@ from .search import Search, Values
 AROUND = 6  # pixels around the object, on both sides, in which it is looked at, too
 FINEST = 1 / 128  # pixels
 FIRST = 1 / 4  # of the object's width: the first step
+SMALL = 6.0  # pixels
 TRIED = 2  # objects that are fitted
 
 
@@ -234,7 +235,10 @@ def _placed(looked: _Looked) -> Pose:
         return replace(scene, instances=tuple(moved(i, *values) for i in scene.instances))
 
     beside = np.append(start[:2], 0)[: len(start)]
-    return Pose(change, axes, [tuple(v.tolist()) for v in (start, beside)])
+    starts = [start, beside]
+    if np.abs(start).max() < SMALL:  # then its middle says little
+        starts.append(0 * start)
+    return Pose(change, axes, [tuple(v.tolist()) for v in starts])
 
 
 def _sized(looked: _Looked) -> Pose:
@@ -285,7 +289,7 @@ def posing(of: Callable[[_Looked], Pose], kept: bool = False) -> tuple[Find, Ref
             step /= 4
         if guess.values:
             starts, step = [tuple((np.linalg.pinv(pose.axes) @ guess.values).tolist())], 1.0
-        least = looked.least_right
+        least = 0.0 if guess.values else looked.least_right
         search = Search(right, (1.0,) * len(starts[0]), FINEST, least)
         found = yield from search.guess(starts, step, guess.object)
         return found and _in_numbers(found, pose.axes)
