@@ -24,6 +24,7 @@ from .search import Search, Values
 REACH = 2.0  # pixels that rays may pass beside where they start; beyond, they start anew
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
 KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+FINER = 1 / 8  # pixels: the first step where a fit is made finer
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
 
 
@@ -131,7 +132,7 @@ def fitting(family: Family) -> tuple[Find, Refine]:
     def refine(evidence: Evidence, guess: Guess) -> Work[Guess | None]:
         units = family.units(evidence.case.scene.camera)
         search = Search(_Traced(evidence, family).right, units, least=evidence.least_right)
-        found = yield from search.guess([guess.values])
+        found = yield from search.guess([guess.values], FINER if guess.low else 1.0)
         return found and replace(found, words=family.words(found))
 
     def find(evidence: Evidence) -> Work[list[Guess]]:

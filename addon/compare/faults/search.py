@@ -7,7 +7,7 @@ alone before fewer pixels are right.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -20,6 +20,9 @@ Values = tuple[float, ...]
 Right = Callable[[Values], Work[int]]  # how many pixels are right, -1 if these numbers cannot be
 
 FINEST = 1 / 512  # of a unit, which is about a pixel
+# How many steps are looked at on each side, by how many numbers there are; 1 otherwise.
+WIDE = {1: 4, 2: 2}
+NARROW = {1: 2}
 COARSE = 1 / 2  # of a unit: with smaller steps only the best start is followed
 ASKEW = 8  # directions besides those of the axes, where there are three numbers
 FARTHEST = 2.0  # units to which a number is enclosed, at most
@@ -50,7 +53,7 @@ class Search:
             return None
         # What stopped on a ridge goes on from there with larger steps, once.
         best, _ = yield from self._climbed(best, step / 2, COARSE)
-        best, right = yield from self._climbed(best, COARSE, self.finest)
+        best, right = yield from self._climbed(best, min(step, COARSE), self.finest)
         low, high = yield from self._enclosed(best, right)
         middle = rounded(low.tolist(), high.tolist())
         if (yield from self.right(middle)) < right:
@@ -76,7 +79,7 @@ class Search:
     def _around(self, values: Values, step: float) -> Work[tuple[Values, int]]:
         """Return the best place a step away in any direction, or this one."""
         best, most = values, (yield from self.right(values))
-        for direction in _directions(len(values)):
+        for direction in _directions(len(values), WIDE if step >= COARSE else NARROW):
             there = tuple((values + step * self.units * direction).tolist())
             found = yield from self.right(there)
             if found > most:
@@ -104,10 +107,10 @@ class Search:
         return (yield from self.right(tuple(other)))
 
 
-def _directions(count: int) -> Array:
+def _directions(count: int, far: Mapping[int, int]) -> Array:
     """Return the steps with which is looked around: (m, count), also some that follow no axis."""
-    steps = {1: range(-4, 5), 2: range(-2, 3)}.get(count, range(-1, 2))
-    around = np.array(np.meshgrid(*[steps] * count)).reshape(count, -1).T
+    steps = far.get(count, 1)
+    around = np.array(np.meshgrid(*[range(-steps, steps + 1)] * count)).reshape(count, -1).T
     around = around[around.any(axis=1)]
     if count < 3:
         return around
