@@ -136,13 +136,6 @@ class Evidence:
         settled, broken = right & was_open, ~right & ~was_open
         return Score(float(weights[settled].sum()), float(weights[broken].sum()))
 
-    def looked_up(self, camera: Camera) -> Floats:
-        """Return where the traced picture has what another camera sees in the n sampled pixels.
-
-        (2, n) columns and rows of the region. It holds for cameras in the same place.
-        """
-        return film_beside_camera(self.case.scene.camera, camera, *self.film)
-
     @cached_property
     def film(self) -> Floats:
         """The film positions of the n sampled pixels' centres, (2, n) pixels of the picture."""

@@ -185,6 +185,7 @@ def test_json_has_what_is_promised(scene):
         "hidden",
         "identity",
         "certificate",
+        "diagnosis",
         "self_check",
     }
     assert held["causes"]["edge"] == {

@@ -24,6 +24,8 @@ from .search import Search, Values
 REACH = 2.0  # pixels that rays may pass beside where they start; beyond, they start anew
 VALID = 0.3  # the least share of the sample that a camera must see in the traced picture
 KEPT = 3  # starts that are fitted: none of the numbers, and those that look best
+STEP = 4.0  # pixels that the picture's corners move from one start to the next
+LOOKED_UP = 512  # pixels in which the traced picture is looked up
 FINER = 1 / 8  # pixels: the first step where a fit is made finer
 BETTER = 0.03  # by how much larger the share of right pixels must be for a start
 
@@ -71,13 +73,13 @@ def _radius(camera: Camera) -> float:
 
 
 def _zooms(evidence: Evidence) -> Iterator[Values]:
-    step = 1.5 / _radius(evidence.case.scene.camera)
+    step = STEP / _radius(evidence.case.scene.camera)
     for factor in np.exp(np.arange(-np.log(4), np.log(4), step)):
         yield (100 * float(factor) - 100,)
 
 
 def _rolls(evidence: Evidence) -> Iterator[Values]:
-    step = np.degrees(1.5 / _radius(evidence.case.scene.camera))
+    step = np.degrees(STEP / _radius(evidence.case.scene.camera))
     for degrees in np.arange(-180, 180, step):
         yield (float(degrees),)
 
@@ -176,21 +178,20 @@ def looked_up(evidence: Evidence, camera: Camera) -> float:
 
     The camera stands where the case's does; what lies outside the traced picture is not known.
     """
+    own, r = evidence.case.scene.camera, evidence.case.scene.camera.region
+    few = slice(None, None, -(-evidence.film.shape[1] // LOOKED_UP))
     with np.errstate(invalid="ignore"):
-        x, y = evidence.looked_up(camera)
-        r = evidence.case.scene.camera.region
+        x, y = film_beside_camera(own, camera, *evidence.film[:, few])
         column, row = np.floor(x - r.x0), np.floor(y - r.y0)
         inside = (column >= 0) & (column < r.width) & (row >= 0) & (row < r.height)
     if inside.mean() < VALID:
         return 0.0
     where = row[inside].astype(int), column[inside].astype(int)
-    shown = evidence.shown
+    shown = evidence.shown.at(few).at(inside)
     made = shown.made_of(evidence.frame.color[where])
-    apart = np.abs(made - shown.color[inside][:, : made.shape[1]]).max(axis=1)
-    right = apart <= NEAR
+    right = np.abs(made - shown.color[:, : made.shape[1]]).max(axis=1) <= NEAR
     if shown.owner is not None and shown.owners is not None:
-        own = shown.owners[evidence.frame.instance_index[where]]
-        right &= own == shown.owner[inside]
+        right &= shown.owners[evidence.frame.instance_index[where]] == shown.owner
     return float(right.mean())
 
 

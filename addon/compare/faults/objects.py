@@ -206,6 +206,8 @@ def _peeled(evidence: Evidence, name: str, instance: int) -> Work[Guess | None]:
         yield from steps(other.scene, SOUND, frame)
         shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)
         wrong = evidence.open & ~shown
+    if not (frame.instance_index == instance).any():
+        return None  # all that is seen of it is gone: the object is missing
     return guess if gone else None
 
 

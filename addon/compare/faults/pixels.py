@@ -97,13 +97,21 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Guess]]:
     if evidence.picture.levels not in (0, 255) or not find_spec("PIL"):
         return []
     shown = encoded(evidence.picture.color)[..., :3]
+
+    def off(quality: int, sampling: int) -> tuple[float, Guess]:
+        guess = Guess((float(quality), float(sampling)))
+        made = encoded(_jpeg(evidence.frame.color, guess, evidence))[..., :3]
+        return float(np.abs(made - shown).mean()), guess
+
     found: list[tuple[float, Guess]] = []
     for sampling in (2, 0):  # 4:2:0, 4:4:4
         for quality in QUALITIES:
-            guess = Guess((float(quality), float(sampling)))
-            made = encoded(_jpeg(evidence.frame.color, guess, evidence))[..., :3]
-            found.append((float(np.abs(made - shown).mean()), guess))
+            found.append(off(quality, sampling))
             yield 0.0
+    near, sampling = (int(v) for v in min(found, key=lambda pair: pair[0])[1].values)
+    for quality in range(near - 4, near + 5):
+        found.append(off(quality, sampling))
+        yield 0.0
     plain = float(np.abs(encoded(evidence.frame.color)[..., :3] - shown).mean())
     error, best = min(found, key=lambda pair: pair[0])
     return [best] if error < plain / 2 else []
