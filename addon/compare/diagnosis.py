@@ -357,6 +357,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         and t.settled >= LEAST * (1 + t.cost / 2)
         and t.settled >= SHARE * open_
         and t.recall >= COMPLETE
+        and not t.unseen
     ]
 
 

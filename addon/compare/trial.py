@@ -45,6 +45,14 @@ class Trial:
         return self.settled - self.broken
 
     @property
+    def unseen(self) -> bool:
+        """Whether its object is not seen any more: then all that is known is that it is missing."""
+        names, name = self.evidence.case.scene.objects, self.guess.object
+        if name not in names or self.fault.name == "object_missing":
+            return False
+        return not (self.evidence.frame.object_index == names.index(name)).any()
+
+    @property
     def perfect(self) -> bool:
         """Whether it settles all that is unexplained, and breaks nothing."""
         return not self.broken and not still_open(self.evidence).any()

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Bools, Floats
 from ...scene import Camera
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
@@ -15,6 +14,7 @@ from ..evidence import Evidence
 from .fault import Example, Fault, Guess, of_camera
 from .search import rounded
 
+FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
 FAR = 1e6  # how many times farther is looked for what should have been clipped
 
 
@@ -35,7 +35,7 @@ def _halfway(case: Case, frame: Frame) -> Guess | None:
 
 
 def _find_start(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the clip start that parts unexplained surfaces from those that agree, and none."""
+    """Return clip starts that part unexplained surfaces from those behind, and none."""
     camera = evidence.case.scene.camera
     yield 0.0
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
@@ -44,30 +44,28 @@ def _find_start(evidence: Evidence) -> Work[list[Guess]]:
 
 
 def _find_end(evidence: Evidence) -> Work[list[Guess]]:
-    """Return the clip end that parts unexplained surfaces from those that agree, and none."""
+    """Return clip ends that part unexplained surfaces from those before, and none."""
     yield 0.0
     return [*_parting(evidence, 1.0), Guess((evidence.case.scene.camera.clip_end * FAR,))]
 
 
 def _parting(evidence: Evidence, sign: float) -> list[Guess]:
-    """Return the depth beyond which (sign 1), or before which (-1), most pixels are unexplained."""
+    """Return depths beyond which (sign 1), or before which (-1), the unexplained pixels lie.
+
+    All of them do, or nearly all: some may have another cause. Pixels that agree may lie there,
+    too, as they show what is behind in the same colour.
+    """
     t = sign * evidence.frame.t
-    seen = np.isfinite(t) & (evidence.open | evidence.judged)
-    depth, wrong = t[seen], evidence.open[seen]
-    if not wrong.any() or wrong.all():
-        return []
-    low, high = sorted(sign * v for v in _between(depth, wrong))
-    return [Guess(rounded((low,), (high,)), (low,), (high,))]
-
-
-def _between(depth: Floats, wrong: Bools) -> tuple[float, float]:
-    """Return the two depths (n,) between which a threshold has the most wrong pixels beyond it."""
-    order = np.argsort(depth)
-    gain = np.append(np.cumsum(np.where(wrong[order], 1, -1)[::-1])[::-1], 0)
-    k = int(np.argmax(gain))
-    own = depth[order]
-    above = float(own[min(k, len(own) - 1)])
-    return float(own[max(k - 1, 0)]), above
+    seen = np.isfinite(t)
+    depth, wrong = np.unique(t[seen & ~evidence.open]), np.sort(t[seen & evidence.open])
+    out = []
+    for share in FEW if len(wrong) else ():
+        nearest = float(wrong[int(share * len(wrong))])
+        before = depth[depth < nearest]
+        if len(before):
+            low, high = sorted((sign * nearest, sign * float(before[-1])))
+            out.append(Guess(rounded((low,), (high,)), (low,), (high,)))
+    return out
 
 
 VIEW_FAULTS = (

@@ -1,0 +1,288 @@
+"""The diagnosis: a fault gets its name and its numbers, and no other fault, or noise, gets it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from reference_tracer.compare.case import WHOLE, Variant
+from reference_tracer.compare.comparison import diagnosed, trace_and_compare
+from reference_tracer.compare.faults import FAULTS
+from reference_tracer.compare.faults.fault import Guess
+from reference_tracer.compare.picture import Picture
+from reference_tracer.rendering import render
+from reference_tracer.scene import Instance, Mesh, ViewWindow
+from reference_tracer.tracer.progress import result_of
+
+from .cases import case_of
+
+BY_NAME = {fault.name: fault for fault in FAULTS}
+SEED = 27
+
+
+@pytest.fixture
+def solids(make):
+    """Return solids of different colours over a floor, seen through a shifted window."""
+    rng = np.random.default_rng(SEED)
+    eye = (5, -6, 4)
+    camera = make.camera(160, 90, half=0.3, eye=eye, target=(0, 0, 0))
+    w = camera.window
+    camera = replace(camera, window=ViewWindow(w.left + 0.03, w.right + 0.03, w.bottom, w.top))
+    camera = replace(
+        camera, window=replace(camera.window, top=w.top + 0.02, bottom=w.bottom + 0.02)
+    )
+    shapes = {
+        "Floor": trimesh.creation.box((9, 9, 0.2)).apply_translation((0, 0, -1.2)),
+        "Box": trimesh.creation.box((1.1, 0.7, 1.3)),
+        "Ball": trimesh.creation.icosphere(3, radius=0.6),
+        "Ring": trimesh.creation.torus(0.6, 0.22),
+        "Drum": trimesh.creation.cylinder(0.45, 1.0),
+    }
+    places = ((0, 0, 0), (-1.2, -0.6, -0.3), (1.1, 0.6, 0.2), (0.2, 1.6, -0.2), (0.6, -1.4, -0.4))
+    instances, meshes = [], []
+    for n, (shape, place) in enumerate(zip(shapes.values(), places, strict=True)):
+        matrix = trimesh.transformations.euler_matrix(
+            *(rng.uniform(-0.4, 0.4, 3) if n else (0, 0, 0))
+        )
+        matrix[:3, 3] = place
+        color = [*rng.uniform(0.1, 0.9, 3), 1.0]
+        meshes.append(Mesh(shape.vertices, shape.faces))
+        instances.append(Instance(n, n, matrix, [color]))
+    scene = make.scene(camera, *meshes)
+    return replace(scene, instances=tuple(instances), objects=tuple(shapes))
+
+
+def diagnosis_of(scene, color, **known):
+    """Return the comparison of a scene with a picture of unknown make, diagnosed."""
+    case = case_of(scene, Picture(color), curves=(), **known)
+    before = result_of(trace_and_compare(case))
+    found = result_of(diagnosed(before))
+    assert found.verdict == before.verdict
+    return found
+
+
+def pictured(scene, name, guess):
+    """Return the picture that a fault makes of a scene."""
+    frame = render(scene)
+    wrong = BY_NAME[name].make(case_of(scene, frame.color), frame, guess)
+    if wrong.scene is scene:
+        return wrong.picture.color
+    return render(wrong.scene).color
+
+
+def names(found):
+    """Return what is told."""
+    return [told.fault.name for told in found.diagnosis.told] if found.diagnosis else []
+
+
+MADE = [
+    ("pixel_offset", Guess((0.5, 0.5))),
+    ("pixel_offset", Guess((-3.25, 7.5))),
+    ("focal_length", Guess((2.0,))),
+    ("focal_length", Guess((-30.0,))),
+    ("roll", Guess((1.5,))),
+    ("mirrored_x", Guess((1.0,))),
+    ("mirrored_y", Guess((0.0,))),
+    ("sensor_fit", Guess((0.0,))),
+    ("matrix_transposed", Guess((0.0,))),
+    ("matrix_inverted", Guess((0.0,))),
+    ("y_up", Guess((0.0,))),
+    ("forward", Guess((0.0,))),
+    ("shift_left_out", Guess((0.0,))),
+    ("shift_sign", Guess((1.0,))),
+    ("shift_unit", Guess((0.0,))),
+    ("resolution_percentage", Guess((2.0,))),
+    ("clip_end", Guess((8.0,))),
+    ("clip_start", Guess((7.5,))),
+    ("object_missing", Guess(object="Ball")),
+    ("rotation_left_out", Guess(object="Box")),
+    ("place_left_out", Guess(object="Ring")),
+    ("object_scaled", Guess((1.15,), object="Ball")),
+    ("object_scaled", Guess((0.1,), object="Drum")),
+    ("scene_scaled", Guess((0.1,))),
+    ("object_moved", Guess((0.2, -0.1, 0.15), object="Box")),
+    ("object_twice", Guess((0.9, 0.3, 0.8), object="Ball")),
+    ("smooth_displaced", Guess((0.05,), object="Ring")),
+    ("recolored", Guess((0.1, 0.8, 0.9), object="Drum")),
+    ("swapped_colors", Guess((2.0, 3.0))),
+    ("rows", Guess()),
+    ("row_off", Guess()),
+]
+
+
+FIRST = ("pixel_offset", "sensor_fit", "object_missing", "rows")  # the others take minutes
+SOME = [
+    pytest.param(n, g, id=f"{n}{g.values}", marks=() if n in FIRST else pytest.mark.torture)
+    for n, g in MADE
+]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "guess"), SOME)
+def test_a_fault_gets_its_name_and_its_numbers(solids, name, guess):
+    color = pictured(solids, name, guess)
+    found = diagnosis_of(solids, color)
+    assert found.pixels["unexplained"] > 10
+    assert name in names(found)
+    told = next(t for t in found.diagnosis.told if t.fault.name == name)
+    assert told.settled >= 0.97 * told.unexplained
+    assert told.broken <= 0.03 * told.settled
+    fitted = told.fault.numbers and told.guess.low
+    if fitted and name in ("pixel_offset", "focal_length", "roll"):
+        np.testing.assert_allclose(told.guess.values, guess.values, atol=0.02)
+    if fitted and name.startswith("clip"):
+        [low], [high] = told.guess.low, told.guess.high
+        assert low <= guess.values[0] <= high
+    assert json.loads(json.dumps(found.to_dict(), allow_nan=False))["diagnosis"]["told"]
+    assert any(line.startswith("diagnosis: ") for line in found.lines())
+
+
+@pytest.mark.torture
+def test_two_faults_are_found_one_after_the_other(solids):
+    frame = render(solids)
+    wrong = BY_NAME["sensor_fit"].make(case_of(solids, frame.color), frame, Guess((0.0,)))
+    both = BY_NAME["pixel_offset"].make(wrong, frame, Guess((0.5, 0.5)))
+    found = diagnosis_of(solids, render(both.scene).color)
+    assert names(found) == ["sensor_fit", "pixel_offset"]
+    assert found.diagnosis.left == 0 and found.verdict == "differences"
+
+
+@pytest.mark.slow
+def test_two_objects_are_found_one_after_the_other(solids):
+    frame = render(solids)
+    wrong = BY_NAME["object_missing"].make(case_of(solids, frame.color), frame, Guess(object="Box"))
+    color = (0.1, 0.9, 0.9)
+    both = BY_NAME["recolored"].make(wrong, frame, Guess(color, object="Ring"))
+    found = diagnosis_of(solids, render(both.scene).color)
+    assert sorted(names(found)) == ["object_missing", "recolored"]
+    assert found.diagnosis.left == 0
+
+
+def _noise(color, rng):
+    where = rng.random(color.shape[:2]) < 0.05
+    color[where, :3] = rng.random((int(where.sum()), 3))
+    return color
+
+
+def _distorted(color, rng):
+    """Distort it as a lens does: the corners move by 9 pixels, the middle by none."""
+    h, w = color.shape[:2]
+    y, x = np.mgrid[:h, :w] + 0.5
+    u, v = x - w / 2, y - h / 2
+    far = 1 + 9 / np.hypot(w / 2, h / 2) ** 3 * (u * u + v * v)
+    column = np.clip(u * far + w / 2, 0, w - 1).astype(int)
+    row = np.clip(v * far + h / 2, 0, h - 1).astype(int)
+    return color[row, column]
+
+
+def _rolling(color, rng):
+    """Move every row a little more than the one below it."""
+    rows = [np.roll(row, round(6 * n / len(color)), axis=0) for n, row in enumerate(color)]
+    return np.array(rows)
+
+
+def _blurred(color, rng):
+    """Mix the pixels of a part of the picture."""
+    part = color[20:60, 40:110]
+    mixed = sum(np.roll(part, (i, j), (0, 1)) for i in (-2, 0, 2) for j in (-2, 0, 2)) / 9
+    color[20:60, 40:110] = mixed
+    return color
+
+
+def _shuffled(color, rng):
+    """Exchange blocks of the picture."""
+    for _ in range(12):
+        (a, b), (c, d) = (rng.integers(0, (80, 150)) for _ in range(2))
+        one, other = color[a : a + 8, b : b + 8].copy(), color[c : c + 8, d : d + 8].copy()
+        color[a : a + 8, b : b + 8], color[c : c + 8, d : d + 8] = other, one
+    return color
+
+
+LONG = [pytest.param(d, marks=pytest.mark.torture) for d in (_rolling, _blurred, _shuffled)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("damage", [_noise, _distorted, *LONG])
+def test_damage_gets_no_name(solids, damage):
+    color = damage(render(solids).color.copy(), np.random.default_rng(SEED))
+    found = diagnosis_of(solids, color)
+    assert found.pixels["unexplained"] > 50
+    assert names(found) == []
+    told = found.diagnosis
+    assert told.left >= found.pixels["unexplained"] and told.regions
+    assert sum(region.pixels for region in told.regions) == told.left
+
+
+@pytest.mark.torture
+def test_an_object_that_is_turned_is_not_said_to_be_moved(solids):
+    box = solids.instances[1]
+    turned = trimesh.transformations.rotation_matrix(0.5, (1, 0.3, 0.2))
+    instances = list(solids.instances)
+    instances[1] = replace(box, world_from_object=box.world_from_object @ turned)
+    found = diagnosis_of(solids, render(replace(solids, instances=tuple(instances))).color)
+    assert found.pixels["unexplained"] > 50 and names(found) == []
+    assert "Box" in found.diagnosis.regions[0].objects
+
+
+ALIKE = [
+    ("pixel_offset", Guess((0.3, 0.0)), {"focal_length", "roll", "object_moved"}),
+    ("focal_length", Guess((0.5,)), {"pixel_offset", "roll"}),
+    ("object_missing", Guess(object="Ball"), {"recolored", "overlay", "object_moved"}),
+    ("recolored", Guess((0.3, 0.9, 0.1), object="Box"), {"object_missing", "overlay"}),
+    ("object_moved", Guess((0.3, 0.0, 0.0), object="Ball"), {"object_scaled", "object_twice"}),
+    ("rows", Guess(), {"mirrored_x"}),
+]
+
+
+@pytest.mark.torture
+@pytest.mark.parametrize(("name", "guess", "others"), ALIKE, ids=[name for name, *_ in ALIKE])
+def test_a_fault_that_looks_like_another_does_not_get_its_name(solids, name, guess, others):
+    found = diagnosis_of(solids, pictured(solids, name, guess))
+    assert name in names(found) and not set(names(found)) & others
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("opacity", [0.4, 1.0])
+def test_something_laid_over_the_picture(solids, opacity):
+    """But a part of it that has the colour of an object may be that object."""
+    color = render(solids).color.copy()
+    part = color[30:60, 60:130]
+    part[:] = (1 - opacity) * part + opacity * np.array((0.02, 0.97, 0.95, 1))
+    found = diagnosis_of(solids, color)
+    assert names(found) == ["overlay"]
+    assert found.diagnosis.told[0].guess.values[0] == pytest.approx(opacity, abs=0.01)
+    like = render(solids).color.copy()
+    like[30:60, 60:130] = solids.instances[2].colors[0]
+    assert "overlay" not in names(diagnosis_of(solids, like))
+
+
+def test_nothing_is_done_where_nothing_is_unexplained(solids):
+    def never():
+        raise AssertionError("no variant is asked for")
+
+    case = case_of(solids, Picture(render(solids).color), variants=never)
+    found = result_of(trace_and_compare(case))
+    assert result_of(diagnosed(found)) is found and found.diagnosis is None
+    assert found.to_dict()["diagnosis"] is None
+
+
+def test_a_variant_is_told_by_its_fault_and_words(solids):
+    """Also where the scene that is compared lacks what its own camera does not see."""
+    eye = solids.camera.world_from_camera.copy()
+    eye[:3, 3] += (0.5, 1.0, 0.2)
+    other = replace(solids.camera, world_from_camera=eye)
+    near = replace(solids.camera, clip_start=0.2)
+    lacking = replace(solids, instances=solids.instances[:-1])  # as if the drum were out of view
+    lacking = replace(lacking, objects=solids.objects)
+    asked = (
+        Variant(WHOLE, solids),
+        Variant("other_camera", solids.seen_by(other), "'Side'", "Side"),
+        Variant("other_camera", solids.seen_by(near), "'Near'", "Near"),
+    )
+    shown = render(solids.seen_by(other)).color
+    found = diagnosis_of(lacking, shown, variants=lambda: asked)
+    assert names(found) == ["other_camera"]
+    assert "'Side'" in found.diagnosis.told[0].sentence
