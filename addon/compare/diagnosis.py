@@ -272,7 +272,7 @@ def diagnose(
             told += [_told(evidence, trial, bool(n)) for n, trial in enumerate(trials)]
         for first, *_ in chain:
             evidence = _carried(evidence, first)
-        if not evidence.open.any():
+        if evidence.open.sum() < LEAST:
             break
     seconds = time.monotonic() - search.began
     left = int(evidence.open.sum())

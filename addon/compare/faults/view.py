@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -12,9 +13,11 @@ from ...tracer.progress import Work
 from ..case import Case
 from ..evidence import Evidence
 from .fault import Example, Fault, Guess, of_camera
-from .search import rounded
+from .search import Search, Values
 
 FEW = (0.0, 0.001, 0.01, 0.05)  # shares of unexplained pixels that may have another cause
+STEPS = 32  # of the depths that are seen: the first step of a fit
+BESIDE = 2.0**-40  # of a depth: before what is clipped
 FAR = 1e6  # how many times farther is looked for what should have been clipped
 
 
@@ -35,37 +38,53 @@ def _halfway(case: Case, frame: Frame) -> Guess | None:
 
 
 def _find_start(evidence: Evidence) -> Work[list[Guess]]:
-    """Return clip starts that part unexplained surfaces from those behind, and none."""
+    """Return the clip start for which the most pixels are right, and none."""
     camera = evidence.case.scene.camera
-    yield 0.0
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
-    nearer = Guess((least,), words="nearly 0")
-    return [*_parting(evidence, -1.0), nearer]
+    fitted = yield from _fitted(evidence, _start, -1.0)
+    return [*fitted, Guess((least,))]
 
 
 def _find_end(evidence: Evidence) -> Work[list[Guess]]:
-    """Return clip ends that part unexplained surfaces from those before, and none."""
-    yield 0.0
-    return [*_parting(evidence, 1.0), Guess((evidence.case.scene.camera.clip_end * FAR,))]
+    """Return the clip end for which the most pixels are right, and none."""
+    fitted = yield from _fitted(evidence, _end, 1.0)
+    return [*fitted, Guess((evidence.case.scene.camera.clip_end * FAR,))]
 
 
-def _parting(evidence: Evidence, sign: float) -> list[Guess]:
+def _fitted(
+    evidence: Evidence, changed: Callable[[Camera, float], Camera | None], sign: float
+) -> Work[list[Guess]]:
+    """Return the best depth near those that part unexplained pixels from the others."""
+    starts = _parting(evidence, sign)
+    t = evidence.frame.t[np.isfinite(evidence.frame.t)]
+    if not starts or not np.ptp(t):
+        return []
+
+    def right(values: Values) -> Work[int]:
+        if values[0] <= 0:
+            return -1
+        camera = changed(evidence.case.scene.camera, *values)
+        if camera is None:
+            return -1
+        probe = yield from evidence.probe(evidence.case.scene.seen_by(camera))
+        hits = yield from probe.trace()
+        return int(evidence.agrees(probe.scene, hits).sum())
+
+    search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right)
+    guess = yield from search.guess(starts)
+    return [guess] if guess else []
+
+
+def _parting(evidence: Evidence, sign: float) -> list[Values]:
     """Return depths beyond which (sign 1), or before which (-1), the unexplained pixels lie.
 
     All of them do, or nearly all: some may have another cause. Pixels that agree may lie there,
     too, as they show what is behind in the same colour.
     """
     t = sign * evidence.frame.t
-    seen = np.isfinite(t)
-    depth, wrong = np.unique(t[seen & ~evidence.open]), np.sort(t[seen & evidence.open])
-    out = []
-    for share in FEW if len(wrong) else ():
-        nearest = float(wrong[int(share * len(wrong))])
-        before = depth[depth < nearest]
-        if len(before):
-            low, high = sorted((sign * nearest, sign * float(before[-1])))
-            out.append(Guess(rounded((low,), (high,)), (low,), (high,)))
-    return out
+    wrong = np.sort(t[np.isfinite(t) & evidence.open])
+    found = {float(wrong[int(share * len(wrong))]) for share in FEW if len(wrong)}
+    return [(abs(nearest) * (1 - sign * BESIDE),) for nearest in sorted(found)]
 
 
 VIEW_FAULTS = (
