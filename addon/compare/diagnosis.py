@@ -132,7 +132,7 @@ class Diagnosis:
         """Return what a person wants to know first."""
         out = [line for told in self.told for line in told.lines()]
         if not out:
-            out = [f"diagnosis: none of the known faults accounts for them ({self.guesses} tried)"]
+            out = ["diagnosis: no known fault accounts for the unexplained pixels"]
         if self.left:
             places = "region" if len(self.regions) == 1 else "regions"
             out.append(f"           {self.left:,} px are left, in {len(self.regions)} {places}:")

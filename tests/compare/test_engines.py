@@ -10,7 +10,7 @@ import pytest
 from reference_tracer.compare import engines
 from reference_tracer.compare.comparison import compare
 from reference_tracer.compare.engines import EngineRow
-from reference_tracer.compare.faults import FAULTS
+from reference_tracer.compare.faults import EXAMPLES
 from reference_tracer.compare.picture import Picture, Source, numbered
 from reference_tracer.manifest import Effect, Unmodelled
 from reference_tracer.rendering import render
@@ -85,7 +85,7 @@ def test_what_is_over_a_surface_is_named_and_what_cannot_be_judged_is_said(room)
     assert "workbench: self-check: " in text and "caught" in text
     held = row.to_dict()
     assert held["not_judged"] == list(row.not_judged)
-    assert [f["name"] for f in held["self_check"]] == [f.name for f in FAULTS]
+    assert [f["name"] for f in held["self_check"]] == [example.name for _, example in EXAMPLES]
 
 
 def test_the_table_and_the_json(rows, tmp_path):

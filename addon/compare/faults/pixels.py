@@ -8,7 +8,6 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable
 from dataclasses import replace
-from importlib.util import find_spec
 
 import numpy as np
 
@@ -94,7 +93,11 @@ def _jpeg(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
 
 def _find_jpeg(evidence: Evidence) -> Work[list[Guess]]:
     """Return the quality whose errors are the nearest to the picture's, if it has 8 bits."""
-    if evidence.picture.levels not in (0, 255) or not find_spec("PIL"):
+    try:
+        import PIL.Image  # noqa: F401
+    except ImportError:  # an extra, which Blender lacks: nobody stores a reference as a JPEG
+        return []
+    if evidence.picture.levels not in (0, 255):
         return []
     shown = encoded(evidence.picture.color)[..., :3]
 
