@@ -238,7 +238,7 @@ class _Search:
 
 def _gain(evidence: Evidence, fault: Fault, guess: Guess) -> Work[float]:
     """Return how many more pixels a guess explains, by the sample; all, if it cannot be sampled."""
-    if fault.after is not None:
+    if not fault.sampled:
         return float(evidence.open.sum())
     try:
         case = fault.tried(evidence.case, evidence.frame, guess)

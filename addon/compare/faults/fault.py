@@ -81,6 +81,7 @@ class Fault:
     # What the picture's pixels are after that, from those that are traced in the case with the
     # fault, (h', w', 4); the shape is (h, w).
     after: After | None = None
+    sampled: bool = True  # whether single pixels can say how good a guess is
     refine: Refine | None = None  # fits a guess in a finer sample
     effort: int = 0  # of finding it: 1 if the camera is fitted, 2 and 3 if an object is, 4: pixels
     examples: tuple[Example, ...] = ()

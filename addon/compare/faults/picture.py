@@ -145,7 +145,8 @@ def _find_filter(evidence: Evidence) -> Work[list[Guess]]:
         yield 0.0
     if pure.mean() > 1 - MIXED:
         return []
-    return [Guess((radius,)) for radius in RADII if radius > evidence.picture.filter_radius]
+    larger = [(r,) for r in RADII if r > evidence.picture.filter_radius]
+    return [Guess(radius, radius, radius) for radius in larger]
 
 
 PICTURE_FAULTS = (
@@ -196,6 +197,8 @@ PICTURE_FAULTS = (
         _find_filter,
         ("radius",),
         put_right=_filtered,
+        sampled=False,
+        effort=4,
     ),
     *PIXEL_FAULTS,
 )

@@ -6,7 +6,6 @@ No ray is asked: what is traced goes through the same, and is held against the p
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -17,16 +16,20 @@ from ...scene import Region
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
-from ..evidence import NEAR, Evidence
+from ..evidence import NEAR, Evidence, spread
 from .fault import Fault, Guess
 
-SIZES = (1 / 2, 1 / 3, 1 / 4, 2 / 3, 3 / 4, 2.0)  # of what may have been resampled
+SIZES = (1 / 2, 0.9, 0.8, 1 / 3, 1 / 4, 2 / 3, 3 / 4, 2.0)  # of what may have been resampled
 NEAREST, LINEAR, BOX = 0.0, 1.0, 2.0
 QUALITIES = (95, 90, 85, 80, 75, 70, 60, 50, 40, 30)
 JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its own way
 LEAST_SURFACES = 2  # that something laid over a picture must cover: else it is a recoloured object
-LEAST_COVERED = 0.03  # of what is covered, for a surface to count
-STRIPES = 8  # pixels on a side of JPEG's blocks
+LEAST_COVERED = 0.02  # of what is covered, for a surface to count
+OPACITIES = np.arange(2, 101) / 100  # that are tried
+MOST_INKS = 2  # colours that are laid over
+INK_STEPS = 50  # to which these are told apart
+COVERED = 0.9  # the least share of the unexplained pixels that they must make
+MOST_BLENDED = 4096  # pixels that are looked at
 
 
 def _other_size(case: Case, frame: Frame, guess: Guess) -> Case | None:
@@ -135,55 +138,71 @@ def _in_box(shape: tuple[int, ...], guess: Guess) -> Bools:
 
 
 def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return a picture with a colour laid over it, wherever it is unexplained in the guess' box."""
-    opacity, *color = guess.values
+    """Return a picture with colours laid over it, wherever it is unexplained in the guess' box."""
+    opacity, inks = guess.values[0], np.reshape(guess.values[1:], (-1, 3))
     where = _in_box(evidence.open.shape, guess) & evidence.open
+    under, shown = colors[where].astype(np.float64), evidence.picture.color[where, :3]
+    made = (1 - opacity) * under[:, None, :3] + opacity * inks
+    best = np.abs(made - shown[:, None]).max(axis=-1).argmin(axis=1)
     out = colors.copy()
-    out[where, :3] = (1 - opacity) * colors[where, :3] + opacity * np.array(color)
-    out[where, 3] = (1 - opacity) * colors[where, 3] + opacity
+    out[where, :3] = made[np.arange(len(best)), best]
+    out[where, 3] = evidence.picture.color[where, 3]
     return out
 
 
 def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
-    """Return one colour, laid over several surfaces, that makes all unexplained pixels of a box."""
+    """Return an opacity and few colours that make the unexplained pixels, over several surfaces."""
     yield 0.0
     rows, columns = np.nonzero(evidence.open)
-    traced = evidence.frame.color[rows, columns].astype(np.float64)
-    shown = evidence.picture.color[rows, columns].astype(np.float64)
-    if len(_surfaces(evidence.frame.instance_index[rows, columns])) < LEAST_SURFACES:
-        return []
     (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
-    box = (left, bottom, right, top)
-    blends = _blends(traced[:, :3], shown[:, :3])
-    return [replace(g, box=box) for g in blends if not _of_scene(evidence, g.values)]
+    some = spread(np.ones(len(rows), bool), MOST_BLENDED)
+    at = rows[some], columns[some]
+    traced = evidence.frame.color[at].astype(np.float64)[:, :3]
+    shown = evidence.picture.color[at].astype(np.float64)[:, :3]
+    if not np.isfinite(shown).all():
+        return []
+    best = max((_inks(traced, shown, o) for o in OPACITIES), key=lambda found: found[0])
+    covered, opacity, inks = best
+    if covered < COVERED or _of_scene(evidence, opacity, inks):
+        return []
+    values = (opacity, *inks.ravel().tolist())
+    return [Guess(values, values[:4], values[:4], box=(left, bottom, right, top))]
 
 
-def _of_scene(evidence: Evidence, values: tuple[float, ...]) -> bool:
+def _inks(traced: Floats, shown: Floats, opacity: float) -> tuple[float, float, Floats]:
+    """Return the share of n pixels that few colours explain if laid over with an opacity.
+
+    And the opacity, fitted, and the colours (k, 3). Each of them must lie over several surfaces.
+    """
+    ink = (shown - (1 - opacity) * traced) / opacity
+    key, count = np.unique(np.rint(INK_STEPS * ink), axis=0, return_counts=True)
+    inks: list[Floats] = []
+    slopes: list[Floats] = []
+    covered = 0
+    for k in np.argsort(-count, kind="stable")[:MOST_INKS]:
+        own = np.abs(ink - key[k] / INK_STEPS).max(axis=1) <= 1 / INK_STEPS
+        under = np.unique(traced[own], axis=0, return_counts=True)[1]
+        several = (under >= LEAST_COVERED * len(traced)).sum() >= LEAST_SURFACES
+        if several and key[k].min() >= -1 and key[k].max() <= INK_STEPS + 1:
+            inks.append(np.median(ink[own], axis=0))
+            slopes.append(np.stack([v[own] - v[own].mean(axis=0) for v in (traced, shown)]))
+            covered += int(own.sum())
+    if inks:
+        a, b = np.concatenate(slopes, axis=1)
+        opacity = 1 - float((a * b).sum() / max(float((a * a).sum()), 1e-12))
+        kept = [(shown - (1 - opacity) * traced) / opacity] if opacity > 0 else []
+        inks = (
+            [np.median(kept[0][np.abs(ink - i).max(axis=1) <= 1 / INK_STEPS], axis=0) for i in inks]
+            if kept
+            else []
+        )
+    return min(covered / len(traced), 1.0) if inks else 0.0, opacity, np.array(inks)
+
+
+def _of_scene(evidence: Evidence, opacity: float, inks: Floats) -> bool:
     """Return whether what is laid over hides all, and has a colour that an object may have."""
-    opacity, *color = values
-    apart = np.abs(evidence.case.scene.color_table[:, :3] - color).max(axis=1)
-    return opacity > 1 - NEAR and bool((apart <= NEAR).any())
-
-
-def _surfaces(instance: Array) -> Array:
-    """Return the instances that make up a share of some pixels."""
-    found, count = np.unique(instance, return_counts=True)
-    return found[count >= LEAST_COVERED * count.sum()]
-
-
-def _blends(traced: Floats, shown: Floats) -> Iterable[Guess]:
-    """Yield opacity and colour of what may lie over traced colours (n, 3), so that n are shown."""
-    middle = traced - traced.mean(axis=0), shown - shown.mean(axis=0)
-    if not middle[0].any():
-        return
-    slope = float((middle[0] * middle[1]).sum() / (middle[0] ** 2).sum())
-    opacity = 1 - slope
-    if not 0.02 < opacity <= 1.02:
-        return
-    opacity = min(opacity, 1.0)
-    color = np.median(shown - (1 - opacity) * traced, axis=0) / opacity
-    values = (opacity, *color.tolist())
-    yield Guess(values, values, values)
+    table = evidence.case.scene.color_table[:, None, :3]
+    return opacity > 1 - NEAR and bool((np.abs(table - inks).max(axis=-1) <= NEAR).any())
 
 
 PIXEL_FAULTS = (
@@ -195,6 +214,7 @@ PIXEL_FAULTS = (
         _sizes,
         ("size",),
         effort=4,
+        sampled=False,
         after=_resampled,
     ),
     Fault(
@@ -206,6 +226,7 @@ PIXEL_FAULTS = (
         ("quality",),
         put_right=_as_jpeg,
         effort=4,
+        sampled=False,
         after=_jpeg,
     ),
     Fault(
@@ -218,6 +239,7 @@ PIXEL_FAULTS = (
         ("opacity", "red", "green", "blue"),
         put_right=lambda case, frame, guess: case,
         effort=4,
+        sampled=False,
         after=_laid_over,
     ),
 )
