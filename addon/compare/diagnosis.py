@@ -1,59 +1,31 @@
 """The diagnosis: what accounts for the unexplained pixels, with numbers that one can act on.
 
 Each known fault is put into the scene that is traced, or taken out of the picture. It is told only
-if the picture then agrees. A diagnosis never changes the verdict.
-
-A guess is told under three conditions.
-
-- It is right in nearly all the pixels that it changes (`PRECISE`). A wrong guess has no reason to
-  be: it changes edges that agreed, and these are lost. A fit of the wrong kind, such as an offset
-  for a distorted lens, is right in some places alone.
-- It settles enough pixels. A guess that changes k pixels of two colours is right in all of them by
-  chance once in 2^k times, and some hundred guesses are tried: so `LEAST` are needed, and half
-  as many again for each number that was fitted.
-- It settles a share of what is unexplained (`SHARE`), or all that earlier ones left: a fault of a
-  few pixels beside another one of many is looked for once that one is put right.
-
-Of guesses that are as good, those with the fewest fitted numbers are told, all of them.
+if the picture then agrees: `guessing.py` says under which conditions. It never changes the verdict.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from ..arrays import Colors
-from ..rendering import steps
-from ..scene import Scene, SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work, scaled
-from .case import WHOLE, Case
+from .case import Case
 from .cause import Causes
-from .causes import explain
 from .evidence import Evidence
 from .faults import FAULTS
 from .faults.fault import Fault, Guess
+from .guessing import LEAST, Guessing, accounting, carried, with_variants
 from .identity import Identity
 from .regions import Region, regions, sides
-from .trial import Trial, tried
+from .trial import Trial
 
-PRECISE = 0.97  # the least share of changed pixels that a guess must be right in
-COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
-LEAST = 10  # the least pixels that a guess must settle, and half as many for each of its numbers
-SHARE = 0.05  # of the unexplained pixels
-ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
-PROMISING = 0.3  # of the best gain on the sample: guesses below are not tried on the whole picture
-NEARLY = 0.9  # of the unexplained pixels: a guess that gains as much may be all there is
-ALL_EDGES = 1 << 14  # pixels of each kind that are looked at then
-TRIED = 6  # guesses that are tried on the whole picture together, at most
-MOST_SURE = 24  # of guesses that gain nearly all: an empty picture has many
-MAIN = 0.5  # of the unexplained pixels: a guess that gains as much may need a second one beside it
-STARTS = 2  # such guesses
 ROUNDS = 3  # faults one after the other, at most
 FRAMED = 5  # regions that are named
-SECONDS = 60.0  # after which no other guess is made
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,95 +132,6 @@ def _framed(region: Region) -> str:
     return f"{region.pixels:,} px in {place}: {shows}"
 
 
-class _Search:
-    """What is done so far."""
-
-    def __init__(self, faults: Sequence[Fault]) -> None:
-        self.faults = faults
-        self.began = time.monotonic()
-        self.guesses = 0
-
-    @property
-    def ended(self) -> bool:
-        return time.monotonic() - self.began > SECONDS
-
-    def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
-        """Return guesses tried on the whole picture, the best first.
-
-        Faults without numbers to fit are looked at before the others: where one of them does it
-        all, a fit that does as well says no more.
-        """
-        open_ = float(evidence.open.sum())
-        pool: list[tuple[float, Fault, Guess]] = []
-        out: list[Trial] = []
-        for effort in sorted({fault.effort for fault in self.faults}):
-            some = [fault for fault in self.faults if fault.effort == effort]
-            scored = yield from self._scored(evidence, some)
-            pool += [one for one in scored if one[0] < NEARLY * open_]
-            sure = [one for one in scored if one[0] >= NEARLY * open_]
-            out += yield from self._tried(evidence, of, sure, MOST_SURE)
-            if any(t.perfect for t in _good(of, out)):
-                break
-        else:
-            out += yield from self._tried(evidence, of, pool, TRIED)
-        return sorted(out, key=lambda trial: (-trial.gain, trial.cost))
-
-    def _scored(
-        self, evidence: Evidence, faults: Sequence[Fault]
-    ) -> Work[list[tuple[float, Fault, Guess]]]:
-        """Return the guesses of some faults that gain on the sample, each with its gain."""
-        out = []
-        for fault in faults:
-            if self.ended:
-                break
-            given = [
-                Guess(object=v.object, scene=v.scene, words=v.words)
-                for v in evidence.variants
-                if v.fault == fault.name
-            ]
-            for guess in (*given, *(yield from fault.find(evidence))):
-                self.guesses += 1
-                gain = yield from _gain(evidence, fault, guess)
-                if gain >= max(LEAST, SHARE * evidence.open.sum()):
-                    out.append((gain, fault, guess))
-        return out
-
-    def _tried(
-        self, evidence: Evidence, of: Evidence, scored: list[tuple[float, Fault, Guess]], most: int
-    ) -> Work[list[Trial]]:
-        """Return the trials of the guesses with the most gain; what was fitted is fitted finely."""
-        scored = sorted(scored, key=lambda one: -one[0])
-        out: list[Trial] = []
-        done: set[str] = set()  # faults with a guess that does it all
-        for gain, fault, guess in scored[:most]:
-            if fault.name in done:
-                continue
-            if gain < PROMISING * scored[0][0] or self.ended:
-                break
-            if fault.refine and guess.low:
-                finer = replace(evidence, size=ALL_EDGES)
-                guess = (yield from fault.refine(finer, guess)) or guess
-            trial = yield from tried(evidence, fault, guess, of)
-            if trial and trial.gain > 0:
-                out.append(trial)
-                if trial.perfect:
-                    done.add(fault.name)
-        return out
-
-
-def _gain(evidence: Evidence, fault: Fault, guess: Guess) -> Work[float]:
-    """Return how many more pixels a guess explains, by the sample; all, if it cannot be sampled."""
-    if not fault.sampled:
-        return float(evidence.open.sum())
-    try:
-        case = fault.tried(evidence.case, evidence.frame, guess)
-        if case is None:
-            return 0.0
-        return (yield from evidence.score(case)).gain
-    except SceneError:
-        return 0.0
-
-
 def diagnose(
     case: Case, frame: Frame, causes: Causes, faults: Sequence[Fault] = FAULTS
 ) -> Work[Diagnosis]:
@@ -260,24 +143,24 @@ def diagnose(
     evidence = Evidence(case, frame, causes)
     if not evidence.open.any() or frame.cancelled:
         return Diagnosis()
-    search = _Search(faults)
-    evidence = yield from _with_variants(evidence)
+    guessing = Guessing(faults)
+    evidence = yield from with_variants(evidence)
     told: list[Told] = []
     for number in range(ROUNDS):
-        finding = _found(search, evidence)
+        finding = accounting(guessing, evidence)
         chain = yield from scaled(finding, number / ROUNDS, 1 / ROUNDS)
         if not chain:
             break
         for trials in chain:
             told += [_told(evidence, trial, bool(n)) for n, trial in enumerate(trials)]
         for first, *_ in chain:
-            evidence = _carried(evidence, first)
+            evidence = carried(evidence, first)
         if evidence.open.sum() < LEAST:
             break
-    seconds = time.monotonic() - search.began
+    seconds = time.monotonic() - guessing.began
     left = int(evidence.open.sum())
     framed = _regions(evidence) if left else ()
-    return Diagnosis(tuple(told), search.guesses, seconds, search.ended, left, framed)
+    return Diagnosis(tuple(told), guessing.guesses, seconds, guessing.ended, left, framed)
 
 
 def _regions(evidence: Evidence) -> tuple[Region, ...]:
@@ -288,90 +171,6 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
         own = picture.owners[frame.instance_index]
         identity = Identity(picture.names, own, picture.owner)
     return tuple(regions(evidence.open, sides(case.scene, frame, identity)))
-
-
-def _with_variants(evidence: Evidence) -> Work[Evidence]:
-    """Return the evidence with the case's variants, and with all that the view leaves out.
-
-    What no ray meets is not exported. A camera with a fault may have seen it.
-    """
-    case = evidence.case
-    variants = [replace(v, scene=_as_in(case.scene, v.scene)) for v in case.variants()]
-    others = tuple(v for v in variants if v.fault != WHOLE)
-    for whole in (v.scene for v in variants if v.fault == WHOLE):
-        if len(whole.instances) > len(case.scene.instances):
-            meshes, instances, objects = whole.meshes, whole.instances, whole.objects
-            scene = replace(case.scene, meshes=meshes, instances=instances, objects=objects)
-            case = case.in_scene(scene)
-            frame = Frame.empty(scene)
-            yield from steps(scene, case.settings, frame, case.tracer)
-            found = yield from explain(case, frame)
-            return Evidence(found.case, found.frame, found.causes, others)
-    return replace(evidence, variants=others)
-
-
-def _carried(evidence: Evidence, trial: Trial) -> Evidence:
-    """Return the evidence with a fault put right, in the variants, too."""
-    variants = []
-    for variant in evidence.variants:
-        scene, given = variant.scene, trial.guess.scene
-        if given is not None:  # of two faults that only Blender can make, one may be the camera's
-            other = given.camera is not evidence.case.scene.camera
-            scene = scene.seen_by(given.camera) if other else scene
-        elif case := trial.fault.tried(evidence.case.in_scene(scene), evidence.frame, trial.guess):
-            scene = case.scene
-        variants.append(replace(variant, scene=scene))
-    return replace(trial.evidence, variants=tuple(variants))
-
-
-def _as_in(own: Scene, other: Scene) -> Scene:
-    """Return another scene before the background, and with the objects' colours, of one's own."""
-    colors = {own.objects[i.object]: i.colors for i in own.instances}
-    instances = [
-        replace(i, colors=colors.get(other.objects[i.object], i.colors)) for i in other.instances
-    ]
-    return replace(other, instances=tuple(instances), background=own.background)
-
-
-def _found(search: _Search, evidence: Evidence) -> Work[list[list[Trial]]]:
-    """Return the next fault, with those that do as well; or two, neither of which is enough."""
-    trials = yield from search.trials(evidence, evidence)
-    if best := _best(evidence, trials):
-        return [best]
-    for first in trials[:STARTS]:
-        if first.gain < MAIN * evidence.open.sum() or not first.evidence.open.any():
-            continue
-        seconds = yield from search.trials(_carried(evidence, first), evidence)
-        if best := _best(evidence, seconds):
-            return [[first], best]
-    return []
-
-
-def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return the trials that may be told."""
-    open_ = int(evidence.open.sum())
-    return [
-        t
-        for t in trials
-        if t.precision >= PRECISE
-        and t.settled >= LEAST * (1 + t.cost / 2)
-        and t.settled >= SHARE * open_
-        and t.recall >= COMPLETE
-        and not t.unseen
-    ]
-
-
-def _best(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
-    """Return those of the most gain with the fewest numbers, one of each fault."""
-    good = _good(evidence, trials)
-    most = max((t.gain for t in good), default=0)
-    alike = [t for t in good if t.gain >= (1 - ALIKE) * most]
-    fewest = min((t.cost for t in alike), default=0)
-    told: dict[str, Trial] = {}
-    for trial in sorted(alike, key=lambda t: -t.gain):
-        if trial.cost == fewest:
-            told.setdefault(trial.fault.name, trial)
-    return list(told.values())
 
 
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:

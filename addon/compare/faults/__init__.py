@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from .camera import CAMERA_FAULTS
+from .colors import COLOR_FAULTS
 from .fault import Example, Fault
 from .given import GIVEN_FAULTS
+from .lens import LENS_FAULTS
 from .objects import OBJECT_FAULTS
 from .picture import PICTURE_FAULTS
+from .triangles import TRIANGLE_FAULTS
 from .view import VIEW_FAULTS
 
 FAULTS: tuple[Fault, ...] = (
     *CAMERA_FAULTS,
+    *LENS_FAULTS,
     *VIEW_FAULTS,
     *OBJECT_FAULTS,
+    *TRIANGLE_FAULTS,
+    *COLOR_FAULTS,
     *GIVEN_FAULTS,
     *PICTURE_FAULTS,
 )

@@ -1,0 +1,203 @@
+"""Faults of the lens: which part of the film each pixel sees."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from ...projections import ORTHOGRAPHIC
+from ...scene import Camera, Region, ViewWindow
+from ...tracer.camera import pixel_size
+from .fault import Example, Fault, options, with_values
+
+Change = Callable[[Camera], Camera | None]
+
+
+def window(camera: Camera, x: float, y: float, centre: tuple[float, float]) -> Camera:
+    """Return the camera with its view window scaled by (x, y), and moved to a centre."""
+    w = camera.window
+    half_x, half_y = x * (w.right - w.left) / 2, y * (w.top - w.bottom) / 2
+    cx, cy = centre
+    made = ViewWindow(cx - half_x, cx + half_x, cy - half_y, cy + half_y)
+    return replace(camera, window=made)
+
+
+def centre(camera: Camera) -> tuple[float, float]:
+    """Return the centre of the view window."""
+    w = camera.window
+    return (w.left + w.right) / 2, (w.bottom + w.top) / 2
+
+
+def _scaled(x: float, y: float, camera: Camera) -> Camera:
+    """Scale the view window, and its distance from the axis, too."""
+    cx, cy = centre(camera)
+    return window(camera, x, y, (x * cx, y * cy))
+
+
+def _aspect(camera: Camera) -> float:
+    """Return the width of the view window in heights."""
+    w = camera.window
+    return (w.right - w.left) / (w.top - w.bottom)
+
+
+def _fits(power: float, shifted: bool) -> Change:
+    """Return what fits the lens to the other side of the picture; the shift goes with it or not."""
+
+    def change(camera: Camera) -> Camera | None:
+        factor = _aspect(camera) ** power
+        if not camera.projection.is_linear or factor == 1:  # a panorama has no sensor to fit
+            return None
+        return _scaled(factor, factor, camera) if shifted else _about_centre(camera, factor)
+
+    return change
+
+
+def _about_centre(camera: Camera, factor: float) -> Camera | None:
+    """Scale the view window about its own centre; None if that is the axis."""
+    own = centre(camera)
+    return window(camera, factor, factor, own) if any(own) else None
+
+
+def _shifts(of: Callable[[Camera, float, float], tuple[float, float]]) -> Change:
+    """Return what gives the view window another centre; None where it has none to get wrong."""
+
+    def change(camera: Camera) -> Camera | None:
+        own = centre(camera)
+        other = of(camera, *own)
+        return None if np.allclose(own, other, rtol=1e-9, atol=0) else window(camera, 1, 1, other)
+
+    return change
+
+
+def _square(by_width: bool) -> Change:
+    """Return what takes pixels for squares, as wide or as high as they are."""
+
+    def change(camera: Camera) -> Camera | None:
+        width, height = pixel_size(camera)
+        if np.isclose(width, height, rtol=1e-6):
+            return None
+        return (
+            _scaled(1, width / height, camera) if by_width else _scaled(height / width, 1, camera)
+        )
+
+    return change
+
+
+def _orthographic(factor: Callable[[Camera], float]) -> Change:
+    def change(camera: Camera) -> Camera | None:
+        if camera.projection is not ORTHOGRAPHIC or factor(camera) == 1:
+            return None
+        return _scaled(factor(camera), factor(camera), camera)
+
+    return change
+
+
+def _part(scale: float, top: bool) -> Callable[[Camera], Camera]:
+    """Return what sees the lower left of the picture, or the upper left, `scale` of its size."""
+
+    def change(camera: Camera) -> Camera:
+        w = camera.window
+        half_x, half_y = scale * (w.right - w.left) / 2, scale * (w.top - w.bottom) / 2
+        y = w.top - half_y if top else w.bottom + half_y
+        return window(camera, scale, scale, (w.left + half_x, y))
+
+    return change
+
+
+def _whole_view(camera: Camera) -> Camera | None:
+    """See the whole view in the pixels of the border's region."""
+    r = camera.region
+    if (r.width, r.height) == (camera.width, camera.height):
+        return None
+    whole = Region(0, 0, r.width, r.height)
+    return replace(camera, width=r.width, height=r.height, region=whole)
+
+
+def _other_border(camera: Camera) -> Camera | None:
+    """See the border's region counted from the other side: its rows from the top."""
+    r = camera.region
+    rows = camera.height - r.y1, camera.height - r.y0
+    if rows == (r.y0, r.y1):
+        return None
+    return replace(camera, region=Region(r.x0, rows[0], r.x1, rows[1]))
+
+
+PARTS = (0.25, 0.5, 0.75, 2.0, 4.0)  # sizes for which a percentage of the resolution is tried
+
+_FIT = options(*(_fits(power, shifted) for power in (1, -1) for shifted in (True, False)))
+_LEFT_OUT = options(_shifts(lambda camera, x, y: (0.0, 0.0)))
+_SIGN = options(
+    _shifts(lambda camera, x, y: (-x, -y)),
+    _shifts(lambda camera, x, y: (-x, y)),
+    _shifts(lambda camera, x, y: (x, -y)),
+)
+_UNIT = options(
+    _shifts(lambda camera, x, y: (x, y / _aspect(camera))),
+    _shifts(lambda camera, x, y: (x * _aspect(camera), y)),
+    _shifts(lambda camera, x, y: (x / _aspect(camera), y / _aspect(camera))),
+    _shifts(lambda camera, x, y: (x * _aspect(camera), y * _aspect(camera))),
+    _shifts(lambda camera, x, y: (x / 2, y / 2)),
+    _shifts(lambda camera, x, y: (2 * x, 2 * y)),
+)
+_SQUARE = options(_square(True), _square(False))
+_PERCENTAGE = options(*(_part(scale, top) for scale in PARTS for top in (True, False)))
+_SCALE = options(
+    _orthographic(_aspect),
+    _orthographic(lambda camera: 1 / _aspect(camera)),
+    _orthographic(lambda camera: 0.5),
+    _orthographic(lambda camera: 2.0),
+)
+_BORDER = options(_whole_view, _other_border)
+
+
+LENS_FAULTS = (
+    Fault(
+        "sensor_fit",
+        "the lens is fitted to the other side of the picture (sensor fit)",
+        "with sensor fit Auto, the sensor's width spans the longer side of the picture, pixel "
+        "aspect included",
+        *_FIT,
+        examples=(
+            Example("sensor_fit", "the lens fitted to the picture's other side", with_values(0)),
+        ),
+    ),
+    Fault("shift_left_out", "the camera's shift is left out", "add shift X and Y", *_LEFT_OUT),
+    Fault(
+        "shift_sign",
+        "the camera's shift has the wrong sign",
+        "a positive shift X shows more of what is to the right, a positive shift Y more of the top",
+        *_SIGN,
+    ),
+    Fault(
+        "shift_unit",
+        "the camera's shift is in another unit",
+        "both shifts are in lengths of the side that the sensor is fitted to",
+        *_UNIT,
+    ),
+    Fault(
+        "pixel_aspect_left_out",
+        "the pixel aspect is left out: pixels are taken for squares",
+        "a pixel is pixel aspect Y / X as high as it is wide",
+        *_SQUARE,
+    ),
+    Fault(
+        "resolution_percentage",
+        "the camera is made for another resolution than the picture's (resolution percentage)",
+        "take the width and height times the resolution's percentage, also in the principal point",
+        *_PERCENTAGE,
+    ),
+    Fault(
+        "ortho_scale",
+        "the orthographic scale is taken for another length of the picture",
+        "it is the whole width or height of the picture, whichever is longer (sensor fit Auto)",
+        *_SCALE,
+    ),
+    Fault(
+        "border",
+        "the render border is not the part of the picture that is shown",
+        "a border's rows count from the lowest, and its pixels are those of the whole picture",
+        *_BORDER,
+    ),
+)
