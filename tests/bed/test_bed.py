@@ -155,7 +155,7 @@ def where(fault: Fault, number: int):
     raise AssertionError(f"{fault.name} is seen in no scene")
 
 
-@pytest.mark.slow
+@pytest.mark.torture
 @pytest.mark.parametrize("number", range(len(FAULTS)), ids=[f.name for f in FAULTS])
 def test_a_fault_is_seen(number):
     """It leaves unexplained pixels, or the comparison names a transform of the colours."""
@@ -250,7 +250,7 @@ def test_a_damaged_picture_differs_and_comes_again(number):
         assert damage.damaged(number + 20)[0] == kind
 
 
-@pytest.mark.slow
+@pytest.mark.torture
 def test_damage_leaves_unexplained_pixels():
     for number in range(20):
         kind, scene, picture = damage.damaged(number)
