@@ -68,6 +68,13 @@ def test_its_background_is_named(scene, background, name, opaque, verdict):
     np.testing.assert_allclose(said["picture"], background, atol=0.01)
     np.testing.assert_allclose(said["scene"], WORLD, atol=1e-6)
     assert said["text"] in found.lines() and found.verdict == verdict
+    assert said["pixels"] == (found.frame.instance_index < 0).sum()
+    # A wall of that colour would look the same: the verdict's own line says so.
+    of_a_color = verdict == "warnings"
+    last = found.lines()[-1]
+    assert last.startswith(f"verdict: {verdict}") and (name in last) == of_a_color
+    assert (said["not_judged"] is not None) == of_a_color
+    assert (f"{said['pixels']:,} px" in last) == of_a_color
 
 
 @pytest.mark.parametrize("size", [(1, 1), (20, 15)])

@@ -26,6 +26,7 @@ from .checks.hidden import HIDDEN
 from .checks.unmodelled import NOT_MODELLED
 from .counts import count_pixels
 from .diagnosis import Diagnosis, diagnose
+from .guessing import SECONDS
 from .identity import Identity
 from .methods import MethodRow, list_methods
 from .metrics import boundary, image_metrics
@@ -179,8 +180,14 @@ class Comparison:
             *(row.line() for row in self.methods),
             *self.required,
             *table(self.self_check),
-            f"verdict: {self.verdict}",
+            f"verdict: {self.verdict}{self._but()}",
         ]
+
+    def _but(self) -> str:
+        """Return what the verdict leaves out, for its own line."""
+        if self.background is None or self.background.transparent:
+            return ""
+        return f" ({self.background.unjudged()})"
 
     def _of_causes(self) -> Iterator[str]:
         """Say how many pixels have each cause, and where the first of them are."""
@@ -278,14 +285,15 @@ def trace_and_compare(case: Case) -> Work[Comparison]:
     return replace(found, methods=rows)
 
 
-def diagnosed(comparison: Comparison) -> Work[Comparison]:
+def diagnosed(comparison: Comparison, seconds: float = SECONDS) -> Work[Comparison]:
     """Return a comparison with what accounts for its unexplained pixels, if it has any.
 
-    Yields the share of the work done. The verdict stays.
+    Yields the share of the work done. The verdict stays. No guess is begun after `seconds`.
     """
     if not comparison.pixels["unexplained"]:
         return comparison
-    found = yield from diagnose(comparison.case, comparison.frame, comparison.causes)
+    case, frame, causes = comparison.case, comparison.frame, comparison.causes
+    found = yield from diagnose(case, frame, causes, seconds=seconds)
     return replace(comparison, diagnosis=found)
 
 

@@ -19,7 +19,7 @@ from .cause import Causes
 from .evidence import Evidence
 from .faults import FAULTS
 from .faults.fault import Fault, Guess
-from .guessing import LEAST, Guessing, accounting, carried, with_variants
+from .guessing import LEAST, SECONDS, Guessing, accounting, carried, with_variants
 from .identity import Identity
 from .regions import Region, regions, sides
 from .trial import Trial
@@ -133,17 +133,21 @@ def _framed(region: Region) -> str:
 
 
 def diagnose(
-    case: Case, frame: Frame, causes: Causes, faults: Sequence[Fault] = FAULTS
+    case: Case,
+    frame: Frame,
+    causes: Causes,
+    faults: Sequence[Fault] = FAULTS,
+    seconds: float = SECONDS,
 ) -> Work[Diagnosis]:
     """Look for what accounts for the unexplained pixels; yields the share of the work done.
 
     The frame was traced of the case, and the causes were found of it, all before the picture's own
-    background. If nothing is unexplained, nothing is done.
+    background. If nothing is unexplained, nothing is done. No guess is begun after `seconds`.
     """
     evidence = Evidence(case, frame, causes)
     if not evidence.open.any() or frame.cancelled:
         return Diagnosis()
-    guessing = Guessing(faults)
+    guessing = Guessing(faults, seconds)
     evidence = yield from with_variants(evidence)
     told: list[Told] = []
     for number in range(ROUNDS):

@@ -48,15 +48,16 @@ SECONDS = 60.0  # after which no other guess is made
 class Guessing:
     """The guesses that are made in one diagnosis."""
 
-    def __init__(self, faults: Sequence[Fault]) -> None:
+    def __init__(self, faults: Sequence[Fault], seconds: float) -> None:
         self.faults = faults
+        self.seconds = seconds
         self.began = time.monotonic()
         self.guesses = 0
 
     @property
     def ended(self) -> bool:
         """Whether it has taken so long that no other guess is made."""
-        return time.monotonic() - self.began > SECONDS
+        return time.monotonic() - self.began > self.seconds
 
     def trials(self, evidence: Evidence, of: Evidence) -> Work[list[Trial]]:
         """Return guesses tried on the whole picture, the best first.

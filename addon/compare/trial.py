@@ -92,7 +92,7 @@ def tried(
             other = replace(other, scene=case.scene, alternatives=case.alternatives)
         if traced.shape != frame.shape or not _hopeful(before, other, traced):
             return None
-    except SceneError:  # no such camera or scene can be
+    except (SceneError, MemoryError):  # no such camera or scene can be, or be traced here
         return None
     explained = yield from scaled(explain(other, traced, LOOKED_AT), 0.3, 0.7)
     after = replace(

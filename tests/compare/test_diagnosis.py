@@ -59,7 +59,7 @@ def diagnosis_of(scene, color, **known):
     """Return the comparison of a scene with a picture of unknown make, diagnosed."""
     case = case_of(scene, Picture(color), curves=(), **known)
     before = result_of(trace_and_compare(case))
-    found = result_of(diagnosed(before))
+    found = result_of(diagnosed(before, np.inf))  # however busy the machine is
     assert found.verdict == before.verdict
     return found
 

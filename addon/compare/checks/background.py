@@ -33,6 +33,8 @@ class Background(NamedTuple):
     picture: tuple[float, ...]
     scene: tuple[float, ...]
     opaque: bool = False  # the picture has no alpha
+    pixels: int = 0  # in which it is shown
+    total: int = 0  # of the picture
 
     @property
     def transparent(self) -> bool:
@@ -47,9 +49,24 @@ class Background(NamedTuple):
             "the picture's"
         )
 
+    def unjudged(self) -> str:
+        """Say what of the picture is taken for background, and so proves nothing."""
+        name, share = _name(self.picture, self.opaque), self.pixels / max(self.total, 1)
+        return (
+            f"{name}, in {self.pixels:,} px ({100 * share:.0f} %), is taken for the background: "
+            "whether something of that colour stands there is not judged"
+        )
+
     def to_dict(self) -> dict[str, Any]:
         """Return it as JSON can hold it."""
-        return {"text": self.line(), "picture": list(self.picture), "scene": list(self.scene)}
+        judged = None if self.transparent else self.unjudged()
+        counts = {"pixels": self.pixels, "not_judged": judged}
+        return {
+            "text": self.line(),
+            **counts,
+            "picture": list(self.picture),
+            "scene": list(self.scene),
+        }
 
 
 def find_background(
@@ -77,7 +94,10 @@ def find_background(
     one = replace(picture, color=color[None].astype(np.float32), owner=None, transform=transform)
     if not one.other_color(own[None])[0]:
         return None
-    return Background(tuple(map(float, color)), tuple(map(float, own)), picture.opaque)
+    shown = frame.instance_index == NOTHING
+    shown &= ~(yield from other_color(picture, color))
+    colors_of_both = tuple(map(float, color)), tuple(map(float, own))
+    return Background(*colors_of_both, picture.opaque, int(shown.sum()), shown.size)
 
 
 def _apart(frame: Frame, picture: Picture, color: Colors, surface: Bools) -> Work[bool]:

@@ -31,7 +31,12 @@ function drawSummary() {
     .join("  ·  ");
   const [sign, word] = VERDICTS[verdict];
   byId("verdict").className = `verdict ${verdict}`;
-  byId("verdict").replaceChildren(element("span", { "aria-hidden": "true" }, sign), word);
+  const blind = page.comparison.background?.not_judged;
+  byId("verdict").replaceChildren(
+    element("span", { "aria-hidden": "true" }, sign),
+    blind ? `${word}, but for the background` : word,
+  );
+  if (blind) byId("verdict").title = blind;
   byId("headline").textContent = headline(score);
   byId("score").replaceChildren(...tiles(score).map(tile));
 }

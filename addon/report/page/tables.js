@@ -137,7 +137,11 @@ function metricsCard() {
     ]),
     element("p", { class: "muted" }, "Of linear RGBA, over all pixels."),
     page.comparison.background
-      ? element("p", {}, `Note: ${page.comparison.background.text}.`)
+      ? element(
+          "p",
+          {},
+          `Note: ${page.comparison.background.text}. ${page.comparison.background.not_judged ?? ""}`,
+        )
       : null,
     page.comparison.transform ? element("p", {}, `Colours: ${page.comparison.transform}.`) : null,
   );
