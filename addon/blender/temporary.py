@@ -146,13 +146,20 @@ def _leave_out(collection: Any, layer: Any, objects: Collection[Any], copy_of: s
         own = child
         if child.get(_COPY_OF) != copy_of:
             own = child.copy()
+            if own.override_library:  # no object can be taken out of one
+                own.make_local()
             own[_COPY_OF] = copy_of
             collection.children.link(own)  # before the old one goes: hidden objects stay hidden
-            _copy_flags(layer.children[child.name], layer.children[own.name])
+            _copy_flags(_child(layer, child), _child(layer, own))
             collection.children.unlink(child)
-        _leave_out(own, layer.children[own.name], objects, copy_of)
+        _leave_out(own, _child(layer, own), objects, copy_of)
     for obj in [o for o in collection.objects if o in objects]:
         collection.objects.unlink(obj)
+
+
+def _child(layer: Any, collection: Any) -> Any:
+    """Return a collection's place in a layer: by its name alone it may be a library's instead."""
+    return next(c for c in layer.children if c.collection == collection)
 
 
 def _copy_flags(source: Any, target: Any) -> None:

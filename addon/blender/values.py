@@ -50,18 +50,24 @@ def _set(blocks: Any, name: str, values: Mapping[Any, Any]) -> dict[Any, Any]:
     flat = held.reshape(-1)
     blocks.foreach_get(name, flat)
     before = {}
+    told = []  # what `foreach_set` passes over: a library's, and some overrides of such
+    settable = np.ones(len(blocks), bool)
     for number, block in enumerate(blocks):
+        settable[number] = not block.is_property_readonly(name)
         if block in values:
             before[block] = held[number].copy()
             held[number] = values[block]
-    blocks.foreach_set(name, flat)
-    for block in before:
-        if not block.is_editable:  # a library's: `foreach_set` passes it over
-            rna = block.bl_rna.properties[name]
-            value = values[block].tolist()
-            if rna.type == "ENUM":
-                value = next(i.identifier for i in rna.enum_items if i.value == value)
-            setattr(block, name, value)
+            if not settable[number]:
+                told.append(block)
+    # It takes no value for what it passes over: the next block would get that.
+    taken = np.concatenate((held[settable], held[~settable]))
+    blocks.foreach_set(name, taken.reshape(-1))
+    for block in told:
+        rna = block.bl_rna.properties[name]
+        value = values[block].tolist()
+        if rna.type == "ENUM":
+            value = next(i.identifier for i in rna.enum_items if i.value == value)
+        setattr(block, name, value)
     return before
 
 

@@ -152,9 +152,10 @@ def _manifest(
         _entry(name, entry, [meshes[key][0] for key in entry.mesh_keys])
         for name, entry in seen.items()
     ]
+    there = set(layer.objects)  # a name alone may be a library's object
     for obj in scene.objects:
         if obj.name_full not in seen:
-            why = _hidden(obj, layer, depsgraph.mode)
+            why = _hidden(obj, obj in there, layer, depsgraph.mode)
             entries.append(ObjectEntry(obj.name_full, obj.type, False, why, hidden=True))
     features = [u for e in seen.values() for u in e.features.values()]
     return Manifest(
@@ -196,13 +197,13 @@ def _nothing(entry: Seen) -> str:
     return "has no triangles as it is evaluated and drawn here"
 
 
-def _hidden(obj: Any, layer: Any, mode: str) -> str:
+def _hidden(obj: Any, is_there: bool, layer: Any, mode: str) -> str:
     """Return why the depsgraph does not hand an object out."""
     flag = "hide_viewport" if mode == "VIEWPORT" else "hide_render"
     where = "the viewport" if mode == "VIEWPORT" else "renders"
     if getattr(obj, flag):
         return f"hidden in {where}"
-    if obj.name not in layer.objects:
+    if not is_there:
         return f"not in view layer '{layer.name}' (its collection is excluded)"
     if mode == "VIEWPORT" and obj.hide_get(view_layer=layer):
         return "hidden in this view layer"
