@@ -21,6 +21,8 @@ _COPY_OF = "reference_tracer_copy_of"
 _IGNORED = "reference_tracer_ignored"
 _WHOLE = "reference_tracer_whole"
 
+HIDDEN_FACES = "hidden faces"  # a judge that ignores that Edit Mode hides them draws them
+
 _NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 

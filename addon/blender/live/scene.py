@@ -54,7 +54,7 @@ class ViewScene:
         def read(obj: Any, name: str, with_colors: bool) -> Read | None:
             key = obj.data.session_uid, with_colors
             found = known.get(key) if obj.original.session_uid not in changed else None
-            found = found or read_mesh(obj, name, with_colors)
+            found = found or read_mesh(obj, name, with_colors, True)
             if found and key[0] and obj.mode == "OBJECT" and not obj.data.is_editmode:
                 self._meshes[key] = found
             return found

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import bpy
@@ -17,7 +18,7 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
-from ..temporary import is_whole, user_scene
+from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
@@ -54,7 +55,9 @@ def export(depsgraph: Any) -> tuple[Scene, Manifest]:
     """
     scene = depsgraph.scene_eval
     camera = export_camera(scene)
-    seen, shown, meshes = visible(depsgraph, scene.display.shading, read_mesh)
+    hiding = HIDDEN_FACES not in (ignored_features(depsgraph.scene) or ())
+    read = partial(read_mesh, viewport=depsgraph.mode == "VIEWPORT", hiding=hiding)
+    seen, shown, meshes = visible(depsgraph, scene.display.shading, read)
     unseen = set() if is_whole(scene) else _outside(camera, shown, meshes)
     parts, owners = assemble(seen, shown, meshes, unseen)
     manifest = _manifest(depsgraph, camera.name, seen, meshes)

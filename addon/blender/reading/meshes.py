@@ -13,13 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import Colors, Integers
+from ...arrays import Bools, Colors, Integers
 from ...scene import Mesh, drop_non_finite
 
 Read = tuple[Mesh, int]  # with the number of triangles left out
 
 
-def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
+def read_mesh(
+    obj: Any, name: str, with_colors: bool, viewport: bool = False, hiding: bool = True
+) -> Read | None:
     """Return the triangles of an evaluated object's mesh, and how many were left out.
 
     Parameters
@@ -29,13 +31,20 @@ def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
         The mesh's name in what is returned.
     with_colors : bool
         Whether the active colour attribute is what will be shown.
+    viewport : bool
+        Whether it is as the viewport draws it, else as a render does.
+    hiding : bool
+        Whether what draws it leaves out faces that Edit Mode hides; Cycles draws them.
 
     Returns
     -------
     (Mesh, int), or None if there is no face
         The triangles are those of `mesh.loop_triangles`, in their order. Those that touch a vertex
-        that is not finite are left out.
+        that is not finite are left out, and those of faces that Edit Mode hides.
     """
+    hides = hiding and _hides_faces(
+        obj, viewport
+    )  # first: the whole mesh takes the wrapper's place
     with _whole_mesh(obj) as mesh:
         if not len(mesh.polygons):
             return None
@@ -44,6 +53,12 @@ def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
         slots = _slots(mesh)
         colors = _corner_colors(mesh, triangles, loops) if with_colors else None
         vertices = _floats(mesh.attributes["position"].data, "vector", 3)
+        is_shown = ~_hidden(mesh) if hides else None
+    if is_shown is not None and not is_shown.all():
+        if not is_shown.any():
+            return None
+        triangles, slots = triangles[is_shown], slots[is_shown]
+        colors = None if colors is None else colors[is_shown]
     vertices, is_kept = drop_non_finite(vertices, triangles)
     left_out = len(is_kept) - int(is_kept.sum())
     if left_out:
@@ -51,6 +66,28 @@ def read_mesh(obj: Any, name: str, with_colors: bool) -> Read | None:
         slots = slots[is_kept]
         colors = None if colors is None else colors[is_kept]
     return Mesh(vertices, triangles, slots, colors, name), left_out
+
+
+def _hides_faces(obj: Any, viewport: bool) -> bool:
+    """Return whether Blender draws an evaluated object without its mesh's hidden faces.
+
+    It does where it draws the editor's own mesh: in Edit Mode without modifiers that show there,
+    and (5.2) so do the mesh's other users. The object is then a wrapper that has no faces itself. A
+    viewport also hides what modifiers made of hidden faces, of the object that is in Edit Mode. In
+    Object Mode, and in what modifiers made for a render, hidden faces are drawn.
+    """
+    is_wrapper = obj.is_evaluated and obj.data.is_editmode and not len(obj.data.polygons)
+    return is_wrapper or (viewport and obj.is_evaluated and obj.mode == "EDIT")
+
+
+def _hidden(mesh: Any) -> Bools:
+    """Return which triangles are of hidden faces, (n,)."""
+    attribute = mesh.attributes.get(".hide_poly")
+    if not attribute:
+        return np.zeros(len(mesh.loop_triangles), bool)
+    hidden = np.empty(len(attribute.data), bool)
+    attribute.data.foreach_get("value", hidden)
+    return hidden[_integers(mesh.loop_triangle_polygons, "value", 1)]
 
 
 @contextmanager

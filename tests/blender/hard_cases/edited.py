@@ -79,6 +79,33 @@ def edited_and_changed(build: Any) -> None:
     bmesh.update_edit_mesh(obj.data)
 
 
+def edited_and_hidden(build: Any) -> None:
+    """Every third face is hidden there, and the mesh has another user."""
+    obj = _edited(build)
+    other = build.link(bpy.data.objects.new("Other", obj.data))
+    other.location = (1.1, -1.2, 0.4)
+    _edit()
+    hide_faces(obj.data, 3)
+
+
+def edited_subdivided_and_hidden(build: Any) -> None:
+    """What a modifier makes of hidden faces is shown by a render."""
+    obj = _edited(build, "SUBSURF")
+    other = build.link(bpy.data.objects.new("Other", obj.data))
+    other.location = (1.1, -1.2, 0.4)
+    _edit()
+    hide_faces(obj.data, 1)
+
+
+def hide_faces(mesh: Any, step: int) -> None:
+    """Hide every so many faces of a mesh in Edit Mode, as pressing H does."""
+    import bmesh
+
+    for face in bmesh.from_edit_mesh(mesh).faces:
+        face.hide_set(face.index % step == 0)
+    bmesh.update_edit_mesh(mesh)
+
+
 EDIT_MODE = (
     edited,
     edited_with_mirror,
@@ -86,4 +113,6 @@ EDIT_MODE = (
     edited_without_its_modifier,
     edited_shared,
     edited_and_changed,
+    edited_and_hidden,
+    edited_subdivided_and_hidden,
 )
