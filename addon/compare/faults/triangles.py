@@ -158,8 +158,8 @@ def _peeled(evidence: Evidence, name: str, instance: int) -> Work[Guess | None]:
         if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:
             return None
         other = _without_triangles(case, evidence.frame, guess)
-        if other is None:
-            return None
+        if other is None or (yield from evidence.score(other)).gain < 0:
+            return None  # where they are missing, they break nothing that agrees
         frame = Frame.empty(other.scene)
         yield from steps(other.scene, SOUND, frame)
         shown = evidence.picture.alike(other.scene, frame.instance_index, frame.color)

@@ -41,35 +41,47 @@ def _find_start(evidence: Evidence) -> Work[list[Guess]]:
     """Return the clip start for which the most pixels are right, and none."""
     camera = evidence.case.scene.camera
     least = camera.clip_start / FAR if camera.clip_start > 0 else camera.clip_start
-    fitted = yield from _fitted(evidence, _start, -1.0)
+    fitted = yield from _fitted(evidence, _start, least, -1.0)
     return [*fitted, Guess((least,))]
 
 
 def _find_end(evidence: Evidence) -> Work[list[Guess]]:
     """Return the clip end for which the most pixels are right, and none."""
-    fitted = yield from _fitted(evidence, _end, 1.0)
-    return [*fitted, Guess((evidence.case.scene.camera.clip_end * FAR,))]
+    most = evidence.case.scene.camera.clip_end * FAR
+    fitted = yield from _fitted(evidence, _end, most, 1.0)
+    return [*fitted, Guess((most,))]
 
 
 def _fitted(
-    evidence: Evidence, changed: Callable[[Camera, float], Camera | None], sign: float
+    evidence: Evidence, changed: Callable[[Camera, float], Camera | None], none: float, sign: float
 ) -> Work[list[Guess]]:
-    """Return the best depth near those that part unexplained pixels from the others."""
-    starts = _parting(evidence, sign)
+    """Return the best depth near those that part unexplained pixels from the others.
+
+    `none` is the depth with which nothing is clipped.
+    """
+    camera = evidence.case.scene.camera
+    widest = changed(camera, none)
     t = evidence.frame.t[np.isfinite(evidence.frame.t)]
-    if not starts or not np.ptp(t):
+    if widest is None or not len(t) or not np.ptp(t):
         return []
+    # The pixels' rays are the same with each depth: what may be on them is looked for once.
+    probe = yield from evidence.probe(evidence.case.scene.seen_by(widest))
 
     def right(values: Values) -> Work[int]:
-        if values[0] <= 0:
+        other = changed(camera, *values) if values[0] > 0 else None
+        if other is None:
             return -1
-        camera = changed(evidence.case.scene.camera, *values)
-        if camera is None:
-            return -1
-        probe = yield from evidence.probe(evidence.case.scene.seen_by(camera))
-        hits = yield from probe.trace()
-        return int(evidence.agrees(probe.scene, hits).sum())
+        clipped = replace(probe, scene=probe.scene.seen_by(other))
+        hits = yield from clipped.trace()
+        return int(evidence.agrees(clipped.scene, hits).sum())
 
+    starts = []
+    for depth in _parting(evidence, sign):
+        # It parts the pixels already: if most are wrong with it, so they are beside it.
+        if (yield from right(depth)) >= evidence.least_right:
+            starts.append(depth)
+    if not starts:
+        return []
     search = Search(right, (float(np.ptp(t)) / STEPS,), least=evidence.least_right)
     guess = yield from search.guess(starts)
     return [guess] if guess else []
