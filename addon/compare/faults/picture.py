@@ -11,10 +11,11 @@ from ...arrays import Array
 from ...tracer.frame import Frame
 from ...tracer.hits import NOTHING
 from ...tracer.progress import Work
+from ..bounds import largest_within
 from ..case import Case
 from ..checks.color import find_transform
 from ..curves import KEYS
-from ..evidence import Evidence
+from ..evidence import NEAR, Evidence
 from ..metrics import boundary
 from ..picture import Curve
 from .fault import Example, Fault, Find, Guess, Make
@@ -145,8 +146,22 @@ def _find_filter(evidence: Evidence) -> Work[list[Guess]]:
         yield 0.0
     if pure.mean() > 1 - MIXED:
         return []
-    larger = [(r,) for r in RADII if r > evidence.picture.filter_radius]
-    return [Guess(radius, radius, radius) for radius in larger]
+    larger = [r for r in RADII if r > evidence.picture.filter_radius]
+    return [Guess((r,), (r,), (r,)) for r in larger if _may_mix(evidence, r)]
+
+
+def _may_mix(evidence: Evidence, radius: float) -> bool:
+    """Return whether most unexplained pixels lie between the colours that are traced around."""
+    around = int(np.ceil(radius)) + 1
+    at = tuple(v[evidence.was_open] for v in evidence.sample)
+    made = evidence.picture.made_of(evidence.frame.color)
+    shown = evidence.picture.color[at][:, : made.shape[-1]]
+    inside = np.ones(len(shown), bool)
+    for channel in range(made.shape[-1]):
+        traced, here = made[..., channel], shown[:, channel]
+        inside &= here <= largest_within(traced, around)[at] + NEAR
+        inside &= here >= -largest_within(-traced, around)[at] - NEAR
+    return bool(inside.mean() > MIXED)
 
 
 PICTURE_FAULTS = (
