@@ -20,6 +20,7 @@ def run(argv: list[str]) -> int:
     from ..cli import running
     from .command_line import parse_and_run
 
+    running.keep_stdout()
     try:
         return running.run(lambda: parse_and_run(argv), "reference_tracer")
     except SystemExit as stop:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..arrays import Floats, Index, Integers
+from ..methods import Method
 from ..scene import SceneError, ViewWindow
 from ..tracer.camera import Rays, camera_rays, corner_rays, dual_axes, film_positions, pixel_size
 from ..tracer.candidates import candidates, cull
@@ -65,8 +66,14 @@ def rounding(scene: Scene) -> Rounding:
     return Rounding(float(ray.sum()), float(corner), float(pixels))
 
 
+def check_is_proven(method: str) -> None:
+    """Raise a SceneError if a method proves nothing: then there is no proof to round before."""
+    if Method(method).is_plain:
+        raise SceneError("--check-rounding is about proven pixels: --method certified has them")
+
+
 def check_can_be_checked(camera: Camera) -> None:
-    """Raise a SceneError if the unrounded rays of a camera are no fractions."""
+    """Raise a SceneError if a camera's unrounded rays are no fractions."""
     if not camera.projection.is_linear:
         raise SceneError(
             f"The unrounded rays of an {camera.projection.name} camera are sines and cosines, "
@@ -82,10 +89,12 @@ def check_rounding(scene: Scene, frame: Frame) -> Work[list[str]]:
     Raises
     ------
     SceneError
-        If rounding may move what is seen first behind the eye, or rays are no fractions.
+        If rounding may move what is seen first behind the eye, if nothing is proven, or if rays
+        are no fractions.
     """
     check_assumptions()
     camera = scene.camera
+    check_is_proven(frame.statistics.method)
     check_can_be_checked(camera)
     region = camera.region
     loose, aside, reach = _loosened(scene)

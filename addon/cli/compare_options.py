@@ -6,10 +6,20 @@ from argparse import BooleanOptionalAction, Namespace
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..certified.rounding import check_is_proven
 from ..compare.animation import frames_named
 from ..framing import Choice
 from ..scene import SceneError
-from .arguments import GivenSettings, Place, add_settings, place_from, refuse, settings_from
+from ..tracer.settings import Settings
+from .arguments import (
+    GivenSettings,
+    Place,
+    add_rounding,
+    add_settings,
+    place_from,
+    refuse,
+    settings_from,
+)
 from .camera_options import add_camera, choice_from
 from .parser import AT_LEAST_0, Parser
 
@@ -31,6 +41,7 @@ class CompareOptions:
     identity: bool | None
     self_check: bool | None
     diagnosis: bool | None
+    check_rounding: bool
     frames: str | None  # of an animation, as they are typed
     # Another picture, in place of Blender's.
     against: Path | None
@@ -45,6 +56,8 @@ class CompareOptions:
     def parsed(cls, given: Namespace) -> CompareOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         _refuse_beside_frames(given)
+        if given.judge == "all":
+            refuse(given, ("check_rounding",), "is for one judge, not for --judge all")
         if given.against is None:
             refuse(given, ("filter", "dither"), "is for a picture of --against")
         else:
@@ -60,6 +73,7 @@ class CompareOptions:
             identity=given.identity,
             self_check=given.self_check,
             diagnosis=given.diagnosis,
+            check_rounding=given.check_rounding,
             frames=given.frames,
             against=given.against,
             filter=given.filter,
@@ -68,6 +82,19 @@ class CompareOptions:
             extremes=given.extremes,
             place=place_from(given),
         )
+
+    def settings_over(self, stored: Settings) -> Settings:
+        """Return the stored settings with those that are named in their place.
+
+        Raises
+        ------
+        SceneError
+            If they contradict one another, or what is to be checked of them.
+        """
+        settings = self.settings.over(stored)
+        if self.check_rounding:
+            check_is_proven(settings.method)
+        return settings
 
     def of_a_frame(self) -> dict[str, str]:
         """Return the options that a frame's comparison depends on, in words that can be stored."""
@@ -78,7 +105,7 @@ def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
     why = "is for one frame, not for --frames"
-    refuse(given, ("frame", "against", "trade", "extremes", "diagnosis"), why)
+    refuse(given, ("frame", "against", "trade", "extremes", "diagnosis", "check_rounding"), why)
     if given.judge == "all":
         raise SceneError("--judge all is for one frame: name one judge with --frames")
     try:
@@ -94,6 +121,7 @@ def add_options(parser: Parser) -> None:
         "--out", required=True, type=parser.path, metavar="DIR", help="folder for what is found"
     )
     add_settings(parser)
+    add_rounding(parser)
     _add_blenders_picture(parser)
     _add_page(parser)
     _add_against(parser)

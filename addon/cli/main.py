@@ -16,8 +16,13 @@ from .parser import EXIT_CODES_HELP, Parser
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run `reftrace`; returns the exit code."""
-    argv = sys.argv[1:] if argv is None else argv
+    """Run `reftrace`; returns the exit code.
+
+    Without `argv` it takes the process' own words, and its standard output for its lines alone.
+    """
+    if argv is None:
+        running.keep_stdout()
+        argv = sys.argv[1:]
     return running.run(lambda: _run(argv), "reftrace")
 
 

@@ -91,6 +91,23 @@ def _open_streams() -> None:
             getattr(sys, name).reconfigure(errors="backslashreplace")
 
 
+def keep_stdout() -> None:
+    """Leave standard output to what Python prints: what C prints, as Blender does, goes to stderr.
+
+    It is so until the process ends, since C may write what it has buffered only then. It is for
+    processes that do nothing else: a script that calls `main` keeps its streams.
+    """
+    _open_streams()
+    try:
+        is_own = sys.stdout.fileno() == 1
+    except (AttributeError, OSError):  # a stream without a descriptor, into which no C prints
+        return
+    if is_own:
+        sys.stdout.flush()
+        sys.stdout = open(os.dup(1), "w", encoding=sys.stdout.encoding, errors="backslashreplace")
+        os.dup2(2, 1)
+
+
 def _said(work: Callable[[], int]) -> int:
     said = io.StringIO()
     try:

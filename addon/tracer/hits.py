@@ -55,7 +55,7 @@ class Statistics:
                 "space (clear the scale or the position that overflows)"
             )
         if self.method == "certified":
-            lines += [*sentences(self.pairs_tested, self.reasons), self.rounding]
+            lines += sentences(self.pairs_tested, self.reasons)
         return lines
 
 

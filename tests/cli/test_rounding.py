@@ -6,12 +6,14 @@ from reference_tracer.cli.parser import AGREE, INPUT_ERROR
 
 from .parts import trace
 
+BOUNDS = "before any test, rounding moves rays by at most"
 
-def test_bounds_are_said_of_what_is_certified(ball, tmp_path, capsys):
+
+def test_bounds_are_said_on_request_alone(ball, tmp_path, capsys):
     assert trace(ball, tmp_path / "b.png") == AGREE
-    said = capsys.readouterr().out.splitlines()
-    assert any(line.startswith("before any test, rounding moves rays by at most") for line in said)
-    assert not any("unrounded" in line for line in said)
+    assert BOUNDS not in capsys.readouterr().out
+    assert trace(ball, tmp_path / "b.png", "--check-rounding") == AGREE
+    assert BOUNDS in capsys.readouterr().out
 
 
 def test_the_check(ball, tmp_path, capsys):

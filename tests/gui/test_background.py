@@ -92,6 +92,7 @@ def test_command(camera, blender, folder):
     done = blender.run(SCENE, *command, *camera.split())
     assert done.returncode == 0, done.stdout + done.stderr
     assert "verdict: agree" in done.stdout
+    assert not any(word in done.stdout for word in ("Saved", "Read blend", "Fra:", "Blender quit"))
     check_files(path)
 
 

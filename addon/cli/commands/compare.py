@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ... import images
+from ...certified.rounding import check_rounding
 from ...compare import engines
 from ...compare.case import Case
 from ...compare.comparison import EXIT_CODES, Comparison, trace_and_compare
@@ -72,7 +73,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         judge = options.judge.upper() if options.judge else None
         out = str(options.out)
         chosen: dict[str, Any] = {
-            "settings": options.settings.over(stored),
+            "settings": options.settings_over(stored),
             "as_is": options.as_is or None,
             "identity": options.identity,
             "self_check": options.self_check,
@@ -112,6 +113,11 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
 
 def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
+    if options.check_rounding:
+        with progress_bar() as progress:
+            checking = check_rounding(comparison.scene, comparison.frame)
+            checked = result_of(checking, progress)
+        print(comparison.frame.statistics.rounding, *checked, sep="\n")
     return _told(options, comparison.verdict, options.out / page.NAME)
 
 
@@ -134,7 +140,7 @@ def _blend(
         context = blender.context
         dither = DITHER * context.scene.render.dither_intensity
         shown = _shown(options, picture, export_camera(context.scene), dither)
-        settings = options.settings.over(context.scene.reference_tracer.settings())
+        settings = options.settings_over(context.scene.reference_tracer.settings())
         case = gather_against(context, shown, settings, bool(options.self_check))
         return (yield from _written(options, compared(replace(case, **place))))
 
@@ -145,7 +151,7 @@ def _file(
     scene, stored = load(options.scene, options.choice)
     manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
     shown = _shown(options, picture, scene.camera)
-    settings, checked = options.settings.over(stored), bool(options.self_check)
+    settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)
     return (yield from _written(options, trace_and_compare(replace(case, **place))))
 

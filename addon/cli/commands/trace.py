@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ... import images
-from ...certified.rounding import check_can_be_checked, check_rounding
+from ...certified.rounding import check_can_be_checked, check_is_proven, check_rounding
 from ...framing import Choice
-from ...methods import Method
 from ...rendering import render
 from ...report import folders
 from ...scene import Scene, SceneError
@@ -19,7 +18,14 @@ from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import result_of
 from ...tracer.settings import Settings
-from ..arguments import GivenSettings, Place, add_settings, place_from, settings_from
+from ..arguments import (
+    GivenSettings,
+    Place,
+    add_rounding,
+    add_settings,
+    place_from,
+    settings_from,
+)
 from ..camera_options import add_camera, choice_from
 from ..opening import SOURCES, load
 from ..parser import AGREE, Parser
@@ -84,12 +90,7 @@ def add(parser: Parser) -> None:
         metavar=("FIRST", "LAST"),
         help="trace only a part of a large picture: its rows FIRST to LAST, row 0 the lowest",
     )
-    parser.add_argument(
-        "--check-rounding",
-        action="store_true",
-        help="count the pixels that show another surface because rays and corners are rounded "
-        "before the proof begins",
-    )
+    add_rounding(parser)
     add_camera(parser)
 
 
@@ -122,15 +123,15 @@ def trace(options: TraceOptions) -> int:
 
 def _traced(scene: Scene, settings: Settings, options: TraceOptions) -> tuple[Frame, list[str]]:
     """Return the picture, and lines about rounding if they are asked for."""
-    if options.check_rounding and Method(settings.method).is_plain:
-        raise SceneError("--check-rounding is about proven pixels: --method certified has them")
     if options.check_rounding:
+        check_is_proven(settings.method)
         check_can_be_checked(scene.camera)
     with options.place as place, progress_bar() as progress:
         frame = render(scene, settings, progress, **place)
         if not options.check_rounding:
             return frame, []
-        return frame, result_of(check_rounding(scene, frame), progress)
+        checked = result_of(check_rounding(scene, frame), progress)
+    return frame, [frame.statistics.rounding, *checked]
 
 
 def _rows_alone(scene: Scene, settings: Settings, first: int, last: int) -> Scene:

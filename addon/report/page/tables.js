@@ -108,8 +108,17 @@ function methodsCard() {
       rows,
       [1, 2, 3],
     ),
-    ...required.map((line) => element("p", { class: "muted" }, `${line}.`)),
+    ...[...required, ...roundedBefore()].map((line) => element("p", { class: "muted" }, `${line}.`)),
   );
+}
+
+/** What is rounded before the proof begins, in a sentence; nothing where nothing is proven. */
+function roundedBefore() {
+  const { method, rounding } = page.comparison.tracer;
+  if (method !== "certified" || rounding.pixels === null) return [];
+  const rays = `rays by at most ${general(rounding.pixels, 1)} px`;
+  const corners = `corners by at most ${general(rounding.corner, 1)} m`;
+  return [`before any test, rounding moves ${rays}, ${corners}`];
 }
 
 function metricsCard() {
