@@ -149,6 +149,7 @@ def diagnose(
         return Diagnosis()
     guessing = Guessing(faults, seconds)
     evidence = yield from with_variants(evidence)
+    was_open = evidence.open
     told: list[Told] = []
     for number in range(ROUNDS):
         finding = accounting(guessing, evidence)
@@ -159,7 +160,11 @@ def diagnose(
             told += [_told(evidence, trial, bool(n)) for n, trial in enumerate(trials)]
         for first, *_ in chain:
             evidence = carried(evidence, first)
-        if evidence.open.sum() < LEAST:
+        remain = int((evidence.open & was_open).sum())
+        broken = int((evidence.open & ~was_open).sum())
+        if remain < max(
+            LEAST, broken
+        ):  # what was broken is no other fault's, nor is what is beside
             break
     seconds = time.monotonic() - guessing.began
     left = int(evidence.open.sum())

@@ -32,6 +32,9 @@ from .trial import Trial, tried
 
 PRECISE = 0.97  # the least share of changed pixels that a guess must be right in
 COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
+FITTED = (
+    0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places
+)
 LEAST = 10  # the least pixels that a guess must settle, and half as many for each of its numbers
 SHARE = 0.05  # of the unexplained pixels
 ALIKE = 0.0001  # of the pixels settled: guesses that differ by less are as good
@@ -202,7 +205,7 @@ def _good(evidence: Evidence, trials: Sequence[Trial]) -> list[Trial]:
         if t.precision >= PRECISE
         and t.settled >= LEAST * (1 + t.cost / 2)
         and t.settled >= SHARE * open_
-        and t.recall >= COMPLETE
+        and t.recall >= (FITTED if t.cost else COMPLETE)
         and not t.unseen
     ]
 

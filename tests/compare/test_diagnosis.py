@@ -286,3 +286,22 @@ def test_a_variant_is_told_by_its_fault_and_words(solids):
     found = diagnosis_of(lacking, shown, variants=lambda: asked)
     assert names(found) == ["other_camera"]
     assert "'Side'" in found.diagnosis.told[0].sentence
+
+
+def test_a_variant_may_number_its_instances_otherwise(solids):
+    """Triangles of an instance are missing, and another fault is looked for beside."""
+    name = solids.objects[solids.instances[-1].object]
+    dropped = Guess((1.0, 0.0, 0.0), object=name)
+    fewer = replace(solids, instances=solids.instances[-1:])
+    [fault] = [f for f in FAULTS if f.name == "triangles_missing"]
+    for scene in (solids, fewer):
+        frame = render(scene)
+        case = fault.make(case_of(scene, Picture(frame.color)), frame, dropped)
+        meshes = [case.scene.meshes[i.mesh] for i in case.scene.instances]
+        before = [scene.meshes[i.mesh] for i in scene.instances]
+        assert [
+            len(b.triangles) - len(m.triangles) for b, m in zip(before, meshes, strict=True)
+        ] == [
+            *([0] * (len(meshes) - 1)),
+            1,
+        ]

@@ -97,13 +97,16 @@ def _largest_triangle(case: Case, frame: Frame) -> Guess | None:
     found, count = np.unique(names[frame.triangle_index >= 0], axis=0, return_counts=True)
     instance, triangle = (int(n) for n in found[np.argmax(count)])
     name = case.scene.objects[case.scene.instances[instance].object]
-    return Guess((1.0, float(instance), float(triangle)), object=name)
+    rank = instances_named(case.scene, name).index(instance)
+    return Guess((1.0, float(rank), float(triangle)), object=name)
 
 
 def _without_triangles(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Drop triangles of an instance: the values are their count, its number, and theirs."""
-    instance, *triangles = (int(v) for v in guess.values[1:])
-    rank = instances_named(case.scene, guess.object).index(instance)
+    """Drop triangles of an instance: the values are their count, its rank, and their numbers.
+
+    The rank is that among the object's instances: another scene may number them otherwise.
+    """
+    rank, *triangles = (int(v) for v in guess.values[1:])
 
     def less(scene: Scene) -> Scene:
         own = instances_named(scene, guess.object)
@@ -129,15 +132,15 @@ def _missing_triangles(evidence: Evidence) -> Work[list[Guess]]:
     """Return, for each object, the triangles in which it is unexplained, one behind another."""
     out = []
     for name in evidence.suspects:
-        for instance in instances_named(evidence.case.scene, name):
+        for rank, instance in enumerate(instances_named(evidence.case.scene, name)):
             own = evidence.frame.instance_index == instance
             if (own & evidence.open).any():
-                guess = yield from _peeled(evidence, name, instance)
+                guess = yield from _peeled(evidence, name, instance, rank)
                 out += [guess] if guess else []
     return out
 
 
-def _peeled(evidence: Evidence, name: str, instance: int) -> Work[Guess | None]:
+def _peeled(evidence: Evidence, name: str, instance: int, rank: int) -> Work[Guess | None]:
     """Drop an instance's triangles that are wrong, then those behind them that are, and so on."""
     case, frame = evidence.case, evidence.frame
     gone: set[int] = set()
@@ -153,7 +156,7 @@ def _peeled(evidence: Evidence, name: str, instance: int) -> Work[Guess | None]:
             break
         gone |= set(more.tolist())
         left = np.setdiff1d(left, more)
-        values = (float(len(gone)), float(instance), *map(float, sorted(gone)))
+        values = (float(len(gone)), float(rank), *map(float, sorted(gone)))
         guess = Guess(values, object=name)
         if len(gone) * PIXELS_PER_TRIANGLE > evidence.open.sum() or len(gone) > MOST_TRIANGLES:
             return None
