@@ -6,10 +6,11 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -17,6 +18,7 @@ from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
+from ..compare.palette import VIEWPORT, By, Palette
 from ..compare.picture import Picture, Source
 from ..errors import words
 from ..manifest import Manifest
@@ -38,11 +40,15 @@ from .drawing.shading import anti_aliasing, of_shading, solid_shading, use_view_
 from .drawing.stand_ins import stand_ins
 from .drawing.workbench import WORKBENCH
 from .engine import export_for_judge
+from .palettes import automatic, palette_by
 from .reading.camera import export_camera
 from .reading.unmodelled import by_handlers
 from .temporary import go_to, temporary_scene
 from .values import values_restored
 from .variants import variants
+
+if TYPE_CHECKING:
+    from .engine import Certified
 
 
 @dataclass(frozen=True)
@@ -52,6 +58,7 @@ class Choices:
     settings: Settings
     judge: str  # its name in capitals, or AUTO
     as_is: bool  # Blender draws with the shading that the scene has
+    colors: By | Palette  # where the colours come from; as it is, they are the viewport's
     identity: bool  # whose surface each pixel shows is found, too
     self_check: bool  # the comparison is tried on known faults, too
     diagnose: bool  # what accounts for unexplained pixels is looked for
@@ -65,6 +72,7 @@ class Choices:
             stored.settings(),
             stored.judge,
             stored.shading == "AS_IS",
+            By(stored.colors.lower()),
             stored.identity,
             stored.self_check,
             stored.diagnose,
@@ -106,9 +114,22 @@ def gather_case(context: Any, **choices: Any) -> Case:
     check_memory(
         camera.region.width, camera.region.height, COMPARED, 2 * ALWAYS
     )  # before Blender draws
-    with temporary_scene(scene, layer, judge.ignores) as tmp:
-        used = _prepared(tmp, judge, like_for_like, view_shading)
-        exported, manifest, certificate = export_for_judge(tmp, layer, judge)
+    with ExitStack() as stack:
+
+        def begun(palette: Palette) -> tuple[Any, dict[str, Any], Certified]:
+            tmp = stack.enter_context(temporary_scene(scene, layer, judge.ignores, palette))
+            used = _prepared(tmp, judge, like_for_like, view_shading)
+            return tmp, used | {"colors": palette.by.value}, export_for_judge(tmp, layer, judge)
+
+        palette = palette_by(scene, chosen.colors) if like_for_like else VIEWPORT
+        tmp, used, (exported, manifest, certificate) = begun(palette)
+        if like_for_like and chosen.colors == By.AUTOMATIC:
+            palette = automatic(scene, exported, manifest)
+        if palette.by != used["colors"]:
+            stack.close()
+            tmp, used, (exported, manifest, certificate) = begun(palette)
+        if palette.note:
+            manifest = replace(manifest, notes=(*manifest.notes, palette.note))
         if certificate:
             certificate.check()
         there = [o.name_full for o in scene.objects]
@@ -124,7 +145,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
         with stand_ins(tmp, layer, exported, planes) as with_planes:
             pixels = picture(tmp, layer, judge, exported.camera, like_for_like)
     shown = _picture(pixels, judge, used, snapping)
-    drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest)
+    drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest, palette)
     if chosen.identity:
         shown = with_identity(drawing, shown)
     shown, manifest = with_what_draws_itself(drawing, shown)
@@ -139,7 +160,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
-        variants=partial(variants, scene.name_full, layer, judge.ignores),
+        variants=partial(variants, scene.name_full, layer, judge.ignores, palette),
     )
 
 
@@ -252,7 +273,9 @@ def made_folder(directory: str) -> Path:
     return folder
 
 
-def export_open_file(context: Any, judge: Judge | None = None) -> tuple[Scene, Manifest, Settings]:
+def export_open_file(
+    context: Any, judge: Judge | None = None, palette: Palette = VIEWPORT
+) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
 
     For a judge, it is exported as for a comparison with its picture.
@@ -266,7 +289,7 @@ def export_open_file(context: Any, judge: Judge | None = None) -> tuple[Scene, M
     layer = context.view_layer.name
     stored = scene.reference_tracer
     export_camera(scene)  # first: its errors name the user's scene, say what to do
-    with temporary_scene(scene, layer, judge.ignores if judge else None) as tmp:
+    with temporary_scene(scene, layer, judge.ignores if judge else None, palette) as tmp:
         if judge:
             prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
         exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)

@@ -34,6 +34,23 @@ SHADINGS: tuple[Item, ...] = (
     ("AS_IS", "As It Is", "Blender draws with the shading that the scene has", 1),
 )
 
+PALETTES: tuple[Item, ...] = (
+    (
+        "AUTOMATIC",
+        "Automatic",
+        "The viewport's colours where they tell objects apart, else a clear colour for each object",
+        0,
+    ),
+    ("VIEWPORT", "Viewport", "The colours that the scene's solid shading has", 1),
+    ("OBJECT", "Object", "A clear colour for each object", 2),
+    (
+        "MATERIAL",
+        "Material",
+        "The base colour of each material's Principled BSDF, where it is one colour",
+        3,
+    ),
+)
+
 JUDGES: tuple[Item, ...] = (
     (
         judges.AUTO,

@@ -1,0 +1,88 @@
+"""Chooses the colours that Blender draws a comparison in, and finds those of materials.
+
+Blender is given them on temporary scenes: see `temporary.py`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+import numpy as np
+
+from ..arrays import Colors
+from ..compare.palette import VIEWPORT, By, Palette, clear_palette, not_told_apart
+from ..manifest import Manifest
+from ..scene import Scene, SceneError
+from .temporary import NOT_DRAWN
+
+_NAMED = 3  # materials that are named in a line
+
+
+def palette_by(scene: Any, by: By | Palette) -> Palette:
+    """Return the colours of a scene of the user's; for AUTOMATIC those that are tried first.
+
+    A palette is itself.
+
+    Raises
+    ------
+    SceneError
+        If there are more objects than colours.
+    """
+    if isinstance(by, Palette):
+        return by
+    if by == By.OBJECT:
+        return clear_palette(_object_names(scene))
+    return _of_materials() if by == By.MATERIAL else VIEWPORT
+
+
+def automatic(scene: Any, exported: Scene, manifest: Manifest) -> Palette:
+    """Return the viewport's colours, in which a scene was exported, if they tell objects apart.
+
+    Else a clear colour for each object.
+    """
+    pair = not_told_apart(exported, manifest.owners)
+    if pair is None:
+        return VIEWPORT
+    why = f"the viewport's colours do not tell '{pair[0]}' from '{pair[1]}'"
+    try:
+        note = f"each object is shown in a clear colour of its own, as {why}"
+        return clear_palette(_object_names(scene), note)
+    except SceneError as error:
+        return Palette(By.VIEWPORT, note=f"{why}, and {error}")
+
+
+def _object_names(scene: Any) -> list[str]:
+    """Return all objects that have a colour, those of a scene first; hidden ones have theirs, too.
+
+    So an object keeps its colour in every frame, view layer and engine.
+    """
+    own = {o.name_full for o in scene.objects if o.type not in NOT_DRAWN}
+    every = {o.name_full for o in bpy.data.objects if o.type not in NOT_DRAWN}
+    return [*sorted(own), *sorted(every - own)]
+
+
+def _of_materials() -> Palette:
+    found = {m.name_full: _base_color(m) for m in bpy.data.materials}
+    colors = {name: color for name, color in found.items() if color is not None}
+    others = [f"'{name}'" for name in found if name not in colors]
+    note = ""
+    if others:
+        told = ", ".join(others[:_NAMED]) + (", ..." if len(others) > _NAMED else "")
+        note = f"materials without one base colour show that of the viewport: {told}"
+    return Palette(By.MATERIAL, colors, note)
+
+
+def _base_color(material: Any) -> Colors | None:
+    """Return the base colour, (3,) linear RGB, of the Principled BSDF that a material shows.
+
+    None where it shows something else, or nodes make its colour.
+    """
+    if not (material.use_nodes and material.node_tree):
+        return None
+    output = material.node_tree.get_output_node("ALL")
+    links = output.inputs["Surface"].links if output else ()
+    if not links or links[0].from_node.type != "BSDF_PRINCIPLED":
+        return None
+    socket = links[0].from_node.inputs["Base Color"]
+    return None if socket.is_linked else np.array(socket.default_value[:3], np.float32)
