@@ -22,7 +22,7 @@ import numpy as np
 from ..arrays import Colors, Floats
 from ..compare.case import Alternative, Case
 from ..compare.checks.hidden import with_object, without
-from ..compare.palette import VIEWPORT, By, Palette
+from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Curve, Picture
 from ..images import curve_undone
 from ..manifest import Manifest
@@ -50,7 +50,7 @@ def gather_against(
     picture: Picture,
     settings: Settings,
     self_check: bool = False,
-    colors: By | Palette = By.VIEWPORT,
+    colors: By | GivenColors = By.VIEWPORT,
 ) -> Case:
     """Export the context's scene as a render has it, for a picture of unknown origin.
 
@@ -67,6 +67,7 @@ def gather_against(
         palette = automatic(context.scene, scene, manifest)
         if palette.by != By.VIEWPORT:
             scene, manifest, _ = export_open_file(context, palette=palette)
+    palette.check(scene, manifest.owners)
     if palette.note:
         manifest = replace(manifest, notes=(*manifest.notes, palette.note))
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)

@@ -18,7 +18,7 @@ from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.engines import EngineRow
-from ..compare.palette import VIEWPORT, By, Palette
+from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Picture, Source
 from ..errors import words
 from ..manifest import Manifest
@@ -58,7 +58,7 @@ class Choices:
     settings: Settings
     judge: str  # its name in capitals, or AUTO
     as_is: bool  # Blender draws with the shading that the scene has
-    colors: By | Palette  # where the colours come from; as it is, they are the viewport's
+    colors: By | GivenColors  # where the colours come from; as it is, they are the viewport's
     identity: bool  # whose surface each pixel shows is found, too
     self_check: bool  # the comparison is tried on known faults, too
     diagnose: bool  # what accounts for unexplained pixels is looked for
@@ -128,6 +128,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
         if palette.by != used["colors"]:
             stack.close()
             tmp, used, (exported, manifest, certificate) = begun(palette)
+        palette.check(exported, manifest.owners)
         if palette.note:
             manifest = replace(manifest, notes=(*manifest.notes, palette.note))
         if certificate:

@@ -11,29 +11,69 @@ import bpy
 import numpy as np
 
 from ..arrays import Colors
-from ..compare.palette import VIEWPORT, By, Palette, clear_palette, not_told_apart
+from ..compare.palette import (
+    VIEWPORT,
+    By,
+    GivenColors,
+    Palette,
+    automatic_note,
+    clear_palette,
+    not_told_apart,
+)
 from ..manifest import Manifest
 from ..scene import Scene, SceneError
+from .reading.colors import slot_materials
 from .temporary import NOT_DRAWN
 
 _NAMED = 3  # materials that are named in a line
 
 
-def palette_by(scene: Any, by: By | Palette) -> Palette:
+def palette_by(scene: Any, by: By | GivenColors) -> Palette:
     """Return the colours of a scene of the user's; for AUTOMATIC those that are tried first.
 
-    A palette is itself.
+    Colours from a file are as :func:`palette_given` has them.
 
     Raises
     ------
     SceneError
         If there are more objects than colours.
     """
-    if isinstance(by, Palette):
-        return by
+    if isinstance(by, GivenColors):
+        return palette_given(by)
     if by == By.OBJECT:
         return clear_palette(_object_names(scene))
     return _of_materials() if by == By.MATERIAL else VIEWPORT
+
+
+def palette_given(given: GivenColors) -> Palette:
+    """Return the colours of a file as Blender can draw them: one an object, or one a material.
+
+    Raises
+    ------
+    SceneError
+        If it cannot, or the file names an object that is not there.
+    """
+    there = {o.name_full: o for o in bpy.data.objects}
+    given.check_known(there)
+    of_owners: dict[str, list[Colors]] = {}
+    for (_, owner), colors in given.slots.items():
+        of_owners.setdefault(owner, []).extend(colors)
+    if all((np.array(colors) == colors[0]).all() for colors in of_owners.values()):
+        return Palette(By.OBJECT, {o: colors[0] for o, colors in of_owners.items()}, given=given)
+    found: dict[str, Colors] = {}
+    for (name, _), colors in given.slots.items():
+        materials = slot_materials(there[name]) if there[name].data else []
+        for slot, color in enumerate(colors):
+            material = materials[slot] if slot < len(materials) else None
+            where = f"'{given.file}': slot {slot} of '{name}'"
+            if material is None:
+                raise SceneError(f"{where} has no material: give all slots of it one colour")
+            if not np.array_equal(found.setdefault(material.name_full, color), color):
+                raise SceneError(
+                    f"{where} gives material '{material.name}' a second colour: Blender shows a "
+                    "material in one; give each object one colour, or each material"
+                )
+    return Palette(By.MATERIAL, found, given=given)
 
 
 def automatic(scene: Any, exported: Scene, manifest: Manifest) -> Palette:
@@ -44,12 +84,10 @@ def automatic(scene: Any, exported: Scene, manifest: Manifest) -> Palette:
     pair = not_told_apart(exported, manifest.owners)
     if pair is None:
         return VIEWPORT
-    why = f"the viewport's colours do not tell '{pair[0]}' from '{pair[1]}'"
     try:
-        note = f"each object is shown in a clear colour of its own, as {why}"
-        return clear_palette(_object_names(scene), note)
+        return clear_palette(_object_names(scene), automatic_note("viewport", pair))
     except SceneError as error:
-        return Palette(By.VIEWPORT, note=f"{why}, and {error}")
+        return Palette(By.VIEWPORT, note=f"'{pair[0]}' and '{pair[1]}' share a colour: {error}")
 
 
 def _object_names(scene: Any) -> list[str]:

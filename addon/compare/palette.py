@@ -5,11 +5,11 @@ An object here is what Blender gives one colour: what is instanced counts as wha
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum, auto
-from functools import lru_cache
-from itertools import product
+from functools import cache
+from itertools import permutations, product
 
 import numpy as np
 
@@ -21,8 +21,9 @@ from ..scene import Scene, SceneError
 # writer's own curve and dither together move each of them by less than two.
 APART = 4
 _LEVELS = 26  # of a channel of a clear colour: they lie 10 of 255 apart
-_TAKEN = ((0, 0, 0), (255, 255, 255))  # what pages and films have behind a scene
-MOST = _LEVELS**3 - len(_TAKEN)  # clear colours that there are
+# What films and pages have behind a scene, and what Blender shows without a colour.
+_TAKEN = ((0, 0, 0), (255, 255, 255), (128, 128, 128), (231, 231, 231))
+MOST = 17_000  # clear colours: those of _LEVELS^3 that are farthest from what is behind
 
 
 class By(StrEnum):
@@ -34,6 +35,42 @@ class By(StrEnum):
     MATERIAL = auto()  # each material's base colour
 
 
+Key = tuple[str, str]  # an object, and what instances it: else itself
+
+
+@dataclass(frozen=True, eq=False)
+class GivenColors:
+    """Colours that a file gives to objects: (k, 3) linear RGB by material slot."""
+
+    file: str
+    slots: dict[Key, Colors]
+
+    def check_known(self, names: Collection[str]) -> None:
+        """Raise a SceneError if the file names an object that is not in the scene."""
+        for name in dict.fromkeys(n for key in self.slots for n in key):
+            if name not in names:
+                raise SceneError(
+                    f"'{self.file}' has a colour for '{name}', and the scene has no such object: "
+                    "correct the name, or write the file anew with --colors-out"
+                )
+
+    def of(self, name: str, owner: str) -> Colors:
+        """Return the colours of an object.
+
+        Raises
+        ------
+        SceneError
+            If it has none.
+        """
+        if (name, owner) not in self.slots:
+            by = "" if owner == name else f", as instanced by '{owner}',"
+            raise SceneError(
+                f"'{self.file}' has no colour for '{name}'{by} which is in the view: add it, or "
+                "write the file anew with --colors-out"
+            )
+        return self.slots[name, owner]
+
+
 @dataclass(frozen=True)
 class Palette:
     """Colours that Blender is to draw a scene in, by the full names of objects or materials."""
@@ -41,6 +78,14 @@ class Palette:
     by: By  # not AUTOMATIC, which is one of the others
     colors: Mapping[str, Colors] = field(default_factory=dict)  # (3,) linear RGB each
     note: str = ""  # what a user should know of it
+    given: GivenColors | None = None  # the file that it is from
+
+    def check(self, scene: Scene, owners: Sequence[str]) -> None:
+        """Raise a SceneError if the file lacks the colour of an object that is in the view."""
+        if self.given is None:
+            return
+        for number, owner in zip(scene.instance_objects, owners, strict=False):
+            self.given.of(scene.objects[number], owner)
 
 
 VIEWPORT = Palette(By.VIEWPORT)
@@ -59,30 +104,38 @@ def clear_palette(names: Sequence[str], note: str = "") -> Palette:
             f"{len(names):,} objects are more than the {MOST:,} that clear colours tell apart: "
             "compare with the colours of the viewport"
         )
-    linear = curve_undone(_clear(len(names)) / 255).astype(np.float32)
+    linear = curve_undone(_clear()[: len(names)] / 255).astype(np.float32)
     return Palette(By.OBJECT, dict(zip(names, linear, strict=True)), note)
 
 
-@lru_cache(maxsize=4)
-def _clear(count: int) -> Bytes:
-    """Return colours (count, 3), sRGB of 8 bits, each as far as can be from those before it.
+@cache
+def _clear() -> Bytes:
+    """Return all clear colours, (MOST, 3) sRGB of 8 bits: each is far from those before it.
 
-    The first ones are the same whatever the count.
+    None of the first ones, some hundreds, is nearly another with its channels in another order:
+    else two objects that are exchanged would look like swapped channels. What is left comes then.
     """
     steps = np.rint(np.linspace(0, 255, _LEVELS)).astype(np.int32)
-    lattice = np.stack(np.meshgrid(steps, steps, steps, indexing="ij"), -1).reshape(-1, 3)
-    nearest = np.full(len(lattice), 3 * 256**2, np.int32)
-    out = np.empty((count, 3), np.uint8)
+    squares = (steps[:, None] - steps) ** 2  # of a level's distance to each
 
-    def take(color: Integers) -> None:
-        np.minimum(nearest, ((lattice - color) ** 2).sum(axis=1, dtype=np.int32), out=nearest)
+    def distance(at: Integers) -> Integers:
+        red, green, blue = squares[at]
+        return red[:, None, None] + green[:, None] + blue
 
-    for taken in _TAKEN:
-        take(np.array(taken, np.int32))
-    for row in out:
-        row[:] = lattice[np.argmax(nearest)]
-        take(row.astype(np.int32))
-    return out
+    places = np.indices((_LEVELS,) * 3, np.int32).reshape(3, -1).T
+    taken = np.minimum.reduce([distance(np.searchsorted(steps, c)) for c in _TAKEN])
+    open_ = taken.copy()  # squared distance to the nearest; below 0 where none may come
+    chosen = []
+    while (first := np.unravel_index(open_.argmax(), open_.shape)) and open_[first] > 0:
+        chosen.append(first)
+        np.minimum(open_, distance(np.array(first)), out=open_)
+        for place in permutations(first):
+            open_[tuple(slice(max(k - 1, 0), k + 2) for k in place)] = -1
+    is_left = np.ones(taken.shape, bool)
+    is_left[tuple(np.array(chosen).T)] = False
+    left = places[is_left.reshape(-1)]
+    left = left[np.argsort(-taken[is_left], kind="stable")]
+    return steps[np.concatenate((np.array(chosen), left))[:MOST]].astype(np.uint8)
 
 
 def not_told_apart(scene: Scene, owners: Sequence[str]) -> tuple[str, str] | None:
@@ -106,6 +159,14 @@ def not_told_apart(scene: Scene, owners: Sequence[str]) -> tuple[str, str] | Non
             k = int(same.argmax())
             return names[owner[order[k]]], names[owner[order[k + 1]]]
     return None
+
+
+def automatic_note(whose: str, pair: tuple[str, str]) -> str:
+    """Return in words why objects have clear colours in place of what a file or viewport shows."""
+    return (
+        f"each object is shown in a clear colour of its own, as the {whose}'s colours do not tell "
+        f"'{pair[0]}' from '{pair[1]}'"
+    )
 
 
 def _shown(scene: Scene, owners: Sequence[str]) -> tuple[Integers, Integers]:
