@@ -66,7 +66,7 @@ JUDGES: tuple[Item, ...] = (
 
 # What a render shows of a surface: `tracer/coloring.py` has the functions.
 COLORS: tuple[Item, ...] = (
-    ("object", "Object", "The object's own colour; every comparison uses this one", 0),
+    ("object", "Object", "The object's own colour", 0),
     ("normal", "Normal", "The normal in world space: red, green, blue are X, Y, Z", 1),
     ("facing", "Facing", "Light where it faces the ray, dark edge-on, reddish at backs", 2),
     ("depth", "Depth", "From white at the nearest hit to dark at the farthest, evenly", 3),
