@@ -6,6 +6,7 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -16,6 +17,7 @@ import bpy
 from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
+from ..compare.comparison import diagnosed as diagnosed_of
 from ..compare.engines import EngineRow
 from ..compare.picture import Picture, Source
 from ..errors import words
@@ -175,12 +177,40 @@ def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     return later
 
 
+def compare_here(
+    context: Any, told: Callable[[Comparison], object], **choices: Any
+) -> Work[Comparison]:
+    """Gather at once; return the work of tracing, comparing and diagnosing, which writes nothing.
+
+    `told` hears of the comparison before the diagnosis, if there is one. The choices are the fields
+    of :class:`Choices`.
+    """
+    case = gather_case(context, **choices)
+    return _diagnosed_too(compared(case), Choices.of(context.scene, choices).diagnose, told)
+
+
+def _diagnosed_too(
+    work: Work[Comparison], diagnose: bool, told: Callable[[Comparison], object]
+) -> Work[Comparison]:
+    comparison = yield from scaled(work, 0.0, 0.6)
+    if diagnose and comparison.pixels["unexplained"]:
+        told(comparison)
+        comparison = yield from scaled(diagnosed_of(comparison), 0.6, 0.4)
+    return comparison
+
+
 def compare_to_folder(
-    context: Any, directory: str, trade: bool = False, extremes: bool = False, **choices: Any
+    context: Any,
+    directory: str,
+    trade: bool = False,
+    extremes: bool = False,
+    told: Callable[[Comparison], object] = lambda comparison: None,
+    **choices: Any,
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing and writing the files.
 
-    With `trade` and `extremes`, these are measured for the page, too. The choices are the fields of
+    With `trade` and `extremes`, these are measured for the page, too. `told` hears of the
+    comparison before the diagnosis, if there is one. The choices are the fields of
     :class:`Choices`. On failure the folder's JSON says why.
 
     Raises
@@ -192,7 +222,7 @@ def compare_to_folder(
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
     diagnose = Choices.of(context.scene, choices).diagnose
-    return comparison_report.written(folder, compared(case), diagnose, trade, extremes)
+    return comparison_report.written(folder, compared(case), diagnose, trade, extremes, told)
 
 
 def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
