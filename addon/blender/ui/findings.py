@@ -130,17 +130,15 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
     box = layout.box()
     if not diagnosis.told:
         wrapped(box, context, "No known fault accounts for the unexplained pixels", "QUESTION")
+    here = {obj.name_full for obj in context.scene.objects}
     before = comparison.scene.camera
     for number, told in enumerate(diagnosis.told):
         first = "or, as likely, " if told.alternative else ""
         wrapped(box, context, f"{first}{told.sentence}", "INFO")
-        button = ""
-        if told.guess.object:
-            button = REFERENCE_TRACER_OT_select_finding.bl_idname
-        elif _differ(before, told.frame.scene.camera):
-            button = REFERENCE_TRACER_OT_copy_camera.bl_idname
-        if button:
-            box.operator(button).number = number
+        if _differ(before, told.frame.scene.camera):
+            box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
+        elif told.guess.object in here:
+            box.operator(REFERENCE_TRACER_OT_select_finding.bl_idname).number = number
         if not told.alternative:
             before = told.frame.scene.camera
 
