@@ -245,7 +245,7 @@ def test_a_fault_that_looks_like_another_does_not_get_its_name(solids, name, gue
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("opacity", [0.4, 1.0])
+@pytest.mark.parametrize("opacity", [0.4, pytest.param(1.0, marks=pytest.mark.torture)])
 def test_something_laid_over_the_picture(solids, opacity):
     """But a part of it that has the colour of an object may be that object."""
     color = render(solids).color.copy()
