@@ -133,8 +133,8 @@ def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
     here = {obj.name_full for obj in context.scene.objects}
     before = comparison.scene.camera
     for number, told in enumerate(diagnosis.told):
-        first = "or, as likely, " if told.alternative else ""
-        wrapped(box, context, f"{first}{told.sentence}", "INFO")
+        said = f"or, as likely, {told.sentence}" if told.alternative else told.sentence
+        wrapped(box, context, said[0].upper() + said[1:], "INFO")
         if _differ(before, told.frame.scene.camera):
             box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
         elif told.guess.object in here:
