@@ -6,6 +6,7 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import partial
@@ -17,23 +18,21 @@ import bpy
 from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
-from ..compare.engines import EngineRow
+from ..compare.comparison import diagnosed as diagnosed_of
 from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Picture, Source
-from ..errors import words
 from ..manifest import Manifest
 from ..mesh_diagnosis import diagnosed
 from ..report import comparison as comparison_report
-from ..report import engines as engines_report
 from ..report import folders
-from ..scene import Scene, SceneError
+from ..scene import Scene
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer
 from ..tracer.settings import Settings
 from .drawing.drawings import Drawing, with_identity, with_what_draws_itself
 from .drawing.judge import Judge
-from .drawing.judges import JUDGES, judge_named
+from .drawing.judges import judge_named
 from .drawing.picture import picture, prepare_scene
 from .drawing.rasteriser import snapping_of
 from .drawing.shading import anti_aliasing, of_shading, solid_shading, use_view_shading
@@ -197,12 +196,40 @@ def _a_frame_later(tmp: Any, layer: str, judge: Judge) -> Scene:
     return later
 
 
+def compare_here(
+    context: Any, told: Callable[[Comparison], object], **choices: Any
+) -> Work[Comparison]:
+    """Gather at once; return the work of tracing, comparing and diagnosing, which writes nothing.
+
+    `told` hears of the comparison before the diagnosis, if there is one. The choices are the fields
+    of :class:`Choices`.
+    """
+    case = gather_case(context, **choices)
+    return _diagnosed_too(compared(case), Choices.of(context.scene, choices).diagnose, told)
+
+
+def _diagnosed_too(
+    work: Work[Comparison], diagnose: bool, told: Callable[[Comparison], object]
+) -> Work[Comparison]:
+    comparison = yield from scaled(work, 0.0, 0.6)
+    if diagnose and comparison.pixels["unexplained"]:
+        told(comparison)
+        comparison = yield from scaled(diagnosed_of(comparison), 0.6, 0.4)
+    return comparison
+
+
 def compare_to_folder(
-    context: Any, directory: str, trade: bool = False, extremes: bool = False, **choices: Any
+    context: Any,
+    directory: str,
+    trade: bool = False,
+    extremes: bool = False,
+    told: Callable[[Comparison], object] = lambda comparison: None,
+    **choices: Any,
 ) -> Work[Comparison]:
     """Gather at once; return the work of tracing, comparing and writing the files.
 
-    With `trade` and `extremes`, these are measured for the page, too. The choices are the fields of
+    With `trade` and `extremes`, these are measured for the page, too. `told` hears of the
+    comparison before the diagnosis, if there is one. The choices are the fields of
     :class:`Choices`. On failure the folder's JSON says why.
 
     Raises
@@ -214,51 +241,7 @@ def compare_to_folder(
     with comparison_report.failure_written(folder):
         case = gather_case(context, **choices)
     diagnose = Choices.of(context.scene, choices).diagnose
-    return comparison_report.written(folder, compared(case), diagnose, trade, extremes)
-
-
-def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
-    """Have every engine draw the scene at once; return the work of comparing each.
-
-    Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
-    written if it is empty. The choices are the fields of :class:`Choices`.
-
-    Raises
-    ------
-    SceneError
-        If no engine makes a picture.
-    OSError
-        If the folder cannot be written.
-    """
-    folder = made_folder(directory) if directory else None
-    here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
-    drawn: list[tuple[str, Case | str]] = []  # or why there is no picture
-    for name in here:
-        try:
-            drawn.append((name, gather_case(context, judge=name.upper(), **choices)))
-        except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
-            drawn.append((name, words(error)))
-    if all(isinstance(d, str) for _, d in drawn):
-        raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
-    return _all_compared(drawn, folder, Choices.of(context.scene, choices).diagnose)
-
-
-def _all_compared(
-    drawn: list[tuple[str, Case | str]], folder: Path | None, diagnose: bool
-) -> Work[tuple[EngineRow, ...]]:
-    rows = []
-    for number, (engine, gathered) in enumerate(drawn):
-        if isinstance(gathered, str):
-            rows.append(EngineRow(engine, "failed", error=gathered))
-            continue
-        work = compared(gathered)
-        if folder:
-            work = comparison_report.written(folder / engine, work, diagnose)
-        comparison = yield from scaled(work, number / len(drawn), 1 / len(drawn))
-        rows.append(EngineRow.of(comparison))
-    if folder:
-        engines_report.write(folder, rows)
-    return tuple(rows)
+    return comparison_report.written(folder, compared(case), diagnose, trade, extremes, told)
 
 
 def made_folder(directory: str) -> Path:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..arrays import Colors
@@ -38,7 +38,7 @@ class Told:
     settled: int  # of these, pixels that agree with this put right
     agreed: int  # pixels that agreed or had a cause
     broken: int  # of these, pixels that do not, with this put right
-    frame: Frame  # what is traced with it, and with those told before
+    frame: Frame  # what is traced with it, and with those told before, in the picture's colours
     picture: Colors  # what it is compared with, (h, w, 4) linear RGBA
     alternative: bool = False  # it does as well as the one told before it
 
@@ -184,6 +184,9 @@ def _regions(evidence: Evidence) -> tuple[Region, ...]:
 
 def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
     after = trial.evidence
+    color = after.frame.color.copy()
+    made = after.case.picture.made_of(color)  # by a transform, if that is the fault
+    color[..., : made.shape[-1]] = made
     return Told(
         trial.fault,
         trial.guess,
@@ -191,7 +194,7 @@ def _told(evidence: Evidence, trial: Trial, alternative: bool) -> Told:
         trial.settled,
         int(evidence.judged.sum()),
         trial.broken,
-        after.frame,
+        replace(after.frame, color=color),
         after.case.picture.color,
         alternative,
     )

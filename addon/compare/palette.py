@@ -13,7 +13,7 @@ from itertools import permutations, product
 
 import numpy as np
 
-from ..arrays import Bytes, Colors, Integers
+from ..arrays import Bytes, Colors, Index, Integers
 from ..images import curve, curve_undone
 from ..scene import Scene, SceneError
 
@@ -115,18 +115,18 @@ def _clear() -> Bytes:
     None of the first ones, some hundreds, is nearly another with its channels in another order:
     else two objects that are exchanged would look like swapped channels. What is left comes then.
     """
-    steps = np.rint(np.linspace(0, 255, _LEVELS)).astype(np.int32)
+    steps: Integers = np.rint(np.linspace(0, 255, _LEVELS)).astype(np.int32)
     squares = (steps[:, None] - steps) ** 2  # of a level's distance to each
 
-    def distance(at: Integers) -> Integers:
+    def distance(at: Index) -> Integers:
         red, green, blue = squares[at]
         return red[:, None, None] + green[:, None] + blue
 
     places = np.indices((_LEVELS,) * 3, np.int32).reshape(3, -1).T
-    taken = np.minimum.reduce([distance(np.searchsorted(steps, c)) for c in _TAKEN])
+    taken: Integers = np.min([distance(np.searchsorted(steps, c)) for c in _TAKEN], axis=0)
     open_ = taken.copy()  # squared distance to the nearest; below 0 where none may come
     chosen = []
-    while (first := np.unravel_index(open_.argmax(), open_.shape)) and open_[first] > 0:
+    while (first := np.unravel_index(np.argmax(open_), open_.shape)) and open_[first] > 0:
         chosen.append(first)
         np.minimum(open_, distance(np.array(first)), out=open_)
         for place in permutations(first):

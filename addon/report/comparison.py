@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -53,11 +53,12 @@ def written(
     diagnose: bool,
     trade: bool = False,
     extremes: bool = False,
+    told: Callable[[Comparison], object] = lambda comparison: None,
 ) -> Work[Comparison]:
     """Compare, find what else the page shows, and write; then diagnose, and write again.
 
     Who ends it in the midst of the diagnosis has the comparison in the folder without it. If the
-    work fails, the folder says why.
+    work fails, the folder says why. `told` hears of the comparison before the diagnosis.
     """
     rest, end = (0.2, 0.8) if trade or extremes else (0.5, 0.6)
     with failure_written(folder):
@@ -66,6 +67,7 @@ def written(
         extras = yield from scaled(finding, rest, end - rest)
         write(folder, comparison, extras)
         if diagnose and comparison.pixels["unexplained"]:
+            told(comparison)
             comparison = yield from scaled(diagnosed(comparison), end, 1 - end)
             write(folder, comparison, extras)
     yield 1.0

@@ -178,7 +178,7 @@ def test_help(argv, saved, capsys):
 def test_options_hold_before_what_the_scene_stores(options, section, key, value, saved, out):
     saved.reference_tracer.method = "textbook_literal"
     saved.reference_tracer.judge = "CYCLES" if "auto" in options else "WORKBENCH"
-    commands.run(["compare", "--out", str(out), *options])
+    commands.run(["compare", "--no-diagnosis", "--out", str(out), *options])
     assert verdict(out)[section][key] == value
     assert saved.reference_tracer.method == "textbook_literal"
 

@@ -245,7 +245,7 @@ def test_a_fault_that_looks_like_another_does_not_get_its_name(solids, name, gue
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("opacity", [0.4, 1.0])
+@pytest.mark.parametrize("opacity", [0.4, pytest.param(1.0, marks=pytest.mark.torture)])
 def test_something_laid_over_the_picture(solids, opacity):
     """But a part of it that has the colour of an object may be that object."""
     color = render(solids).color.copy()
@@ -305,3 +305,14 @@ def test_a_variant_may_number_its_instances_otherwise(solids):
             *([0] * (len(meshes) - 1)),
             1,
         ]
+
+
+def test_colours_put_right_are_those_of_the_picture(solids):
+    """Of Blender's own picture, which no transform excuses: the page shows both."""
+    frame = render(solids)
+    color = frame.color[..., [2, 1, 0, 3]]
+    found = result_of(trace_and_compare(case_of(solids, Picture(color))))
+    [told] = result_of(diagnosed(found, np.inf)).diagnosis.told
+    assert told.fault.name == "channels"
+    assert not np.array_equal(frame.color, color)
+    np.testing.assert_array_equal(told.frame.color, color)

@@ -77,7 +77,7 @@ def scene_in(make, *levels):
 @pytest.mark.parametrize("color", [(0, 0, 0), (7, 8, 9), (131, 128, 252), (255, 255, 255)])
 @pytest.mark.parametrize("step", [0, 1, APART - 1, -1, 1 - APART])
 def test_colors_that_rounding_could_exchange_are_not_told_apart(make, color, step):
-    other = tuple(np.clip(np.array(color) + (step, -step, step), 0, 255))
+    other = tuple(np.clip(np.add(color, (step, -step, step)), 0, 255))
     scene, names = scene_in(make, (90, 10, 200), color, other)
     assert set(not_told_apart(scene, names)) == {"Square 1", "Square 2"}
 

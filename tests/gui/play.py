@@ -15,6 +15,7 @@ import bpy
 
 sys.path.insert(0, str(Path(__file__).parent))  # Blender doesn't put it there
 
+import diagnosis_stories
 import hard_stories
 import house_stories
 import inspector_stories
@@ -29,6 +30,7 @@ STORIES = {
     story.__name__: (module.SCENE, story)
     for module in (
         stories,
+        diagnosis_stories,
         hard_stories,
         house_stories,
         inspector_stories,

@@ -66,6 +66,7 @@ class LongWork(Mixin):
     needs_camera: ClassVar[bool] = False
     alone: ClassVar[bool] = False  # the user's scene is at work: the window hears nothing but Esc
     left: str = "nothing was changed"  # at Esc
+    doing: str = ""  # now, where the label does not say it
 
     directory: StringProperty(
         name="Folder",
@@ -151,7 +152,8 @@ class LongWork(Mixin):
         past = now - self._began
         context.window_manager.progress_update(int(100 * share))
         left = f"  {past * (1 - share) / share:.0f} s" if share > 0.01 else ""
-        said = rpt_("{}: {} %{}  (Esc: cancel)").format(rpt_(self.bl_label), int(100 * share), left)
+        doing = self.doing or rpt_(self.bl_label)
+        said = rpt_("{}: {} %{}  (Esc: cancel)").format(doing, int(100 * share), left)
         context.workspace.status_text_set(said)
 
     def cancel(self, context: Any) -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
 from bpy.props import BoolProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
@@ -26,11 +27,19 @@ class REFERENCE_TRACER_OT_compare(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Have Blender draw the scene at once; return the work that is left."""
-        from ..compare import compare_to_folder, compared, gather_case
+        from ..compare import compare_here, compare_to_folder
+
+        def told(comparison: Any) -> None:
+            """Show the comparison: Esc ends no more than the search for what is wrong with it."""
+            results.keep_comparison(context, comparison)
+            self.left = rpt_("the comparison stays, without a diagnosis")
+            count = comparison.pixels["unexplained"]
+            self.doing = rpt_("Looking for what accounts for {:,} pixels").format(count)
+            redraw(context)
 
         if folder := self.folder():
-            return compare_to_folder(context, str(folder))
-        return compared(gather_case(context))
+            return compare_to_folder(context, str(folder), told=told)
+        return compare_here(context, told)
 
     def finish(self, context: Any, result: Any) -> tuple[str, str]:
         lines = results.keep_comparison(context, result).lines
@@ -49,7 +58,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Have every engine draw the scene at once; return the work that is left."""
-        from ..compare import compare_all
+        from ..compare_engines import compare_all
 
         return compare_all(context, str(self.folder() or ""))
 

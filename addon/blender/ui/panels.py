@@ -12,6 +12,7 @@ from bpy.app.translations import pgettext_iface as iface_
 from ..drawing.judges import JUDGES
 from ..engine import ENGINE
 from . import operators, results
+from .findings import draw_findings
 from .layout import NARROW, Part, both, draw_table, short_name, wrapped
 from .menus import REFERENCE_TRACER_PT_presets
 from .results import Kind
@@ -105,6 +106,7 @@ class _Result(Part):
         comparison = results.content(Kind.COMPARISON, context.scene)
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         layout.label(text=comparison.verdict.capitalize(), icon=icon)
+        draw_findings(layout, context, comparison)
         draw_table(layout, [*_counts(comparison.pixels), *_measures(comparison)])
         rows = [("Traced by", "s", "Wrong", "Ambig.")]
         for m in comparison.methods:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Iterator
 import bpy
 
 from ...compare.case import WHOLE, Variant
-from ...compare.palette import Palette
+from ...compare.palette import VIEWPORT, Palette
 from ...errors import EXPECTED
 from ..temporary import everything, temporary_scene
 from . import cameras, frames, layers, matrices, meshes
@@ -29,7 +29,7 @@ MOST = 48  # each is exported, and tried
 
 
 def variants(
-    name: str, layer: str, ignored: Collection[str] | None, palette: Palette
+    name: str, layer: str, ignored: Collection[str] | None, palette: Palette = VIEWPORT
 ) -> tuple[Variant, ...]:
     """Return a scene with all that its view leaves out, then with one fault each.
 

@@ -70,7 +70,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
         from ...blender import animation
-        from ...blender.compare import compare_all, compare_to_folder
+        from ...blender.compare import compare_to_folder
+        from ...blender.compare_engines import compare_all
 
         stored = blender.context.scene.reference_tracer.settings()
         judge = options.judge.upper() if options.judge else None
@@ -92,7 +93,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
             work_of_all = compare_all(blender.context, out, diagnose=diagnose, **chosen)
             rows = result_of(work_of_all, progress)
             return _told_engines(options, rows)
-        for_page = {"trade": options.trade, "extremes": options.extremes}
+        for_page: dict[str, Any] = {"trade": options.trade, "extremes": options.extremes}
         chosen |= {"judge": judge, "diagnose": diagnose}
         work = compare_to_folder(blender.context, out, **for_page, **chosen)
         return _told_comparison(options, result_of(work, progress))

@@ -120,7 +120,7 @@ def _pictures(comparison: Comparison, literal: np.ndarray | None) -> list[dict[s
 def _put_right(comparison: Comparison) -> Iterator[dict[str, str]]:
     """Yield the picture that each told fault changes, put right: none where it changes no colour.
 
-    A curve, or a tolerance, is in how colours are compared, not in a picture.
+    A tolerance, as of a filter, is in how colours are compared, not in a picture.
     """
     told = comparison.diagnosis.told if comparison.diagnosis else ()
     before = then = {"traced": comparison.frame.color, "blender": comparison.picture}

@@ -1,0 +1,148 @@
+"""What the diagnosis found, in the panel: a line each, and a button that leads to it.
+
+A fault of an object has a button that selects the object; one of the camera a button that adds a
+copy of the camera that sees what the picture shows.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.app.translations import pgettext_rpt as rpt_
+from bpy.props import IntProperty
+
+from . import results
+from .layout import wrapped
+from .long_work import Answer, named
+from .results import Kind
+
+if TYPE_CHECKING:
+    from ...compare.comparison import Comparison
+    from ...compare.diagnosis import Told
+    from ...scene import Camera
+
+
+class _OfFinding:
+    """Mixed into an operator that is about a fault that was told."""
+
+    number: IntProperty(
+        name="Number",
+        description="Which of the faults that the diagnosis tells, from 0",
+        min=0,
+        options={"SKIP_SAVE"},
+    )
+
+    @classmethod
+    def poll(cls, context: Any) -> bool:
+        """Allow it in Object Mode, where something was found."""
+        own: Any = cls
+        comparison = results.content(Kind.COMPARISON, context.scene)
+        if not (comparison and comparison.diagnosis and comparison.diagnosis.told):
+            own.poll_message_set("There is no comparison whose diagnosis has found something")
+            return False
+        if context.mode != "OBJECT":
+            own.poll_message_set("Leave the mode that the active object is in: Tab")
+            return False
+        return True
+
+    def told(self, context: Any) -> Told:
+        """Return what was told.
+
+        Raises
+        ------
+        SceneError
+            If there are fewer.
+        """
+        from ...scene import SceneError
+
+        found: tuple[Told, ...] = results.content(Kind.COMPARISON, context.scene).diagnosis.told
+        if self.number >= len(found):
+            raise SceneError(f"The diagnosis tells {len(found)} faults, numbered from 0.")
+        return found[self.number]
+
+
+@named
+class REFERENCE_TRACER_OT_select_finding(_OfFinding, bpy.types.Operator):
+    bl_label = "Select"
+    bl_description = "Select the object that the diagnosis tells, alone, and make it active"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Any) -> Answer:
+        from ...scene import SceneError
+
+        name = self.told(context).guess.object
+        layer = context.view_layer
+        found = next((o for o in context.scene.objects if o.name_full == name), None)
+        if found is None:
+            raise SceneError(
+                f"Scene '{context.scene.name}' has no object '{name}' now: it is instanced from "
+                "elsewhere, or was renamed or removed since the comparison."
+            )
+        if found not in set(layer.objects):
+            raise SceneError(
+                f"'{name}' is not in view layer '{layer.name}': its collection is excluded."
+            )
+        for obj in context.selected_objects:
+            obj.select_set(False)
+        found.select_set(True)
+        layer.objects.active = found
+        if not found.select_get():
+            said = rpt_(
+                "'{}' is active, but hidden in this view: Blender selects only what is seen"
+            )
+            self.report({"WARNING"}, said.format(name))
+        return {"FINISHED"}
+
+
+@named
+class REFERENCE_TRACER_OT_copy_camera(_OfFinding, bpy.types.Operator):
+    bl_label = "Apply to a Copy"
+    bl_description = (
+        "Add a copy of the camera that sees what the picture shows, with this and what was found "
+        "before it put right, and select it. Your camera, and the scene's active one, stay"
+    )
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context: Any) -> Answer:
+        from ...scene import SceneError
+        from ..drawing.camera_object import copy_camera
+
+        if context.scene.camera is None:
+            raise SceneError(f"Scene '{context.scene.name}' has no camera to copy.")
+        camera = self.told(context).frame.scene.camera
+        name = f"{context.scene.camera.name} as in the picture"
+        obj = copy_camera(context.scene, camera, name)
+        for other in context.selected_objects:
+            other.select_set(False)
+        obj.select_set(True)
+        context.view_layer.objects.active = obj
+        said = rpt_("'{}' sees what the picture shows; your own camera is still the active one")
+        self.report({"INFO"}, said.format(obj.name))
+        return {"FINISHED"}
+
+
+def draw_findings(layout: Any, context: Any, comparison: Comparison) -> None:
+    """Draw what accounts for the unexplained pixels: a line each, with its button."""
+    diagnosis = comparison.diagnosis
+    if diagnosis is None:
+        return
+    box = layout.box()
+    if not diagnosis.told:
+        wrapped(box, context, "No known fault accounts for the unexplained pixels", "QUESTION")
+    here = {obj.name_full for obj in context.scene.objects}
+    before = comparison.scene.camera
+    for number, told in enumerate(diagnosis.told):
+        said = f"or, as likely, {told.sentence}" if told.alternative else told.sentence
+        wrapped(box, context, said[0].upper() + said[1:], "INFO")
+        if _differ(before, told.frame.scene.camera):
+            box.operator(REFERENCE_TRACER_OT_copy_camera.bl_idname).number = number
+        elif told.guess.object in here:
+            box.operator(REFERENCE_TRACER_OT_select_finding.bl_idname).number = number
+        if not told.alternative:
+            before = told.frame.scene.camera
+
+
+def _differ(first: Camera, second: Camera) -> bool:
+    """Return whether two cameras see differently."""
+    return first is not second and first.to_dict() != second.to_dict()

@@ -1,0 +1,205 @@
+"""What the diagnosis found, in Blender: the button diagnoses, and what leads to a finding."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import compare as compare_module
+from reference_tracer.blender.drawing.camera_object import copy_camera
+from reference_tracer.blender.reading.camera import export_camera
+from reference_tracer.blender.ui import results
+from reference_tracer.blender.ui.results import Kind
+from reference_tracer.compare.faults import FAULTS
+from reference_tracer.compare.faults.fault import Guess
+from reference_tracer.scene import SceneError
+from reference_tracer.tracer.camera import camera_rays
+
+OPS = bpy.ops.reference_tracer
+BY_NAME = {fault.name: fault for fault in FAULTS}
+
+
+@pytest.fixture
+def seen(build):
+    """A scene with solids of different colours."""
+    scene = build.scene(160, 90)
+    build.solids()
+    camera = build.corner_camera(lens=40)
+    scene.display.shading.color_type = "OBJECT"
+    scene.reference_tracer.identity = False  # a second drawing, of which a test would have to lie
+    rng = np.random.default_rng(27)
+    for obj in bpy.data.objects:
+        obj.color = (*rng.uniform(0.1, 1, 3), 1)
+    return scene, camera
+
+
+@contextmanager
+def drawn_otherwise(monkeypatch, owner, name, value):
+    """Have Blender draw with another value than was exported, as a handler might set it."""
+    real = compare_module.picture
+
+    def picture(*args, **options):
+        before = getattr(owner, name)
+        setattr(owner, name, value)
+        try:
+            return real(*args, **options)
+        finally:
+            setattr(owner, name, before)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(compare_module, "picture", picture)
+        yield
+
+
+def found():
+    return results.content(Kind.COMPARISON, bpy.context.scene).diagnosis
+
+
+def dump(*objects):
+    """Return what a user has set on objects, and which one is seen through."""
+    return bpy.context.scene.camera.name, [
+        (o.name, *map(tuple, o.matrix_world), *_settings(o.data)) for o in objects
+    ]
+
+
+def _settings(data):
+    names = "lens", "sensor_width", "sensor_fit", "shift_x", "ortho_scale", "clip_start", "type"
+    return [getattr(data, name, None) for name in names]
+
+
+@pytest.mark.slow
+def test_the_button_without_a_folder_diagnoses(seen, monkeypatch):
+    """And the copy that it then offers sees what Blender drew: the user's camera stays."""
+    scene, camera = seen
+    with drawn_otherwise(monkeypatch, camera.data, "lens", 42.0):
+        OPS.compare()
+    [told] = found().told
+    assert told.fault.name == "focal_length"
+    assert told.guess.values[0] == pytest.approx(5, abs=0.05)
+    before = dump(camera)
+    count = len(bpy.data.objects)
+    assert OPS.copy_camera(number=0) == {"FINISHED"}
+    assert dump(camera) == before and len(bpy.data.objects) == count + 1
+    copy = bpy.context.view_layer.objects.active
+    assert copy != camera and copy.select_get() and not camera.select_get()
+    scene.camera = copy
+    low, high = (1 + end / 100 for end in (told.guess.low[0], told.guess.high[0]))
+    window = export_camera(scene).window
+    lens = 36 / (window.right - window.left)
+    assert 40 * low * (1 - 1e-6) <= lens <= 40 * high * (1 + 1e-6)
+    with drawn_otherwise(monkeypatch, scene, "camera", copy):
+        OPS.compare()
+    assert results.content(Kind.COMPARISON, scene).verdict == "agree"
+
+
+@pytest.mark.slow
+def test_an_object_that_was_found_is_selected(seen, monkeypatch):
+    scene, _ = seen
+    name = next(o.name for o in scene.objects if o.type == "MESH" and o.name != "Plane")
+    obj = bpy.data.objects[name]
+    with drawn_otherwise(monkeypatch, obj, "hide_render", True):
+        OPS.compare(directory="")
+    told = found().told
+    assert [t.guess.object for t in told] == [name]
+    for other in scene.objects:
+        other.select_set(True)
+    assert OPS.select_finding(number=0) == {"FINISHED"}
+    assert bpy.context.selected_objects == [obj] == [bpy.context.view_layer.objects.active]
+    with pytest.raises(RuntimeError, match="tells 1 faults"):
+        OPS.select_finding(number=1)
+    obj.name = "Renamed"
+    with pytest.raises(RuntimeError, match=f"no object '{name}' now"):
+        OPS.select_finding(number=0)
+
+
+def test_without_a_finding_there_is_no_button(seen):
+    assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+    OPS.compare()
+    assert found() is None
+    assert not OPS.select_finding.poll() and not OPS.copy_camera.poll()
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("pixel_offset", (0.5, -0.25)),
+        ("focal_length", (-30.0,)),
+        ("roll", (40.0,)),
+        ("mirrored_x", (1.0,)),
+        ("sensor_fit", (0.0,)),
+        ("clip_end", (9.0,)),
+        ("forward", (0.0,)),
+        ("matrix_inverted", (0.0,)),
+    ],
+)
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_a_copy_sees_as_the_camera_of_a_fault(seen, compare, name, values, kind):
+    """Exported again, its rays pass where the fault's do, but for the rounding to float32."""
+    scene, camera = seen
+    camera.data.type = kind
+    camera.data.shift_x = 0.05
+    case = compare().case
+    made = BY_NAME[name].make(case, None, Guess(values))
+    if made is None:  # such as a focal length of parallel rays
+        pytest.fail(f"{name} makes nothing")
+    wanted = made.scene.camera
+    copy = copy_camera(scene, wanted, "Copy")
+    assert scene.camera == camera
+    scene.camera = copy
+    bpy.context.view_layer.update()
+    again = export_camera(scene)
+    x, y = np.meshgrid(np.linspace(0, 160, 9), np.linspace(0, 90, 7))
+    rays, others = (camera_rays(c, x.ravel(), y.ravel()) for c in (wanted, again))
+    np.testing.assert_allclose(others.directions, rays.directions, atol=3e-6)
+    np.testing.assert_allclose(others.origins, rays.origins, atol=3e-6)
+    assert (again.clip_start, again.clip_end) == (
+        np.float32(wanted.clip_start),
+        np.float32(wanted.clip_end),
+    )
+
+
+def test_what_no_camera_has_is_said(seen, compare):
+    scene, _ = seen
+    camera = compare().scene.camera
+    count = len(bpy.data.objects), len(bpy.data.cameras)
+    scene.render.pixel_aspect_y = 2.0
+    with pytest.raises(SceneError, match="pixel aspect"):
+        copy_camera(scene, camera, "Copy")
+    scene.render.pixel_aspect_y = 1.0
+    scene.render.resolution_x = 200
+    with pytest.raises(SceneError, match="resolution"):
+        copy_camera(scene, camera, "Copy")
+    scene.render.resolution_x = 160
+    sheared = camera.world_from_camera.copy()
+    sheared[:3, 1] += 0.3 * sheared[:3, 0]
+    with pytest.raises(SceneError, match="right angles"):
+        copy_camera(scene, compare_with(camera, sheared), "Copy")
+    assert (len(bpy.data.objects), len(bpy.data.cameras)) == count
+
+
+def compare_with(camera, matrix):
+    from dataclasses import replace
+
+    return replace(camera, world_from_camera=matrix)
+
+
+def test_a_copy_is_moved_by_nothing_that_moves_the_camera(seen, compare, build):
+    scene, camera = seen
+    wanted = compare().scene.camera
+    parent = bpy.data.objects.new("Parent", None)
+    scene.collection.objects.link(parent)
+    parent.location = (3, 1, 2)
+    camera.parent = parent
+    camera.constraints.new("TRACK_TO").target = parent
+    camera.delta_location = (1, 2, 3)
+    camera.keyframe_insert("location", frame=1)
+    camera.data.keyframe_insert("lens", frame=1)
+    copy = copy_camera(scene, wanted, "Copy")
+    scene.camera = copy
+    scene.frame_set(5)
+    bpy.context.view_layer.update()
+    np.testing.assert_allclose(
+        export_camera(scene).world_from_camera, wanted.world_from_camera, atol=1e-6
+    )

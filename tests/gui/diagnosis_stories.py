@@ -1,0 +1,96 @@
+"""Blender draws something else than the scene says: the panel says what, and leads there."""
+
+from contextlib import contextmanager
+
+import bpy
+from story import (
+    compared,
+    invoke,
+    module,
+    noted,
+    open_tab,
+    press,
+    press_compare,
+    reports,
+    result,
+    running,
+    screenshot,
+    show_panel,
+    until,
+    window,
+)
+
+SCENE = "suzanne"
+
+
+@contextmanager
+def drawn_otherwise(owner, name, value):
+    """Have the first drawing show another value than was exported, as a handler might set it."""
+    compare = module("blender.compare")
+    real = compare.picture
+
+    def picture(*args, **options):
+        before = getattr(owner, name)
+        setattr(owner, name, value)
+        try:
+            return real(*args, **options)
+        finally:
+            setattr(owner, name, before)
+
+    compare.picture = picture
+    try:
+        yield
+    finally:
+        compare.picture = real
+
+
+def ended():
+    return not running()
+
+
+def diagnosis():
+    """The panel, Esc in the midst, and the copy of the camera."""
+    scene = window().scene
+    scene.render.resolution_percentage = 30
+    scene.reference_tracer.identity = False
+    yield 0.2
+    lens = scene.camera.data.lens
+    with drawn_otherwise(scene.camera.data, "lens", lens * 1.05):
+        press_compare()
+        yield from until(compared, 120)
+        noted["running_after_comparison"] = bool(running())
+        press("Escape")
+        yield from until(ended, 60)
+    found = result().content
+    noted["esc"] = {
+        "verdict": found.verdict,
+        "unexplained": found.pixels["unexplained"],
+        "diagnosed": found.diagnosis is not None,
+        "lens": scene.camera.data.lens == lens,
+    }
+    with drawn_otherwise(scene.camera.data, "lens", lens * 1.05):
+        press_compare()
+        yield from until(ended, 300)
+    noted["told"] = [told.sentence for told in result().content.diagnosis.told]
+    show_panel()
+    yield 0.5
+    yield from open_tab()
+    screenshot("diagnosis")
+    noted["pressed"] = sorted(invoke("copy_camera", number=0))
+    copy = window().view_layer.objects.active
+    noted["copy"] = {
+        "name": copy.name,
+        "lens": copy.data.lens / copy.data.sensor_width * 36 / lens,
+        "active_camera": scene.camera.name,
+    }
+    bpy.ops.ed.undo()
+    yield 0.3
+    noted["after_undo"] = copy_names()
+    noted["reports"] = reports()
+
+
+def copy_names():
+    return [o.name for o in window().scene.objects if "as in the picture" in o.name]
+
+
+STORIES = (diagnosis,)
