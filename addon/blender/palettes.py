@@ -42,7 +42,7 @@ def palette_by(scene: Any, by: By | GivenColors) -> Palette:
         return palette_given(by)
     if by == By.OBJECT:
         return clear_palette(_object_names(scene))
-    return _of_materials() if by == By.MATERIAL else VIEWPORT
+    return _of_materials(scene) if by == By.MATERIAL else VIEWPORT
 
 
 def palette_given(given: GivenColors) -> Palette:
@@ -100,10 +100,12 @@ def _object_names(scene: Any) -> list[str]:
     return [*sorted(own), *sorted(every - own)]
 
 
-def _of_materials() -> Palette:
+def _of_materials(scene: Any) -> Palette:
     found = {m.name_full: _base_color(m) for m in bpy.data.materials}
     colors = {name: color for name, color in found.items() if color is not None}
-    others = [f"'{name}'" for name in found if name not in colors]
+    slots = (slot for o in scene.objects if o.type not in NOT_DRAWN for slot in o.material_slots)
+    used = dict.fromkeys(slot.material.name_full for slot in slots if slot.material)
+    others = [f"'{name}'" for name in used if name not in colors]
     note = ""
     if others:
         told = ", ".join(others[:_NAMED]) + (", ..." if len(others) > _NAMED else "")

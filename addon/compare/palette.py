@@ -123,7 +123,8 @@ def _clear() -> Bytes:
         return red[:, None, None] + green[:, None] + blue
 
     places = np.indices((_LEVELS,) * 3, np.int32).reshape(3, -1).T
-    taken: Integers = np.min([distance(np.searchsorted(steps, c)) for c in _TAKEN], axis=0)
+    behind = [distance(np.searchsorted(steps, color)) for color in _TAKEN]
+    taken = np.stack(behind).min(axis=0)
     open_ = taken.copy()  # squared distance to the nearest; below 0 where none may come
     chosen = []
     while (first := np.unravel_index(np.argmax(open_), open_.shape)) and open_[first] > 0:

@@ -152,6 +152,7 @@ def test_base_colors_of_materials(ordinary, build, compare):
     tree = bpy.data.materials["Middle"].node_tree
     node = next(n for n in tree.nodes if n.type == "BSDF_PRINCIPLED")
     tree.links.new(tree.nodes.new("ShaderNodeTexNoise").outputs[0], node.inputs["Base Color"])
+    build.material("Of Nothing", 1, 0, 0)
     found = compare(colors=By.MATERIAL)
     assert found.verdict == "agree"
     shown = colors_of(found)
