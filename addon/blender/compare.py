@@ -180,6 +180,7 @@ def _picture(pixels: Colors, judge: Judge, used: dict[str, Any], snapping: float
         pixels,
         Source(judge.name, bpy.app.version_string, settings=used),
         sample_radius=judge.sample_radius,
+        farthest=judge.farthest,
         filter_radius=0.0 if smooth == "OFF" else judge.filter_radius,
         sums=int(smooth) if smooth.isdigit() else 0,
         snapping=snapping,

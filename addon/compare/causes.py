@@ -31,6 +31,7 @@ from .checks.edges import DEPTH_TIE, EDGE
 from .checks.hidden import HIDDEN
 from .checks.probe import OpenPixels, blocks, other_color
 from .checks.unmodelled import NOT_MODELLED
+from .embree import not_decidable
 
 # All causes, in the order of the legend.
 CAUSES: tuple[Cause, ...] = (
@@ -132,6 +133,8 @@ def _open(pixels: OpenPixels) -> Work[None]:
     seen = frame.instance_index
     pixels.band = yield from sample_band(scene, frame, blocks(frame.shape))
     pixels.band += pixels.picture.off_center
+    if pixels.picture.farthest < np.inf:
+        pixels.band[not_decidable(scene, frame, pixels.picture.farthest)] = np.inf
     ramp = shading.interpolated(scene, seen)
     finding = other_color(pixels.picture, frame.color, ramp)
     differ = yield from scaled(finding, 1.0, 0.0)

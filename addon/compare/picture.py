@@ -74,6 +74,8 @@ class Picture:
     lit: bool = False  # by a light that the tracer does not have: colours prove nothing
     transform: Transform | None = None  # turns traced colours into the picture's
     background: Colors | None = None  # (4,) its own, linear RGBA, not transformed
+    # Metres: Embree drew it, which takes triangles with a coordinate beyond for invalid; else inf.
+    farthest: float = np.inf
     snapping: float = SNAPPING  # pixels: the step to which its rasteriser rounds triangles' corners
     # Both (k + 1,) as `owners`, last False.
     colorless: Bools | None = None  # the tracer does not know the instance's colours

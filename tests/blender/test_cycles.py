@@ -10,7 +10,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
+from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.drawing.judges import JUDGES
+from reference_tracer.compare.cause import NOT_DECIDABLE
 from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import pixel_size
 
@@ -195,3 +197,48 @@ def test_cycles_cannot_show_random_colors_of_instances_and_says_so(build, compar
     build.camera()
     with pytest.raises(ValueError, match=r"random colours of instances.*'Empty'.*Workbench"):
         compare(judge="CYCLES")
+
+
+@pytest.mark.parametrize("far", [1e3, 3e4, 1e5, 1e6, 1e7, 1e12, 1.8e18, 1.9e18, 1e30])
+@pytest.mark.parametrize(("at", "kind"), [(0.0, "PERSP"), (0.37, "PERSP"), (0.11, "ORTHO")])
+def test_triangles_that_reach_far(far, at, kind, build, compare):
+    """Cycles shows them a share of their size too large, and from a limit on not at all."""
+    build.scene(96, 54, "OBJECT")
+    build.camera(type=kind, ortho_scale=4.0)
+    corners = [(-1 + at, -1, 0), (far, 0, 0), (-1 + at, 1, 0)]
+    build.mesh("Far", corners, [(0, 1, 2)]).color = (1, 0, 0, 1)
+    build.square("Behind", 30.0, location=(0, 0, -5), color=(0, 1, 0, 1))
+    build.square("Near", 0.8, location=(0.2, 0, 1), color=(0, 0, 1, 1))
+    found = compare(judge="CYCLES")
+    seen = {n: found.frame.object_index == k for k, n in enumerate(found.scene.objects)}
+    undecided = found.causes.cause == NOT_DECIDABLE
+    assert found.pixels["unexplained"] == 0
+    assert seen["Near"].sum() > 100 and not undecided[seen["Near"]].any()
+    shown = (found.picture[..., 0] > 0) & seen["Far"]
+    if far > 1.844e18:
+        assert not shown.any() and undecided[seen["Far"]].all()
+    else:  # what it is is judged, and what is far from it
+        assert shown[seen["Far"]].all()
+        if far < 1e5:
+            assert not undecided.any()
+        if far < 1e7:
+            assert not undecided[seen["Far"]].any() and not undecided[seen["Behind"]].all()
+
+
+def test_what_is_missing_far_away_is_found(build, compare, monkeypatch):
+    """A triangle that Cycles can draw, and that an exporter left out."""
+    build.scene(96, 54, "OBJECT")
+    build.camera()
+    far = build.mesh("Far", [(-1, -1, 0), (1e6, 0, 0), (-1, 1, 0)], [(0, 1, 2)])
+    build.square("Behind", 30.0, location=(0, 0, -5), color=(0, 1, 0, 1))
+    real = compare_module.picture
+
+    def without(*args, **options):
+        far.hide_render = True
+        try:
+            return real(*args, **options)
+        finally:
+            far.hide_render = False
+
+    monkeypatch.setattr(compare_module, "picture", without)
+    assert compare(judge="CYCLES", identity=False).pixels["unexplained"] > 1000

@@ -9,6 +9,10 @@ from typing import Any
 from .judge import Judge
 
 SAMPLE_RADIUS = 0.005  # pixels: the least that Cycles' filter allows
+# Metres. Embree, which Cycles traces with, takes a triangle for invalid that has a coordinate of
+# 1.844e18 or more, about a tenth of the root of float32's largest number (measured in 5.2: one
+# of 1.8434e18 is drawn, one of 1.8445e18 is not).
+FARTHEST = 1.843e18
 
 
 @contextmanager
@@ -33,6 +37,7 @@ CYCLES = Judge(
     ignores=("display type", "transparency", "texture", "in-front drawing", "hidden faces"),
     set_up=_one_sample_a_pixel,
     sample_radius=SAMPLE_RADIUS,
+    farthest=FARTHEST,
     traces_rays=True,
     solid=False,
     random_instances=False,

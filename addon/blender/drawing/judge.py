@@ -5,6 +5,7 @@ Nothing here imports bpy or numpy: the command line reads the records where ther
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -44,6 +45,8 @@ class Judge:
     # Pixels from its centre that its anti-aliasing mixes. Workbench's samples lie within a pixel
     # and a half; what smooths their edges takes in the pixel beside.
     filter_radius: float = 2.0
+    # Metres: Embree draws, which takes triangles with a coordinate beyond for invalid; else inf.
+    farthest: float = math.inf
     traces_rays: bool = False  # a rasteriser rounds the corners of triangles, a ray tracer does not
     solid: bool = True  # drawn by the scene's solid shading; others have materials and light
     random_instances: bool = True  # where colours are random, each instance has its own

@@ -1,0 +1,140 @@
+"""What Embree, with which Cycles traces, makes of triangles that reach far.
+
+It computes in float32. A triangle with a corner beyond a limit it takes for invalid: none of it is
+drawn. Of the others it lets a little more be hit than there is, so that no ray falls between two:
+a share of the triangle's own size, which may be pixels if a corner is a thousand kilometres away.
+What Cycles shows there proves nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays import Array, Bools, Floats, Places
+from ..scene import Camera, Instance, Mesh, Scene
+from ..tracer.camera import Rays, camera_rays, film_positions, pixel_size
+from ..tracer.frame import Frame
+from ..tracer.hits import NOTHING
+from ..tracer.vector import dot, transform_points
+from ..tracer.world import reaches
+from .bounds import SNAPPING, U32
+
+# A ray passes a triangle if no weight is below minus this: it is float32's epsilon times |U+V+W|.
+TOLERANCE = 2 * U32
+# The roundings on the longest path of U = ((v2 - v0) x (v2 + v0)) . d: a difference or a sum, three
+# for the cross product, three for the scalar product, one for the tolerance itself.
+ROUNDINGS = 8
+MOST = 128  # triangles that are looked at in every pixel, the largest
+
+
+def not_decidable(scene: Scene, frame: Frame, farthest: float) -> Bools:
+    """Return the pixels (h, w) in which Embree may not show what the nearest triangle is.
+
+    `farthest` is the limit of a corner's coordinates, metres: in the world, or in the object's own
+    space, as triangles may be kept in either.
+    """
+    out = np.zeros(frame.shape, bool)
+    far = (reaches(scene) >= farthest).any(axis=0)
+    for number, instance in enumerate(scene.instances):
+        mesh = scene.meshes[instance.mesh]
+        if far[number] or np.abs(mesh.bounds).max() >= farthest:
+            own = frame.instance_index == number
+            out[own] = _beyond(mesh, instance, farthest)[frame.triangle_index[own]]
+    return out | _enlarged(scene, frame)
+
+
+def _beyond(mesh: Mesh, instance: Instance, farthest: float) -> Bools:
+    """Return which triangles of an instance have a corner beyond the limit, (n,)."""
+    own = mesh.vertices.T.astype(np.float64)
+    with np.errstate(over="ignore", invalid="ignore"):
+        world = transform_points(instance.world_from_object, own)
+        corner = ~(np.maximum(np.abs(own), np.abs(world)).max(axis=0) < farthest)
+    return corner[mesh.triangles].any(axis=1)
+
+
+def _enlarged(scene: Scene, frame: Frame) -> Bools:
+    """Return the pixels (h, w) in which a triangle is hit that the pixel's ray passes by.
+
+    That is one of another instance than the pixel shows, before what it shows.
+    """
+    out = np.zeros(frame.shape, bool)
+    found = [
+        (size, number, corners)
+        for number, instance in enumerate(scene.instances)
+        for size, corners in _large(scene.camera, scene.meshes[instance.mesh], instance)
+    ]
+    if not found:
+        return out
+    rays = camera_rays(scene.camera, *film_positions(scene.camera.region))
+    t = np.where(frame.instance_index == NOTHING, scene.camera.clip_end, frame.t)
+    for _, number, corners in sorted(found, key=lambda one: -one[0])[:MOST]:
+        hit = _hit_beside(rays, corners, scene.camera.clip_start, t.ravel())
+        hit = hit[frame.instance_index.flat[hit] != number]
+        out.flat[hit] = True
+    return out
+
+
+def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[tuple[float, Array]]:
+    """Return the triangles that may grow by more than a rasteriser rounds: sizes, corners (3, 3).
+
+    The size is that of the longest edge, in pixels where the triangle is nearest.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        box = transform_points(instance.world_from_object, _box(mesh))
+        if not _size(camera, box.T, np.asarray(np.ptp(box, axis=1).sum())) * TOLERANCE > SNAPPING:
+            return []  # all of the mesh is smaller than that
+        world = transform_points(instance.world_from_object, mesh.vertices.T.astype(np.float64))
+        corners = world.T[mesh.triangles]  # (n, corner, component)
+        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+        size = _size(camera, corners, edges)
+        large = np.flatnonzero((size * TOLERANCE > SNAPPING) & np.isfinite(size))
+    return [(float(size[n]), corners[n]) for n in large]
+
+
+def _box(mesh: Mesh) -> Floats:
+    """Return the corners of the box around a mesh, (3, 8), in object space."""
+    return np.array(np.meshgrid(*mesh.bounds.T)).reshape(3, -1)
+
+
+def _size(camera: Camera, points: Array, length: Array) -> Array:
+    """Return lengths (...) in pixels, at the nearest of the points (..., k, 3) that is seen."""
+    depth = ((points - camera.origin) @ camera.forward).min(axis=-1)
+    scale = camera.projection.scale(np.maximum(depth, camera.clip_start))
+    return length / (scale * min(pixel_size(camera)))
+
+
+def _hit_beside(rays: Rays, corners: Array, nearest: float, t: Floats) -> Places:
+    """Return which of n rays Embree may let hit a triangle (3, 3) that they pass by, before t (n,).
+
+    U = (vi x vj) . d is linear in d if the rays share their origin o. If they share d, and o is
+    w away from that of the first, it is linear in w: vi and vj are corners from o.
+    """
+    o, d = rays.origins, rays.directions
+    v = corners - o[:, 0]
+    i, j = np.roll(v, -1, axis=0), np.roll(v, -2, axis=0)
+    with np.errstate(all="ignore"):
+        if o.shape[1] == 1:
+            terms = np.cross(i, j) @ d
+        else:
+            terms = np.cross(i - j, d[:, 0]) @ (o - o[:, :1]) + (np.cross(i, j) @ d)
+        whole = terms.sum(axis=0)
+        terms *= np.sign(whole)
+        sizes = np.linalg.norm(j - i, axis=1) * (np.linalg.norm(j + i, axis=1) + _spread(o))
+        off = ROUNDINGS * U32 / 2 * _longest(d) * sizes
+        passes = terms.min(axis=0) < 0
+        terms += off[:, None]
+        beside = np.flatnonzero(passes & (terms.min(axis=0) >= -TOLERANCE * np.abs(whole)))
+        some = rays.take(beside)
+        normal = np.cross(v[1] - v[0], v[2] - v[0])
+        depth = (normal @ (v[0][:, None] + o[:, :1] - some.origins)) / (normal @ some.directions)
+    return beside[(depth >= nearest) & (depth < t[beside])]
+
+
+def _spread(points: Floats) -> float:
+    """Return how far points (3, n) are from the first, at most, twice."""
+    across: Floats = np.ptp(points, axis=1)
+    return 2 * float(across.sum())
+
+
+def _longest(directions: Floats) -> float:
+    return float(np.sqrt(np.max(dot(directions, directions))))
