@@ -30,7 +30,8 @@ from .guessing import SECONDS
 from .identity import Identity
 from .methods import MethodRow, list_methods
 from .metrics import boundary, image_metrics
-from .self_check import FaultRow, self_check, table
+from .self_check import FaultRow, self_check
+from .sentences import lines
 
 SCHEMA = "reference_tracer.comparison/1"
 
@@ -165,96 +166,7 @@ class Comparison:
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        pixels = self.pixels
-        settings, traced = self.case.settings, self.frame.statistics
-        return [
-            f"{pixels['agree']:,} of {pixels['total']:,} pixels agree with "
-            f"{self.case.picture.source}, {pixels['differ']:,} differ",
-            *self._of_causes(),
-            *self._evidence(),
-            *(self.diagnosis.lines() if self.diagnosis else ()),
-            self._measured(),
-            f"traced {traced.triangles:,} triangles in {traced.seconds:.2f} s "
-            f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
-            "a pixel)",
-            *(row.line() for row in self.methods),
-            *self.required,
-            *table(self.self_check),
-            f"verdict: {self.verdict}{self._but()}",
-        ]
-
-    def _but(self) -> str:
-        """Return what the verdict leaves out, for its own line."""
-        if self.background is None or self.background.transparent:
-            return ""
-        return f" ({self.background.unjudged()})"
-
-    def _of_causes(self) -> Iterator[str]:
-        """Say how many pixels have each cause, and where the first of them are."""
-        for cause in sorted(CAUSES):
-            if count := self.pixels["by_cause"].get(cause.key):
-                first = self.pixels["examples"].get(cause.key, ())[:3]
-                at = ", ".join(f"({x}, {y})" for x, y in first)
-                yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
-
-    def _measured(self) -> str:
-        m = self.metrics
-        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
-        x, y = m["largest_difference"]["pixel"]
-        return (
-            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
-            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})"
-        )
-
-    def _evidence(self) -> Iterator[str]:
-        """Say what else was found out about the pixels that differ."""
-        causes, certificate = self.causes, self.case.certificate
-        inside, rim = self.pixels["interior"], self.pixels["boundary"]
-        yield (
-            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
-            f"{rim['total']:,} boundary pixels differ"
-        )
-        if self.background:
-            yield self.background.line()
-        if self.empty:
-            yield "the picture is empty: no ray meets anything"
-        yield from self.not_judged()
-        if causes.transform:
-            yield f"colours: {causes.transform}"
-        yield from (shade.line() for shade in causes.shades)
-        yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
-        if self.identity and self.pixels["unexplained"]:
-            shows = self.pixels["unexplained_shows"]
-            yield (
-                f"of the unexplained pixels {shows['same_object']:,} show the same object in "
-                f"another colour, {shows['other_object']:,} another object"
-            )
-        if certificate:
-            yield certificate.line()
-
-    def not_judged(self) -> Iterator[str]:
-        """Say what share of the picture cannot be judged, why, and what would help."""
-        told, total = self.pixels["not_judged"], self.pixels["total"]
-        if lights := [str(u) for u in self.manifest.unmodelled if u.effect is Effect.LIGHT]:
-            known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
-            yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
-        if told["pixels"]:
-            features = ", ".join(told["by_feature"])
-            yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {features}"
-        if undecided := self.pixels["not_decidable"]:
-            yield (
-                f"{_share(undecided, total)} of this picture is not decidable: so far from the "
-                "origin, or at such a scale, float32 moves Blender's surfaces by more than half a "
-                "pixel; move the scene to the origin, or apply the objects' scale"
-            )
-
-
-def _share(pixels: int, total: int) -> str:
-    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
-    share = 100 * pixels / total
-    if 1 <= share <= 99 or pixels == total:
-        return f"{share:.0f} %"
-    return f"{min(max(share, 0.1), 99.9):.1f} %"
+        return lines(self)
 
 
 def trace_and_compare(case: Case) -> Work[Comparison]:

@@ -17,7 +17,7 @@ from reference_tracer.cli.parser import Parser
 
 PRESETS = Path(menus.__file__).parent / "presets" / "reference_tracer"
 GROUPS = [group for _, group in OWNED]
-UNITS = r"[Pp]ixel|rays|metre|triangles"
+UNITS = r"[Pp]ixel|rays|metre|triangles|faults"
 
 
 def operators():
