@@ -22,6 +22,7 @@ import numpy as np
 from ..arrays import Colors, Floats
 from ..compare.case import Alternative, Case
 from ..compare.checks.hidden import with_object, without
+from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Curve, Picture
 from ..images import curve_undone
 from ..manifest import Manifest
@@ -32,6 +33,7 @@ from .drawing.drawings import Drawing, drawn_by_others
 from .drawing.judges import AUTO, judge_named
 from .drawing.picture import read
 from .engine import export_for_render
+from .palettes import automatic, palette_by
 from .reading.export import export
 from .temporary import go_to, temporary_scene
 from .values import values_restored
@@ -44,33 +46,55 @@ MOST_COLORS = 4096
 
 
 def gather_against(
-    context: Any, picture: Picture, settings: Settings, self_check: bool = False
+    context: Any,
+    picture: Picture,
+    settings: Settings,
+    self_check: bool = False,
+    colors: By | GivenColors = By.VIEWPORT,
 ) -> Case:
     """Export the context's scene as a render has it, for a picture of unknown origin.
+
+    The picture was drawn in these colours.
 
     Raises
     ------
     SceneError
         If the scene cannot be traced.
     """
-    scene, manifest, _ = export_open_file(context)
+    palette = palette_by(context.scene, colors)
+    scene, manifest, _ = export_open_file(context, palette=palette)
+    if colors == By.AUTOMATIC:
+        palette = automatic(context.scene, scene, manifest)
+        if palette.by != By.VIEWPORT:
+            scene, manifest, _ = export_open_file(context, palette=palette)
+    palette.check(scene, manifest.owners)
+    if palette.note:
+        manifest = replace(manifest, notes=(*manifest.notes, palette.note))
     judge = judge_named(AUTO, background=True, is_panorama=not scene.camera.projection.is_linear)
-    drawing = Drawing(context.scene, context.view_layer.name, judge, True, None, scene, manifest)
+    layer = context.view_layer.name
+    drawing = Drawing(context.scene, layer, judge, True, None, scene, manifest, palette)
     return Case(
         scene,
         manifest,
         settings,
         replace(picture, drawn=drawn_by_others(drawing)),
-        alternatives=alternatives(context, scene, manifest),
+        alternatives=alternatives(context, scene, manifest, palette),
         curves=view_transforms(context.scene, scene),
         self_check=self_check,
-        variants=partial(variants, context.scene.name_full, context.view_layer.name, judge.ignores),
+        variants=partial(variants, context.scene.name_full, layer, judge.ignores, palette),
     )
 
 
-def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Alternative, ...]:
+def alternatives(
+    context: Any, scene: Scene, manifest: Manifest, palette: Palette = VIEWPORT
+) -> tuple[Alternative, ...]:
     """Return scenes that differ in one flag or the frame from one exported as a render has it."""
-    other, viewport = export(context.evaluated_depsgraph_get())
+    layer = context.view_layer.name
+    with (
+        temporary_scene(context.scene, layer, palette=palette) as tmp,
+        context.temp_override(scene=tmp, view_layer=tmp.view_layers[layer]),
+    ):
+        other, viewport = export(bpy.context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
     out = []
     for name in seen.keys() & drawn.keys():
@@ -79,16 +103,17 @@ def alternatives(context: Any, scene: Scene, manifest: Manifest) -> tuple[Altern
         elif seen[name].hidden and drawn[name].exported:
             out.append(Alternative(name, seen[name].reason, without(scene, name)))
     out.sort(key=lambda a: a.object)
-    return (*out[:MOST], *_frames(context))
+    return (*out[:MOST], *_frames(context, palette))
 
 
-def _frames(context: Any) -> list[Alternative]:
+def _frames(context: Any, palette: Palette) -> list[Alternative]:
     """Return the scene a frame before and a frame later, if something in the file is animated."""
     if not len(bpy.data.actions):
         return []
     out = []
     now = context.scene.frame_current
-    with values_restored(), temporary_scene(context.scene, context.view_layer.name) as tmp:
+    layer = context.view_layer.name
+    with values_restored(), temporary_scene(context.scene, layer, palette=palette) as tmp:
         for frame in (now - 1, now + 1):
             go_to(tmp, frame)
             scene, _, _ = export_for_render(tmp)

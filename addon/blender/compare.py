@@ -7,10 +7,11 @@ returns holds no reference to Blender's data, so that tracing may go on while th
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -18,33 +19,35 @@ from ..arrays import Colors
 from ..compare.case import Case
 from ..compare.comparison import Comparison, trace_and_compare
 from ..compare.comparison import diagnosed as diagnosed_of
-from ..compare.engines import EngineRow
+from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Picture, Source
-from ..errors import words
 from ..manifest import Manifest
 from ..mesh_diagnosis import diagnosed
 from ..report import comparison as comparison_report
-from ..report import engines as engines_report
 from ..report import folders
-from ..scene import Scene, SceneError
+from ..scene import Scene
 from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer
 from ..tracer.settings import Settings
 from .drawing.drawings import Drawing, with_identity, with_what_draws_itself
 from .drawing.judge import Judge
-from .drawing.judges import JUDGES, judge_named
+from .drawing.judges import judge_named
 from .drawing.picture import picture, prepare_scene
 from .drawing.rasteriser import snapping_of
 from .drawing.shading import anti_aliasing, of_shading, solid_shading, use_view_shading
 from .drawing.stand_ins import stand_ins
 from .drawing.workbench import WORKBENCH
 from .engine import export_for_judge
+from .palettes import automatic, palette_by
 from .reading.camera import export_camera
 from .reading.unmodelled import by_handlers
 from .temporary import go_to, temporary_scene
 from .values import values_restored
 from .variants import variants
+
+if TYPE_CHECKING:
+    from .engine import Certified
 
 
 @dataclass(frozen=True)
@@ -54,6 +57,7 @@ class Choices:
     settings: Settings
     judge: str  # its name in capitals, or AUTO
     as_is: bool  # Blender draws with the shading that the scene has
+    colors: By | GivenColors  # where the colours come from; as it is, they are the viewport's
     identity: bool  # whose surface each pixel shows is found, too
     self_check: bool  # the comparison is tried on known faults, too
     diagnose: bool  # what accounts for unexplained pixels is looked for
@@ -67,6 +71,7 @@ class Choices:
             stored.settings(),
             stored.judge,
             stored.shading == "AS_IS",
+            By(stored.colors.lower()),
             stored.identity,
             stored.self_check,
             stored.diagnose,
@@ -108,9 +113,23 @@ def gather_case(context: Any, **choices: Any) -> Case:
     check_memory(
         camera.region.width, camera.region.height, COMPARED, 2 * ALWAYS
     )  # before Blender draws
-    with temporary_scene(scene, layer, judge.ignores) as tmp:
-        used = _prepared(tmp, judge, like_for_like, view_shading)
-        exported, manifest, certificate = export_for_judge(tmp, layer, judge)
+    with ExitStack() as stack:
+
+        def begun(palette: Palette) -> tuple[Any, dict[str, Any], Certified]:
+            tmp = stack.enter_context(temporary_scene(scene, layer, judge.ignores, palette))
+            used = _prepared(tmp, judge, like_for_like, view_shading)
+            return tmp, used | {"colors": palette.by.value}, export_for_judge(tmp, layer, judge)
+
+        palette = palette_by(scene, chosen.colors) if like_for_like else VIEWPORT
+        tmp, used, (exported, manifest, certificate) = begun(palette)
+        if like_for_like and chosen.colors == By.AUTOMATIC:
+            palette = automatic(scene, exported, manifest)
+        if palette.by != used["colors"]:
+            stack.close()
+            tmp, used, (exported, manifest, certificate) = begun(palette)
+        palette.check(exported, manifest.owners)
+        if palette.note:
+            manifest = replace(manifest, notes=(*manifest.notes, palette.note))
         if certificate:
             certificate.check()
         there = [o.name_full for o in scene.objects]
@@ -126,7 +145,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
         with stand_ins(tmp, layer, exported, planes) as with_planes:
             pixels = picture(tmp, layer, judge, exported.camera, like_for_like)
     shown = _picture(pixels, judge, used, snapping)
-    drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest)
+    drawing = Drawing(scene, layer, judge, like_for_like, view_shading, exported, manifest, palette)
     if chosen.identity:
         shown = with_identity(drawing, shown)
     shown, manifest = with_what_draws_itself(drawing, shown)
@@ -141,7 +160,7 @@ def gather_case(context: Any, **choices: Any) -> Case:
         self_check=chosen.self_check,
         next_frame=later,
         tracer=chosen.tracer,
-        variants=partial(variants, scene.name_full, layer, judge.ignores),
+        variants=partial(variants, scene.name_full, layer, judge.ignores, palette),
     )
 
 
@@ -226,50 +245,6 @@ def compare_to_folder(
     return comparison_report.written(folder, compared(case), diagnose, trade, extremes, told)
 
 
-def compare_all(context: Any, directory: str = "", **choices: Any) -> Work[tuple[EngineRow, ...]]:
-    """Have every engine draw the scene at once; return the work of comparing each.
-
-    Each comparison goes to a folder of its own in the directory, and the table into it; nothing is
-    written if it is empty. The choices are the fields of :class:`Choices`.
-
-    Raises
-    ------
-    SceneError
-        If no engine makes a picture.
-    OSError
-        If the folder cannot be written.
-    """
-    folder = made_folder(directory) if directory else None
-    here = [j.name for j in JUDGES.values() if not (j.needs_window and bpy.app.background)]
-    drawn: list[tuple[str, Case | str]] = []  # or why there is no picture
-    for name in here:
-        try:
-            drawn.append((name, gather_case(context, judge=name.upper(), **choices)))
-        except (SceneError, RuntimeError) as error:  # one engine cannot draw what others can
-            drawn.append((name, words(error)))
-    if all(isinstance(d, str) for _, d in drawn):
-        raise SceneError(f"no engine makes a picture of this scene: {drawn[0][1]}")
-    return _all_compared(drawn, folder, Choices.of(context.scene, choices).diagnose)
-
-
-def _all_compared(
-    drawn: list[tuple[str, Case | str]], folder: Path | None, diagnose: bool
-) -> Work[tuple[EngineRow, ...]]:
-    rows = []
-    for number, (engine, gathered) in enumerate(drawn):
-        if isinstance(gathered, str):
-            rows.append(EngineRow(engine, "failed", error=gathered))
-            continue
-        work = compared(gathered)
-        if folder:
-            work = comparison_report.written(folder / engine, work, diagnose)
-        comparison = yield from scaled(work, number / len(drawn), 1 / len(drawn))
-        rows.append(EngineRow.of(comparison))
-    if folder:
-        engines_report.write(folder, rows)
-    return tuple(rows)
-
-
 def made_folder(directory: str) -> Path:
     """Make a folder, and return it; its path is as Blender writes it, or as the shell does.
 
@@ -283,7 +258,9 @@ def made_folder(directory: str) -> Path:
     return folder
 
 
-def export_open_file(context: Any, judge: Judge | None = None) -> tuple[Scene, Manifest, Settings]:
+def export_open_file(
+    context: Any, judge: Judge | None = None, palette: Palette = VIEWPORT
+) -> tuple[Scene, Manifest, Settings]:
     """Export the context's scene as a render has it, with the settings that it stores.
 
     For a judge, it is exported as for a comparison with its picture.
@@ -297,7 +274,7 @@ def export_open_file(context: Any, judge: Judge | None = None) -> tuple[Scene, M
     layer = context.view_layer.name
     stored = scene.reference_tracer
     export_camera(scene)  # first: its errors name the user's scene, say what to do
-    with temporary_scene(scene, layer, judge.ignores if judge else None) as tmp:
+    with temporary_scene(scene, layer, judge.ignores if judge else None, palette) as tmp:
         if judge:
             prepare_scene(tmp, stored.shading == "LIKE_FOR_LIKE")
         exported, manifest, _ = export_for_judge(tmp, layer, judge or WORKBENCH)

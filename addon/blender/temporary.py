@@ -13,6 +13,10 @@ from contextlib import contextmanager
 from typing import Any
 
 import bpy
+import numpy as np
+
+from ..compare.palette import VIEWPORT, By, Palette
+from .values import untold
 
 # Custom properties. DRAWN marks what the add-on itself draws in a scene. The others mark a
 # temporary scene: the name of the user's, and the features that its judge does not show.
@@ -23,12 +27,15 @@ _WHOLE = "reference_tracer_whole"
 
 HIDDEN_FACES = "hidden faces"  # a judge that ignores that Edit Mode hides them draws them
 
-_NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
+NOT_DRAWN = ("ARMATURE", "CAMERA", "LATTICE", "LIGHT", "LIGHT_PROBE", "SPEAKER")
 
 
 @contextmanager
 def temporary_scene(
-    scene: Any, layer: str | None = None, ignored: Collection[str] | None = None
+    scene: Any,
+    layer: str | None = None,
+    ignored: Collection[str] | None = None,
+    palette: Palette = VIEWPORT,
 ) -> Iterator[Any]:
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
@@ -42,6 +49,8 @@ def temporary_scene(
         The view layer; by default the scene's first.
     ignored : collection of str, optional
         The features that the judge does not show; None if the copy is for no judge.
+    palette : Palette
+        The colours that it is exported and drawn in.
     """
     images = set(bpy.data.images)
     copy = scene.copy()
@@ -51,7 +60,8 @@ def temporary_scene(
     name = copy.name_full
     try:
         _isolate(copy, layer or scene.view_layers[0].name)
-        yield copy
+        with _in_palette(copy, palette):
+            yield copy
     finally:
         own = [c for c in bpy.data.collections if c.get(_COPY_OF) == name]
         # Under `blender --command` there is no window, and scenes.remove() would crash (4.3).
@@ -59,6 +69,21 @@ def temporary_scene(
         for image in set(bpy.data.images) - images:
             if image.type == "RENDER_RESULT":
                 bpy.data.images.remove(image)
+
+
+@contextmanager
+def _in_palette(scene: Any, palette: Palette) -> Iterator[None]:
+    """Show a temporary scene, which is not evaluated yet, in other colours, for a while."""
+    if palette.by == By.VIEWPORT:
+        yield
+        return
+    of_objects = palette.by == By.OBJECT
+    blocks: Any = bpy.data.objects if of_objects else bpy.data.materials
+    scene.display.shading.color_type = palette.by.upper()
+    known = ((block, palette.colors.get(block.name_full)) for block in blocks)
+    rows = {b: np.array((*color, 1), np.float32) for b, color in known if color is not None}
+    with untold(blocks, "color" if of_objects else "diffuse_color", rows):
+        yield
 
 
 def is_temporary(scene: Any) -> bool:
@@ -173,4 +198,4 @@ def _copy_flags(source: Any, target: Any) -> None:
 
 def drawn(tmp: Any, layer: str) -> list[Any]:
     """Return the objects of a view layer that may be drawn, or that instance what is drawn."""
-    return [o for o in tmp.view_layers[layer].objects if o.type not in _NOT_DRAWN]
+    return [o for o in tmp.view_layers[layer].objects if o.type not in NOT_DRAWN]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from argparse import BooleanOptionalAction, Namespace
+from argparse import ArgumentTypeError, BooleanOptionalAction, Namespace
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..certified.rounding import check_is_proven
 from ..compare.animation import frames_named
+from ..compare.palette import By
 from ..framing import Choice
 from ..scene import SceneError
 from ..tracer.settings import Settings
@@ -24,7 +25,7 @@ from .camera_options import add_camera, choice_from
 from .parser import AT_LEAST_0, Parser
 
 # A frame of an animation stays the same whatever these are.
-_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "place"
+_NOT_OF_A_FRAME = "scene", "out", "frames", "against", "colors_out", "place"
 
 
 @dataclass(frozen=True)
@@ -38,6 +39,7 @@ class CompareOptions:
     # Blender's picture; None for what the scene stores.
     judge: str | None
     as_is: bool
+    colors: By | Path | None
     identity: bool | None
     self_check: bool | None
     diagnosis: bool | None
@@ -47,6 +49,7 @@ class CompareOptions:
     against: Path | None
     filter: float | None  # pixels
     dither: float | None  # levels of 255
+    colors_out: Path | None  # where the colours are written that it should have
     # What the page shows besides.
     trade: bool
     extremes: bool
@@ -57,7 +60,9 @@ class CompareOptions:
         """Return what was parsed; raises SceneError if options contradict one another."""
         _refuse_beside_frames(given)
         if given.judge == "all":
-            refuse(given, ("check_rounding",), "is for one judge, not for --judge all")
+            refuse(given, ("check_rounding", "colors_out"), "is for one judge, not for --judge all")
+        if given.as_is:
+            refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
         if given.against is None:
             refuse(given, ("filter", "dither"), "is for a picture of --against")
         else:
@@ -70,6 +75,7 @@ class CompareOptions:
             choice=choice_from(given, given.scene),
             judge=given.judge,
             as_is=given.as_is,
+            colors=given.colors,
             identity=given.identity,
             self_check=given.self_check,
             diagnosis=given.diagnosis,
@@ -78,6 +84,7 @@ class CompareOptions:
             against=given.against,
             filter=given.filter,
             dither=given.dither,
+            colors_out=given.colors_out,
             trade=given.trade,
             extremes=given.extremes,
             place=place_from(given),
@@ -105,7 +112,10 @@ def _refuse_beside_frames(given: Namespace) -> None:
     if given.frames is None:
         return
     why = "is for one frame, not for --frames"
-    refuse(given, ("frame", "against", "trade", "extremes", "diagnosis", "check_rounding"), why)
+    of_one = "frame", "against", "trade", "extremes", "diagnosis", "check_rounding", "colors_out"
+    refuse(given, of_one, why)
+    if isinstance(given.colors, Path):
+        raise SceneError(f"--colors {given.colors} {why}")
     if given.judge == "all":
         raise SceneError("--judge all is for one frame: name one judge with --frames")
     try:
@@ -122,10 +132,36 @@ def add_options(parser: Parser) -> None:
     )
     add_settings(parser)
     add_rounding(parser)
+    _add_colors(parser)
     _add_blenders_picture(parser)
     _add_page(parser)
     _add_against(parser)
     add_camera(parser)
+
+
+def _add_colors(parser: Parser) -> None:
+    def read(text: str) -> By | Path:
+        if text in list(By):
+            return By(text)
+        if text.lower().endswith(".json"):
+            return parser.path(text)
+        raise ArgumentTypeError(f"'{text}' is none of {', '.join(By)}, and no colors.json")
+
+    group = parser.add_argument_group("the colours of both pictures")
+    group.add_argument(
+        "--colors",
+        type=read,
+        metavar="COLORS",
+        help="automatic: the viewport's where they tell objects apart, else one for each object; "
+        "viewport; object: one for each; material: the base colours of Principled materials; or a "
+        "colors.json (default: as the scene says; with --against, viewport)",
+    )
+    group.add_argument(
+        "--colors-out",
+        type=parser.path_ending(".json"),
+        metavar="COLORS.JSON",
+        help="also write the colours of all objects in the view, for another renderer's picture",
+    )
 
 
 def _add_blenders_picture(parser: Parser) -> None:

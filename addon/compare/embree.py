@@ -24,7 +24,7 @@ TOLERANCE = 2 * U32
 # The roundings on the longest path of U = ((v2 - v0) x (v2 + v0)) . d: a difference or a sum, three
 # for the cross product, three for the scalar product, one for the tolerance itself.
 ROUNDINGS = 8
-# Square metres, of twice a triangle's area, the length of its normal: Cycles shows nothing where the
+# Square metres, of twice the area, the length of the normal: Cycles shows no triangle where the
 # square of that is beyond float32 (measured in 5.2: 1.8444e19 is shown, 1.8449e19 is not).
 LARGEST = float(np.sqrt(np.finfo(np.float32).max)) * (1 - 2.0**-12)
 MOST = 128  # triangles that are looked at in every pixel, the largest

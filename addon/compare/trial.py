@@ -106,13 +106,17 @@ def _hopeful(before: Evidence, case: Case, frame: Frame) -> bool:
 
     The others are left to the checks, which take long where whole pictures differ.
     """
-    if case.picture.filter_radius > before.case.picture.filter_radius:
+    mixes = case.picture.filter_radius
+    if mixes > before.case.picture.filter_radius:
         return True
     picture = as_known(case)
     right = picture.alike(case.scene, frame.instance_index, frame.color)
     right &= ~picture.other_object(frame.instance_index)
     settled = int((right & before.open).sum())
-    return settled > HOPE * int((~right & before.judged).sum())
+    was = before.picture.alike(before.case.scene, before.frame.instance_index, before.frame.color)
+    broken = int((~right & (was | (not mixes)) & before.judged).sum())
+    # Where colours are mixed, it may be that only the checks can say so.
+    return settled > HOPE * broken or bool(mixes and settled == broken == 0)
 
 
 def _counted(before: Evidence, after: Evidence) -> tuple[int, int, int, int]:

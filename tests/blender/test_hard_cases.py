@@ -21,6 +21,7 @@ from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.stepping import bake_bodies
 from reference_tracer.compare.causes import NOT_MODELLED, UNEXPLAINED
 from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.palette import By
 from reference_tracer.tracer.progress import result_of
 
 from . import hard_cases as hard
@@ -175,7 +176,7 @@ def own_picture() -> np.ndarray:
 @pytest.mark.parametrize("make", MAY_BE_UPSET, ids=name_of)
 def test_compares_what_the_user_would_render(make, build, compare):
     make(build)
-    found = compare(judge="WORKBENCH").picture
+    found = compare(judge="WORKBENCH", colors=By.VIEWPORT).picture
     np.testing.assert_array_equal(found, own_picture())
 
 
@@ -257,7 +258,8 @@ def test_edited_objects_are_in_edit_mode_and_in_the_picture(make, build):
     make(build)
     obj = bpy.data.objects["Edited"]
     assert obj.mode == "EDIT"
-    case = gather_case(bpy.context, judge="WORKBENCH", identity=False)
+    colors = By.VIEWPORT
+    case = gather_case(bpy.context, judge="WORKBENCH", identity=False, colors=colors)
     assert obj.mode == "EDIT"
     for rgb in (hard.ORANGE, hard.CYAN):
         assert (np.abs(case.picture.color[..., :3] - rgb).max(axis=-1) < 0.01).sum() > SEEN

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from reference_tracer.compare.identity import NOTHING
+from reference_tracer.compare.palette import By
 
 from .test_unchanged import differences, state
 
@@ -128,7 +129,7 @@ def test_a_wrong_object_of_the_same_colour_is_found(build, compare, monkeypatch)
         return real(tmp, *rest)
 
     monkeypatch.setattr(drawings, "picture", lacking)
-    found = compare()
+    found = compare(colors=By.VIEWPORT)
     shows = found.pixels["unexplained_shows"]
     assert found.verdict == "differences"
     assert shows["other_object"] > 100 and shows["same_object"] == 0

@@ -18,6 +18,7 @@ import numpy as np
 from ...arrays import Colors, Integers
 from ...compare.checks.unmodelled import covered
 from ...compare.identity import MOST_OBJECTS, NOTHING, UNKNOWN, colors_of, decode
+from ...compare.palette import VIEWPORT, Palette
 from ...compare.picture import Picture, numbered
 from ...manifest import Effect, Manifest, Unmodelled
 from ...scene import Scene, SceneError
@@ -43,12 +44,13 @@ class Drawing:
     view_shading: Any  # of the 3D view whose shading is used, or None
     exported: Scene
     manifest: Manifest
+    palette: Palette = VIEWPORT
 
     @contextmanager
     def begun(self) -> Iterator[Any]:
         """Give a new temporary scene, set up as for the first picture."""
         planes = self.manifest.owners[len(self.exported.instances) :]
-        with temporary_scene(self.scene, self.layer, self.judge.ignores) as tmp:
+        with temporary_scene(self.scene, self.layer, self.judge.ignores, self.palette) as tmp:
             if self.view_shading:
                 use_view_shading(tmp, self.view_shading)
             prepare_scene(tmp, self.like_for_like)

@@ -34,6 +34,23 @@ SHADINGS: tuple[Item, ...] = (
     ("AS_IS", "As It Is", "Blender draws with the shading that the scene has", 1),
 )
 
+PALETTES: tuple[Item, ...] = (
+    (
+        "AUTOMATIC",
+        "Automatic",
+        "The viewport's colours where they tell objects apart, else a clear colour for each object",
+        0,
+    ),
+    ("VIEWPORT", "Viewport", "The colours that the scene's solid shading has", 1),
+    ("OBJECT", "Object", "A clear colour for each object", 2),
+    (
+        "MATERIAL",
+        "Material",
+        "The base colour of each material's Principled BSDF, where it is one colour",
+        3,
+    ),
+)
+
 JUDGES: tuple[Item, ...] = (
     (
         judges.AUTO,
@@ -49,7 +66,7 @@ JUDGES: tuple[Item, ...] = (
 
 # What a render shows of a surface: `tracer/coloring.py` has the functions.
 COLORS: tuple[Item, ...] = (
-    ("object", "Object", "The object's own colour; every comparison uses this one", 0),
+    ("object", "Object", "The object's own colour", 0),
     ("normal", "Normal", "The normal in world space: red, green, blue are X, Y, Z", 1),
     ("facing", "Facing", "Light where it faces the ray, dark edge-on, reddish at backs", 2),
     ("depth", "Depth", "From white at the nearest hit to dark at the farthest, evenly", 3),

@@ -58,7 +58,7 @@ class REFERENCE_TRACER_OT_compare_all(LongWork, bpy.types.Operator):
 
     def begin(self, context: Any) -> Work[Any]:
         """Have every engine draw the scene at once; return the work that is left."""
-        from ..compare import compare_all
+        from ..compare_engines import compare_all
 
         return compare_all(context, str(self.folder() or ""))
 

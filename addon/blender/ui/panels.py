@@ -53,8 +53,10 @@ class _Main(Part):
         column.separator()
         column.prop(stored, "show")
         column = layout.column()
-        for name in ("judge", "shading", "identity", "self_check", "diagnose"):
-            column.prop(stored, name)
+        for name in ("judge", "shading", "colors", "identity", "self_check", "diagnose"):
+            row = column.row()
+            row.enabled = name != "colors" or stored.shading == "LIKE_FOR_LIKE"
+            row.prop(stored, name)
         layout.operator(operators.REFERENCE_TRACER_OT_compare_all.bl_idname, icon="RENDERLAYERS")
         if found := results.content(Kind.ENGINES, context.scene):
             _draw_engines(layout.box(), found)

@@ -71,6 +71,13 @@ class ReferenceTracerScene(bpy.types.PropertyGroup):
         items=choices.SHADINGS,
         default="LIKE_FOR_LIKE",
     )
+    colors: EnumProperty(
+        name="Colors",
+        description="In which colours the scene is traced and drawn for a comparison like for "
+        "like. The scene's own stay as they are",
+        items=choices.PALETTES,
+        default="AUTOMATIC",
+    )
     identity: BoolProperty(
         name="Object by Object",
         description="Tell a wrong colour from a wrong object. For that, Blender draws the scene "

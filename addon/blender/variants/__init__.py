@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator
 import bpy
 
 from ...compare.case import WHOLE, Variant
+from ...compare.palette import VIEWPORT, Palette
 from ...errors import EXPECTED
 from ..temporary import everything, temporary_scene
 from . import cameras, frames, layers, matrices, meshes
@@ -27,7 +28,9 @@ KINDS = (
 MOST = 48  # each is exported, and tried
 
 
-def variants(name: str, layer: str, ignored: Collection[str] | None) -> tuple[Variant, ...]:
+def variants(
+    name: str, layer: str, ignored: Collection[str] | None, palette: Palette = VIEWPORT
+) -> tuple[Variant, ...]:
     """Return a scene with all that its view leaves out, then with one fault each.
 
     Parameters
@@ -38,13 +41,15 @@ def variants(name: str, layer: str, ignored: Collection[str] | None) -> tuple[Va
         A view layer of it.
     ignored : collection of str, optional
         What the judge does not show: see `temporary_scene`.
+    palette : Palette
+        The colours of the comparison.
     """
     scene = next((s for s in bpy.data.scenes if s.name_full == name), None)
     if scene is None or layer not in scene.view_layers:
         return ()
-    with temporary_scene(scene, layer, ignored) as tmp, everything(tmp):
+    with temporary_scene(scene, layer, ignored, palette) as tmp, everything(tmp):
         try:
-            origin = Origin.of(scene, layer, tmp)
+            origin = Origin.of(scene, layer, tmp, palette)
         except EXPECTED:
             return ()
         out = [Variant(WHOLE, origin.exported), *_made(origin)]

@@ -24,7 +24,7 @@ def variants(origin: Origin) -> Iterator[Variant]:
     yield from _hidden(origin)
     names = [v.name for v in origin.scene.view_layers if v.name != origin.layer]
     for name in names[:MOST]:
-        with temporary_scene(origin.scene, name) as tmp, everything(tmp):
+        with temporary_scene(origin.scene, name, palette=origin.palette) as tmp, everything(tmp):
             scene, _, _ = export_for_render(tmp)
         yield Variant("other_layer", scene, f"'{name}'")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Self
 
+from ...compare.palette import Palette
 from ...scene import Scene
 from ..engine import export_for_render
 
@@ -17,12 +18,13 @@ class Origin:
     layer: str
     tmp: Any  # a temporary copy of it
     exported: Scene  # with all that the view leaves out
+    palette: Palette  # its colours
 
     @classmethod
-    def of(cls, scene: Any, layer: str, tmp: Any) -> Self:
+    def of(cls, scene: Any, layer: str, tmp: Any, palette: Palette) -> Self:
         """Export a temporary scene, as a render has it."""
         exported, _, _ = export_for_render(tmp)
-        return cls(scene, layer, tmp, exported)
+        return cls(scene, layer, tmp, exported, palette)
 
     def again(self) -> Scene:
         """Export the temporary scene as it is now."""

@@ -11,9 +11,11 @@ import numpy as np
 
 from ... import images
 from ...certified.rounding import check_rounding
-from ...compare import engines
+from ...compare import colors_file, engines
 from ...compare.case import Case
+from ...compare.colors_file import in_colors
 from ...compare.comparison import EXIT_CODES, Comparison, trace_and_compare
+from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source
 from ...manifest import Manifest, ObjectEntry
 from ...mesh_diagnosis import diagnosed
@@ -42,7 +44,8 @@ def add(parser: Parser) -> None:
 def compare(options: CompareOptions) -> int:
     """Compare; the exit code is the verdict's, and the folder says why there is no comparison."""
     results = [options.out.resolve() / name for name in comparison_report.NAMES]
-    for file in (options.scene, options.against):
+    colors = options.colors if isinstance(options.colors, Path) else None
+    for file in (options.scene, options.against, colors, options.colors_out):
         if file and file.resolve() in results:
             raise SceneError(
                 f"'{file}' has the name of a result: choose another --out, or rename it"
@@ -67,7 +70,8 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         )
     with open_blend(options.scene, options.choice) as blender, progress_bar() as progress:
         from ...blender import animation
-        from ...blender.compare import compare_all, compare_to_folder
+        from ...blender.compare import compare_to_folder
+        from ...blender.compare_engines import compare_all
 
         stored = blender.context.scene.reference_tracer.settings()
         judge = options.judge.upper() if options.judge else None
@@ -75,6 +79,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
         chosen: dict[str, Any] = {
             "settings": options.settings_over(stored),
             "as_is": options.as_is or None,
+            "colors": _colors(options),
             "identity": options.identity,
             "self_check": options.self_check,
             **place,
@@ -104,6 +109,11 @@ def _with_picture(
     return _told_comparison(options, comparison)
 
 
+def _colors(options: CompareOptions) -> By | GivenColors | None:
+    """Return where the colours come from; None if nothing says so."""
+    return colors_file.read(options.colors) if isinstance(options.colors, Path) else options.colors
+
+
 def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) -> int:
     verdict = engines.worst(rows)
     print(*engines_report.lines(rows), f"verdict: {verdict}", sep="\n")
@@ -112,6 +122,13 @@ def _told_engines(options: CompareOptions, rows: tuple[engines.EngineRow, ...]) 
 
 
 def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
+    if options.colors_out:
+        text = colors_file.text(comparison.scene, comparison.manifest.owners)
+        with (
+            folders.made_for_file(options.colors_out),
+            folders.replacing_file(options.colors_out) as new,
+        ):
+            new.write_text(text, encoding="utf-8")
     print(*comparison.manifest.lines(), *comparison.lines(), sep="\n")
     if options.check_rounding:
         with progress_bar() as progress:
@@ -123,7 +140,7 @@ def _told_comparison(options: CompareOptions, comparison: Comparison) -> int:
 
 def _told(options: CompareOptions, verdict: str, *pages: Path) -> int:
     """Say where the results are; return the verdict's exit code."""
-    print(f"written to {options.out}")
+    print(f"written to {options.out}", *filter(None, [options.colors_out]), sep=" and ")
     print("open", *pages, "in a browser")
     return EXIT_CODES[verdict]
 
@@ -141,7 +158,8 @@ def _blend(
         dither = DITHER * context.scene.render.dither_intensity
         shown = _shown(options, picture, export_camera(context.scene), dither)
         settings = options.settings_over(context.scene.reference_tracer.settings())
-        case = gather_against(context, shown, settings, bool(options.self_check))
+        colors = _colors(options) or By.VIEWPORT
+        case = gather_against(context, shown, settings, bool(options.self_check), colors)
         return (yield from _written(options, compared(replace(case, **place))))
 
 
@@ -149,7 +167,9 @@ def _file(
     options: CompareOptions, picture: images.StoredPicture, place: dict[str, Any]
 ) -> Work[Comparison]:
     scene, stored = load(options.scene, options.choice)
-    manifest = yield from diagnosed(scene, _manifest(options.scene, scene))
+    scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
+    manifest = replace(_manifest(options.scene, scene), notes=notes)
+    manifest = yield from diagnosed(scene, manifest)
     shown = _shown(options, picture, scene.camera)
     settings, checked = options.settings_over(stored), bool(options.self_check)
     case = Case(scene, manifest, settings, shown, curves=(), self_check=checked)

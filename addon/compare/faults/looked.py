@@ -44,6 +44,8 @@ class Looked:
         """Look at an object; None if it is not seen or not shown."""
         scene, frame = evidence.case.scene, evidence.frame
         own = instances_named(scene, name)
+        if not own:  # an infinite plane
+            return None
         seen = np.isin(frame.instance_index, own)
         shown = _shown(evidence, own) & (evidence.open | seen)
         if kept:

@@ -36,12 +36,14 @@ def _moved_rows(change: Callable[[Array], Array]) -> Make:
 
 
 def _recolored(change: Callable[[Array], Array]) -> Make:
-    """Return what changes the picture's colours, and those beneath what draws itself."""
+    """Return what changes the picture's colours, and its background, if it has one of its own."""
 
     def make(case: Case, frame: Frame, guess: Guess) -> Case:
         picture = case.picture
         beneath = None if picture.beneath is None else change(picture.beneath)
-        return replace(case, picture=replace(picture, color=change(picture.color), beneath=beneath))
+        changed = replace(picture, color=change(picture.color), beneath=beneath)
+        case = replace(case, picture=changed)
+        return case if picture.background is None else case.before(change(picture.background))
 
     return make
 
@@ -60,6 +62,16 @@ def _premultiplied(color: Array) -> Array:
 def _straight(color: Array) -> Array:
     alpha = color[..., 3:]
     return np.concatenate((color[..., :3] / np.where(alpha > 0, alpha, 1), alpha), axis=-1)
+
+
+def _find_partly(evidence: Evidence) -> Work[list[Guess]]:
+    """Return the guess if pixels are covered in part: others have the same colour either way.
+
+    Single pixels cannot say how good it is, as edges that are smoothed are such pixels.
+    """
+    alpha = evidence.picture.color[..., 3]
+    return [Guess()] if ((alpha > 0) & (alpha < 1)).any() else []
+    yield
 
 
 def _by_curve(case: Case, frame: Frame, guess: Guess) -> Case | None:
@@ -186,14 +198,18 @@ PICTURE_FAULTS = (
         "the picture's colours are multiplied by alpha twice",
         "store premultiplied colours as they are, straight ones as straight",
         _recolored(_premultiplied),
+        _find_partly,
         put_right=_recolored(_straight),
+        sampled=False,
     ),
     Fault(
         "straight_alpha",
         "the picture's colours are straight, not premultiplied by alpha",
         "multiply them by alpha",
         _recolored(_straight),
+        _find_partly,
         put_right=_recolored(_premultiplied),
+        sampled=False,
     ),
     Fault(
         "rounding_level",
