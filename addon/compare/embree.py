@@ -24,6 +24,9 @@ TOLERANCE = 2 * U32
 # The roundings on the longest path of U = ((v2 - v0) x (v2 + v0)) . d: a difference or a sum, three
 # for the cross product, three for the scalar product, one for the tolerance itself.
 ROUNDINGS = 8
+# Square metres, of twice the area, the length of the normal: Cycles shows no triangle where the
+# square of that is beyond float32 (measured in 5.2: 1.8444e19 is shown, 1.8449e19 is not).
+LARGEST = float(np.sqrt(np.finfo(np.float32).max)) * (1 - 2.0**-12)
 MOST = 128  # triangles that are looked at in every pixel, the largest
 
 
@@ -34,22 +37,30 @@ def not_decidable(scene: Scene, frame: Frame, farthest: float) -> Bools:
     space, as triangles may be kept in either.
     """
     out = np.zeros(frame.shape, bool)
-    far = (reaches(scene) >= farthest).any(axis=0)
+    least = min(farthest, np.sqrt(LARGEST) / 4)  # of a coordinate: those of smaller areas are less
+    far = (reaches(scene) >= least).any(axis=0)
     for number, instance in enumerate(scene.instances):
         mesh = scene.meshes[instance.mesh]
-        if far[number] or np.abs(mesh.bounds).max() >= farthest:
+        if far[number] or np.abs(mesh.bounds).max() >= least:
             own = frame.instance_index == number
             out[own] = _beyond(mesh, instance, farthest)[frame.triangle_index[own]]
     return out | _enlarged(scene, frame)
 
 
 def _beyond(mesh: Mesh, instance: Instance, farthest: float) -> Bools:
-    """Return which triangles of an instance have a corner beyond the limit, (n,)."""
+    """Return which triangles of an instance have a corner or an area beyond the limits, (n,)."""
     own = mesh.vertices.T.astype(np.float64)
     with np.errstate(over="ignore", invalid="ignore"):
         world = transform_points(instance.world_from_object, own)
         corner = ~(np.maximum(np.abs(own), np.abs(world)).max(axis=0) < farthest)
-    return corner[mesh.triangles].any(axis=1)
+        out = corner[mesh.triangles].any(axis=1)
+        for points in (own, world):
+            a, b, c = points.T[mesh.triangles].transpose(1, 2, 0)
+            area = np.linalg.norm(np.cross(b - a, c - a, axis=0), axis=0)
+            # What float32 may add to it, where most of the products cancels.
+            off = 8 * U32 * np.linalg.norm(b - a, axis=0) * np.linalg.norm(c - a, axis=0)
+            out |= ~(area + off < LARGEST)
+    return out
 
 
 def _enlarged(scene: Scene, frame: Frame) -> Bools:

@@ -7,14 +7,20 @@ sample cannot have met another.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
 from reference_tracer.blender import compare as compare_module
+from reference_tracer.blender.drawing.cycles import FARTHEST
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.compare.cause import NOT_DECIDABLE
+from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.embree import LARGEST
 from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import pixel_size
+from reference_tracer.tracer.progress import result_of
 
 RADIUS = JUDGES["cycles"].sample_radius
 SCENES = (
@@ -242,3 +248,24 @@ def test_what_is_missing_far_away_is_found(build, compare, monkeypatch):
 
     monkeypatch.setattr(compare_module, "picture", without)
     assert compare(judge="CYCLES", identity=False).pixels["unexplained"] > 1000
+
+
+@pytest.mark.parametrize("half", [2.0, 9.0, 36.0, 360.0])
+@pytest.mark.parametrize("share", [0.999, 1.001])
+def test_triangles_of_a_large_area(half, share, build, compare):
+    """Twice the area is the normal's length: Cycles shows nothing where its square overflows."""
+    build.scene(96, 54, "OBJECT")
+    build.camera()
+    far = min(share * LARGEST / (2 * half), share * FARTHEST)
+    build.mesh("Far", [(-1, -half, 0), (far, 0, 0), (-1, half, 0)], [(0, 1, 2)])
+    found = compare(judge="CYCLES")
+    seen = found.frame.object_index >= 0
+    undecided = found.causes.cause == NOT_DECIDABLE
+    assert found.pixels["unexplained"] == 0 and seen.sum() > 500
+    if share > 1:
+        assert undecided[seen].all()
+    else:  # a missing one would be found
+        assert not undecided[seen].any()
+        without = replace(found.case.picture, color=np.zeros_like(found.picture))
+        wrong = result_of(trace_and_compare(replace(found.case, picture=without)))
+        assert wrong.pixels["unexplained"] > 0.9 * seen.sum()
