@@ -10,7 +10,7 @@ import trimesh
 from reference_tracer import images
 from reference_tracer.compare.case import Case
 from reference_tracer.compare.causes import UNEXPLAINED
-from reference_tracer.compare.comparison import compare, trace_and_compare
+from reference_tracer.compare.comparing import compare, trace_and_compare
 from reference_tracer.compare.picture import Picture
 from reference_tracer.manifest import Manifest
 from reference_tracer.rendering import render

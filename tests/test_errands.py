@@ -169,7 +169,7 @@ FAULT = {
 COMPARED = """
 import json
 from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.picture import Picture
 from reference_tracer.manifest import Manifest
 from reference_tracer.tracer.progress import result_of

@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from reference_tracer import images
 from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.manifest import Manifest
 from reference_tracer.rendering import render

@@ -17,8 +17,9 @@ import bpy
 
 from ..arrays import Colors
 from ..compare.case import Case
-from ..compare.comparison import Comparison, trace_and_compare
-from ..compare.comparison import diagnosed as diagnosed_of
+from ..compare.comparing import diagnosed as diagnosed_of
+from ..compare.comparing import trace_and_compare
+from ..compare.comparison import Comparison
 from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Picture, Source
 from ..manifest import Manifest

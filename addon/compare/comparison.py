@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,33 +12,21 @@ from ..arrays import Colors
 from ..certainty import Certainty
 from ..certified.rounding import rounding
 from ..manifest import Effect, Manifest
-from ..rendering import steps
 from ..scene import Scene
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from ..tracer.memory import ALWAYS, COMPARED, check_memory
-from ..tracer.progress import Work, scaled
 from .case import Case
 from .cause import Causes
-from .causes import BY_NUMBER, CAUSES, explain
+from .causes import BY_NUMBER, CAUSES
 from .checks.background import Background
 from .checks.hidden import HIDDEN
 from .checks.unmodelled import NOT_MODELLED
-from .counts import count_pixels
-from .diagnosis import Diagnosis, diagnose
-from .guessing import SECONDS
+from .diagnosis import Diagnosis
 from .identity import Identity
-from .methods import MethodRow, list_methods
-from .metrics import boundary, image_metrics
-from .self_check import FaultRow, self_check
-from .sentences import lines
+from .methods import MethodRow
+from .self_check import FaultRow, table
 
 SCHEMA = "reference_tracer.comparison/1"
-
-# Shares of the work, roughly. A self-check takes the larger part of it.
-_TRACING, _METHODS = 0.4, 0.35
-_CHECKING = 0.8
-_CAUSES = 0.8  # of comparing: the rest is for metrics and counts
 
 # The verdicts, the gravest last, and what each is to a shell. 3 (the sizes do not match) and 4 (the
 # input cannot be read) end a command before there is a verdict.
@@ -166,86 +154,93 @@ class Comparison:
 
     def lines(self) -> list[str]:
         """Return what a person wants to know first, a fact a line."""
-        return lines(self)
+        pixels = self.pixels
+        settings, traced = self.case.settings, self.frame.statistics
+        return [
+            f"{pixels['agree']:,} of {pixels['total']:,} pixels agree with "
+            f"{self.case.picture.source}, {pixels['differ']:,} differ",
+            *self._of_causes(),
+            *self._evidence(),
+            *(self.diagnosis.lines() if self.diagnosis else ()),
+            self._measured(),
+            f"traced {traced.triangles:,} triangles in {traced.seconds:.2f} s "
+            f"({traced.method}, {settings.precision}, {settings.samples} x {settings.samples} rays "
+            "a pixel)",
+            *(row.line() for row in self.methods),
+            *self.required,
+            *table(self.self_check),
+            f"verdict: {self.verdict}{self._but()}",
+        ]
+
+    def _but(self) -> str:
+        """Return what the verdict leaves out, for its own line."""
+        if self.background is None or self.background.transparent:
+            return ""
+        return f" ({self.background.unjudged()})"
+
+    def _of_causes(self) -> Iterator[str]:
+        """Say how many pixels have each cause, and where the first of them are."""
+        for cause in sorted(CAUSES):
+            if count := self.pixels["by_cause"].get(cause.key):
+                first = self.pixels["examples"].get(cause.key, ())[:3]
+                at = ", ".join(f"({x}, {y})" for x, y in first)
+                yield f"  {cause.label}: {count:,}" + (f", as at {at}" if at else "")
+
+    def _measured(self) -> str:
+        m = self.metrics
+        psnr = "infinite" if m["psnr"] is None else f"{m['psnr']:.1f} dB"
+        x, y = m["largest_difference"]["pixel"]
+        return (
+            f"RMSE {m['rmse']:.3g}, PSNR {psnr}, SSIM {m['ssim']:.6f}, largest difference "
+            f"{m['largest_difference']['value']:.3g} at pixel ({x}, {y})"
+        )
+
+    def _evidence(self) -> Iterator[str]:
+        """Say what else was found out about the pixels that differ."""
+        causes, certificate = self.causes, self.case.certificate
+        inside, rim = self.pixels["interior"], self.pixels["boundary"]
+        yield (
+            f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
+            f"{rim['total']:,} boundary pixels differ"
+        )
+        if self.background:
+            yield self.background.line()
+        if self.empty:
+            yield "the picture is empty: no ray meets anything"
+        yield from self.not_judged()
+        if causes.transform:
+            yield f"colours: {causes.transform}"
+        yield from (shade.line() for shade in causes.shades)
+        yield from (f"only one side shows {h}" for h in dict.fromkeys(causes.hidden))
+        if self.identity and self.pixels["unexplained"]:
+            shows = self.pixels["unexplained_shows"]
+            yield (
+                f"of the unexplained pixels {shows['same_object']:,} show the same object in "
+                f"another colour, {shows['other_object']:,} another object"
+            )
+        if certificate:
+            yield certificate.line()
+
+    def not_judged(self) -> Iterator[str]:
+        """Say what share of the picture cannot be judged, why, and what would help."""
+        told, total = self.pixels["not_judged"], self.pixels["total"]
+        if lights := [str(u) for u in self.manifest.unmodelled if u.effect is Effect.LIGHT]:
+            known = "whose surfaces it shows can" if self.identity else "nor whose surfaces"
+            yield f"no colour of this picture can be judged, {known}: {', '.join(lights)}"
+        if told["pixels"]:
+            features = ", ".join(told["by_feature"])
+            yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {features}"
+        if undecided := self.pixels["not_decidable"]:
+            yield (
+                f"{_share(undecided, total)} of this picture is not decidable: so far from the "
+                "origin, or at such a scale, float32 moves Blender's surfaces by more than half a "
+                "pixel; move the scene to the origin, or apply the objects' scale"
+            )
 
 
-def trace_and_compare(case: Case) -> Work[Comparison]:
-    """Trace a scene and compare it with the picture, in small steps.
-
-    Yields the share of the work done; the caller stops by not asking for more.
-
-    Raises
-    ------
-    SizeError
-        If the picture is not of the frame's size.
-    SceneError
-        If its samples lie too far from the pixels' centres.
-    PictureTooLargeError
-        If there is not enough memory to compare them.
-    """
-    region = case.scene.camera.region
-    check_memory(region.width, region.height, COMPARED, 2 * ALWAYS)  # frames ask for theirs again
-    frame = Frame.empty(case.scene)
-    case.picture.check(frame.color.shape)
-    rest = 1 - _CHECKING if case.self_check else 1.0
-    tracing = steps(case.scene, case.settings, frame, case.tracer)
-    yield from scaled(tracing, 0.0, rest * _TRACING)
-    listing = list_methods(case.scene, case.settings, frame, case.tracer)
-    rows = yield from scaled(listing, rest * _TRACING, rest * _METHODS)
-    done = rest * (_TRACING + _METHODS)
-    found = yield from scaled(compare(case, frame), done, 1 - done)
-    return replace(found, methods=rows)
-
-
-def diagnosed(comparison: Comparison, seconds: float = SECONDS) -> Work[Comparison]:
-    """Return a comparison with what accounts for its unexplained pixels, if it has any.
-
-    Yields the share of the work done. The verdict stays. No guess is begun after `seconds`.
-    """
-    if not comparison.pixels["unexplained"]:
-        return comparison
-    case, frame, causes = comparison.case, comparison.frame, comparison.causes
-    found = yield from diagnose(case, frame, causes, seconds=seconds)
-    return replace(comparison, diagnosis=found)
-
-
-def compare(case: Case, frame: Frame) -> Work[Comparison]:
-    """Compare a traced frame with the picture; yields the share of the work done.
-
-    Raises
-    ------
-    SizeError
-        If the picture is not of the frame's size.
-    SceneError
-        If its samples lie too far from the pixels' centres.
-    """
-    case.picture.check(frame.color.shape)
-    rest = 1 - _CHECKING if case.self_check else 1.0
-    found = yield from scaled(explain(case, frame), 0.0, rest * _CAUSES)
-    traced, picture = found.frame, found.case.picture  # both before the picture's own background
-    measuring = image_metrics(traced.color, picture.color)
-    measured = yield from scaled(measuring, rest * _CAUSES, rest * (1 - _CAUSES))
-    identity = None
-    if picture.owner is not None and picture.owners is not None:
-        own = picture.owners[traced.instance_index]
-        identity = Identity(picture.names, own, picture.owner)
-    yield rest
-    at_boundary = boundary(traced)
-    yield rest
-    features = [str(u) for u in case.manifest.unmodelled]
-    pixels = count_pixels(found.causes, at_boundary, identity, features)
-    yield rest
-    checked: tuple[FaultRow, ...] = ()
-    if case.self_check:
-        checking = self_check(case, frame, found.causes)
-        checked = yield from scaled(checking, rest, _CHECKING)
-    return Comparison(
-        found.case,
-        traced,
-        found.causes,
-        pixels,
-        measured,
-        identity=identity,
-        self_check=checked,
-        background=found.background,
-    )
+def _share(pixels: int, total: int) -> str:
+    """Return a share in per cent. What is not all of it is never said to be 100 %, or 0 %."""
+    share = 100 * pixels / total
+    if 1 <= share <= 99 or pixels == total:
+        return f"{share:.0f} %"
+    return f"{min(max(share, 0.1), 99.9):.1f} %"

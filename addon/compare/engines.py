@@ -14,7 +14,6 @@ from .comparison import EXIT_CODES, Comparison
 from .counts import EXAMPLES
 from .identity import NOTHING, UNKNOWN
 from .self_check import FaultRow
-from .sentences import not_judged
 
 SCHEMA = "reference_tracer.engines/1"
 
@@ -41,7 +40,7 @@ class EngineRow(NamedTuple):
             {k: v for k, v in comparison.pixels.items() if k != "examples"},
             tuple(_wrong(comparison)),
             None if identity is None else identity.counts()["other_object"],
-            not_judged=tuple(not_judged(comparison)),
+            not_judged=tuple(comparison.not_judged()),
             self_check=comparison.self_check,
         )
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from .. import images
 from ..arrays import Array, Colors
-from ..compare.comparison import SCHEMA, Comparison, diagnosed
+from ..compare.comparing import diagnosed
+from ..compare.comparison import SCHEMA, Comparison
 from ..compare.maps import cause_map
 from ..tracer.progress import Work, scaled
 from . import page

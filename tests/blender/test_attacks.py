@@ -22,7 +22,7 @@ from reference_tracer.compare.causes import (
     UNEXPLAINED,
     explain,
 )
-from reference_tracer.compare.comparison import compare as compare_traced
+from reference_tracer.compare.comparing import compare as compare_traced
 from reference_tracer.rendering import render
 from reference_tracer.tracer.hits import NOTHING
 from reference_tracer.tracer.progress import result_of

@@ -16,7 +16,7 @@ from reference_tracer.blender import compare as compare_module
 from reference_tracer.blender.drawing.cycles import FARTHEST
 from reference_tracer.blender.drawing.judges import JUDGES
 from reference_tracer.compare.cause import NOT_DECIDABLE
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.embree import LARGEST
 from reference_tracer.rendering import render
 from reference_tracer.tracer.camera import pixel_size

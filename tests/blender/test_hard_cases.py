@@ -20,7 +20,7 @@ from reference_tracer.blender.drawing.picture import picture, prepare_scene
 from reference_tracer.blender.reading.camera import export_camera
 from reference_tracer.blender.stepping import bake_bodies
 from reference_tracer.compare.causes import NOT_MODELLED, UNEXPLAINED
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.palette import By
 from reference_tracer.tracer.progress import result_of
 

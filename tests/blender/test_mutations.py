@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from reference_tracer.blender.compare import gather_case
 from reference_tracer.blender.reading.camera import window_of
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.picture import Picture
 from reference_tracer.tracer.progress import result_of
 

@@ -16,12 +16,8 @@ from reference_tracer.compare.causes import (
     NOT_TRACED,
     UNEXPLAINED,
 )
-from reference_tracer.compare.comparison import (
-    EXIT_CODES,
-    SCHEMA,
-    compare,
-    trace_and_compare,
-)
+from reference_tracer.compare.comparing import compare, trace_and_compare
+from reference_tracer.compare.comparison import EXIT_CODES, SCHEMA
 from reference_tracer.compare.counts import count_pixels
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture, SizeError, Source

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.compare.case import WHOLE, Variant
-from reference_tracer.compare.comparison import diagnosed, trace_and_compare
+from reference_tracer.compare.comparing import diagnosed, trace_and_compare
 from reference_tracer.compare.faults import FAULTS
 from reference_tracer.compare.faults.fault import Guess
 from reference_tracer.compare.picture import Picture

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.embree import not_decidable
 from reference_tracer.compare.picture import Picture
 from reference_tracer.rendering import render

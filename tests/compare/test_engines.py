@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare import engines
-from reference_tracer.compare.comparison import compare
+from reference_tracer.compare.comparing import compare
 from reference_tracer.compare.engines import EngineRow
 from reference_tracer.compare.faults import EXAMPLES
 from reference_tracer.compare.picture import Picture, Source, numbered

@@ -11,7 +11,7 @@ from reference_tracer.compare import causes
 from reference_tracer.compare.case import Alternative
 from reference_tracer.compare.cause import Causes, Hidden
 from reference_tracer.compare.checks.hidden import without
-from reference_tracer.compare.comparison import trace_and_compare
+from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.faults import EXAMPLES
 from reference_tracer.compare.faults.fault import Example, Fault
 from reference_tracer.compare.picture import Picture, numbered

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from reference_tracer.compare.case import Case
-from reference_tracer.compare.comparison import compare
+from reference_tracer.compare.comparing import compare
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.manifest import Manifest, ObjectEntry, Unmodelled
 from reference_tracer.projections import PROJECTIONS

@@ -9,7 +9,8 @@ import pytest
 from PIL import Image
 from reference_tracer.compare.case import Case
 from reference_tracer.compare.causes import AGREE, CAUSES
-from reference_tracer.compare.comparison import SCHEMA, compare
+from reference_tracer.compare.comparing import compare
+from reference_tracer.compare.comparison import SCHEMA
 from reference_tracer.compare.picture import Picture, Source
 from reference_tracer.images import to_display
 from reference_tracer.manifest import Manifest

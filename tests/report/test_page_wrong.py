@@ -9,7 +9,7 @@ import jsonschema
 import numpy as np
 import pytest
 from reference_tracer.compare.cause import UNEXPLAINED
-from reference_tracer.compare.comparison import diagnosed as find_diagnosis
+from reference_tracer.compare.comparing import diagnosed as find_diagnosis
 from reference_tracer.compare.diagnosis import Diagnosis, Told
 from reference_tracer.compare.faults.fault import Fault, Guess, of_camera
 from reference_tracer.compare.regions import regions

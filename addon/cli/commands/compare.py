@@ -14,7 +14,8 @@ from ...certified.rounding import check_rounding
 from ...compare import colors_file, engines
 from ...compare.case import Case
 from ...compare.colors_file import in_colors
-from ...compare.comparison import EXIT_CODES, Comparison, trace_and_compare
+from ...compare.comparing import trace_and_compare
+from ...compare.comparison import EXIT_CODES, Comparison
 from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source
 from ...manifest import Manifest, ObjectEntry
