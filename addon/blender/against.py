@@ -20,8 +20,8 @@ import bpy
 import numpy as np
 
 from ..arrays import Colors, Floats
-from ..compare.case import Alternative, Case
-from ..compare.checks.hidden import with_object, without
+from ..compare.case import Alternative, Case, without
+from ..compare.checks.hidden import with_object
 from ..compare.palette import VIEWPORT, By, GivenColors, Palette
 from ..compare.picture import Curve, Picture
 from ..images import curve_undone
@@ -101,7 +101,7 @@ def alternatives(
         if drawn[name].hidden and seen[name].exported:
             out.append(Alternative(name, drawn[name].reason, with_object(scene, other, name)))
         elif seen[name].hidden and drawn[name].exported:
-            out.append(Alternative(name, seen[name].reason, without(scene, name)))
+            out.append(Alternative(name, seen[name].reason, without(scene, [name])))
     out.sort(key=lambda a: a.object)
     return (*out[:MOST], *_frames(context, palette))
 

@@ -31,6 +31,7 @@ from ..tracer.memory import ALWAYS, COMPARED, check_memory
 from ..tracer.progress import Work, scaled
 from ..tracer.render import Tracer
 from ..tracer.settings import Settings
+from .drawing.behind import behind
 from .drawing.drawings import Drawing, with_identity, with_what_draws_itself
 from .drawing.judge import Judge
 from .drawing.judges import judge_named
@@ -156,6 +157,10 @@ def gather_case(context: Any, **choices: Any) -> Case:
     if like_for_like:  # Blender's picture has one sample in a pixel: so has the traced one
         settings = replace(settings, samples=1)
     case = Case(with_planes, manifest, settings, shown, certificate)
+    if like_for_like:
+        color_type = scene.display.shading.color_type
+        made = partial(_picture, judge=judge, used=used, snapping=snapping)
+        case = replace(case, behind=behind(drawing, case, color_type, made, chosen.identity))
     return replace(
         case,
         self_check=chosen.self_check,

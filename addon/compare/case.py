@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -41,6 +41,24 @@ class Variant:
     object: str = ""  # whose fault it is, if it is one object's
 
 
+@dataclass(frozen=True, eq=False)
+class Behind:
+    """The case without the objects that are seen through, as glass: what is behind them."""
+
+    case: Case
+    left_out: frozenset[str]  # the objects
+
+
+def without(scene: Scene, names: Collection[str]) -> Scene:
+    """Return a scene without some objects."""
+    numbers = {n for n, name in enumerate(scene.objects) if name in names}
+    return replace(
+        scene,
+        instances=tuple(i for i in scene.instances if i.object not in numbers),
+        planes=tuple(p for p in scene.planes if p.object not in numbers),
+    )
+
+
 def no_variants() -> tuple[Variant, ...]:
     """Return the variants of a scene of which nothing else is known."""
     return ()
@@ -60,6 +78,7 @@ class Case:
     curves: tuple[Curve, ...] | None = None
     self_check: bool = False  # whether known faults are to be made, and found
     next_frame: Scene | None = None  # the scene a frame later, for the self-check
+    behind: Behind | None = None  # if the other side was drawn without what is seen through, too
     tracer: Tracer | None = None  # where whole pictures are traced, if not here
     # Makes the scene with faults for which Blender is needed; asked only if pixels are unexplained.
     variants: Callable[[], tuple[Variant, ...]] = no_variants
@@ -87,13 +106,19 @@ class Case:
         """Return the same with the scene and the alternatives changed alike."""
         others = tuple(replace(a, scene=change(a.scene)) for a in self.alternatives)
         scene = change(self.scene)
-        return replace(self.in_scene(scene), alternatives=others)
+        behind = self.behind
+        if behind:
+            behind = replace(behind, case=behind.case.with_scenes(change))
+        return replace(self.in_scene(scene), alternatives=others, behind=behind)
 
     def in_scene(self, scene: Scene) -> Case:
         """Return the same with another scene."""
-        return replace(
-            self, scene=scene, picture=replace(self.picture, owners=self._owners_in(scene))
-        )
+        behind = self.behind
+        if behind:
+            rest = without(scene, behind.left_out)
+            behind = replace(behind, case=behind.case.in_scene(rest))
+        picture = replace(self.picture, owners=self._owners_in(scene))
+        return replace(self, scene=scene, picture=picture, behind=behind)
 
     def _owners_in(self, scene: Scene) -> Integers | None:
         """Return the owners of another scene's instances and planes, by their objects' names.

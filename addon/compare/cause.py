@@ -132,6 +132,8 @@ class Causes:
     allowed: Floats  # the bound that the figure was held against
     # The feature of the manifest's `unmodelled` that keeps the pixel from being judged, else -1.
     blind: Integers
+    # (h, w) where what is behind glass was judged, by a picture without it; None if nowhere.
+    behind: Bools | None = None
     hidden: list[Hidden] = field(default_factory=list)  # a figure may be an index into it
     transform: str = ""  # what turns the traced colours into the picture's, in words
     shades: list[Shade] = field(default_factory=list)

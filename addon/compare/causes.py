@@ -25,6 +25,7 @@ from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
 from .checks import anti_aliasing, clip, color, edges, hidden, identity, unmodelled
 from .checks.anti_aliasing import ANTI_ALIASING
 from .checks.background import Background, find_background
+from .checks.behind import wrong_behind
 from .checks.clip import CLIP_PLANE
 from .checks.color import COLOR
 from .checks.edges import DEPTH_TIE, EDGE
@@ -121,6 +122,11 @@ def find_causes(case: Case, frame: Frame, at_most: int | None = None) -> Work[Ca
         yield from scaled(check(pixels), done, share)
         done += share
     pixels.give(pixels.open, UNEXPLAINED)
+    looking = wrong_behind(case, frame, find_causes)
+    behind, wrong = yield from scaled(looking, 1.0, 0.0)
+    out.behind = behind if behind.any() else None
+    wrong &= out.cause != NOT_TRACED
+    out.cause[wrong], out.figure[wrong], out.allowed[wrong] = UNEXPLAINED, np.nan, np.nan
     yield from scaled(unmodelled.name_drawn(pixels), 1.0, 0.0)
     yield from scaled(color.name_shades(pixels), 1.0, 0.0)
     return out

@@ -22,6 +22,7 @@ from ...compare.palette import VIEWPORT, Palette
 from ...compare.picture import Picture, numbered
 from ...manifest import Effect, Manifest, Unmodelled
 from ...scene import Scene, SceneError
+from ..engine import export_for_judge
 from ..reading.unmodelled import HAIR, is_hair
 from ..temporary import drawn, leave_out, temporary_scene
 from ..values import in_colors, is_animated, untold
@@ -45,17 +46,37 @@ class Drawing:
     exported: Scene
     manifest: Manifest
     palette: Palette = VIEWPORT
+    left_out: tuple[Unmodelled, ...] = ()  # objects that are never drawn
 
     @contextmanager
     def begun(self) -> Iterator[Any]:
         """Give a new temporary scene, set up as for the first picture."""
         planes = self.manifest.owners[len(self.exported.instances) :]
-        with temporary_scene(self.scene, self.layer, self.judge.ignores, self.palette) as tmp:
+        with self._prepared() as tmp, stand_ins(tmp, self.layer, self.exported, planes):
+            yield tmp
+
+    @contextmanager
+    def _prepared(self) -> Iterator[Any]:
+        with (
+            temporary_scene(self.scene, self.layer, self.judge.ignores, self.palette) as tmp,
+            left_out(tmp, self.layer, self.left_out),
+        ):
             if self.view_shading:
                 use_view_shading(tmp, self.view_shading)
             prepare_scene(tmp, self.like_for_like)
-            with stand_ins(tmp, self.layer, self.exported, planes):
-                yield tmp
+            yield tmp
+
+    def exported_again(self) -> tuple[Scene, Manifest]:
+        """Export the scene without what is left out."""
+        with self._prepared() as tmp:
+            scene, manifest, _ = export_for_judge(tmp, self.layer, self.judge)
+        return scene, manifest
+
+    def planes_drawn(self) -> Scene:
+        """Return the exported scene with its planes in the colours that they are drawn in."""
+        planes = self.manifest.owners[len(self.exported.instances) :]
+        with self._prepared() as tmp, stand_ins(tmp, self.layer, self.exported, planes) as scene:
+            return scene
 
     def picture(self, tmp: Any, like_for_like: bool) -> Colors:
         """Draw a temporary scene; raises what :func:`.picture.picture` does."""

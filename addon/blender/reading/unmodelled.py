@@ -19,6 +19,7 @@ from .colors import slot_materials
 
 _UNFILLED = ("WIRE", "BOUNDS")
 
+TRANSPARENCY = "transparency"
 HAIR = "hair"  # particles: the object that has it is also drawn without it
 
 # Object types that Blender draws, but not as triangles.
@@ -115,14 +116,14 @@ def _of_colors(obj: Any, holder: Any, color_type: str) -> Iterator[_Feature]:
     """Yield what is not modelled of an object's colours, by `View3DShading.color_type`."""
     if color_type in ("OBJECT", "VERTEX") and holder.color[3] < 1:
         detail = f"the object's colour has alpha {holder.color[3]:.3g}"
-        yield "transparency", Effect.COLOR, detail
+        yield TRANSPARENCY, Effect.COLOR, detail
     if color_type in ("MATERIAL", "TEXTURE"):
         for material in {m.name: m for m in slot_materials(obj) if m}.values():
             name = f"material '{material.name}'"
             alpha = material.diffuse_color[3]
             if alpha < 1:
                 detail = f"{name} has a viewport alpha of {alpha:.3g}"
-                yield "transparency", Effect.COLOR, detail
+                yield TRANSPARENCY, Effect.COLOR, detail
             nodes = material.node_tree.nodes if material.node_tree else ()
             if color_type == "TEXTURE" and any(node.type == "TEX_IMAGE" for node in nodes):
                 yield "texture", Effect.COLOR, name

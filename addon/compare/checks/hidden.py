@@ -92,16 +92,6 @@ def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:
     return traced, same
 
 
-def without(scene: Scene, name: str) -> Scene:
-    """Return a scene without an object."""
-    number = scene.objects.index(name)
-    return replace(
-        scene,
-        instances=tuple(i for i in scene.instances if i.object != number),
-        planes=tuple(p for p in scene.planes if p.object != number),
-    )
-
-
 def with_object(scene: Scene, other: Scene, name: str) -> Scene:
     """Return a scene with an object of another one."""
     number = other.objects.index(name)

@@ -1,0 +1,80 @@
+"""Draws the user's scene without what is seen through, such as glass, to judge what is behind it.
+
+The scene is exported again without it, too: so both sides lack what Blender leaves out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import bpy
+
+from ...arrays import Colors
+from ...compare.case import Behind, Case
+from ...compare.picture import Picture
+from ...manifest import Effect, Manifest, Unmodelled
+from ...scene import SceneError
+from ..reading.colors import slot_materials
+from ..reading.unmodelled import TRANSPARENCY
+from .drawings import Drawing, with_identity, with_what_draws_itself
+
+
+def behind(
+    drawing: Drawing, case: Case, color_type: str, made: Callable[[Colors], Picture], identity: bool
+) -> Behind | None:
+    """Return the case without what is seen through; None if there is nothing of that kind.
+
+    Parameters
+    ----------
+    drawing : Drawing
+        How the scene is drawn.
+    case : Case
+        That of the scene with it.
+    color_type : str
+        Of the user's own shading: it says whose alpha counts.
+    made : callable
+        Makes the picture of its pixels.
+    identity : bool
+        Whether whose surface each pixel shows is found, too.
+    """
+    if TRANSPARENCY in drawing.judge.ignores:
+        return None
+    left = _see_through(drawing.manifest, set(case.scene.objects), color_type)
+    if not left:
+        return None
+    without = replace(drawing, left_out=tuple(left))
+    try:
+        exported, manifest = without.exported_again()
+        without = replace(without, exported=exported, manifest=manifest)
+        with without.begun() as tmp:
+            shown = made(without.picture(tmp, drawing.like_for_like))
+        if identity:
+            shown = with_identity(without, shown)
+        shown, manifest = with_what_draws_itself(without, shown)
+    except (SceneError, RuntimeError):  # nothing is left that could be seen
+        return None
+    rest = Case(without.planes_drawn(), manifest, case.settings, shown, tracer=case.tracer)
+    return Behind(rest, frozenset(u.object for u in left))
+
+
+def _see_through(manifest: Manifest, there: set[str], color_type: str) -> list[Unmodelled]:
+    """Return what is seen through and can be left out, of the objects that are exported.
+
+    A palette draws it opaque: so the user's own colours are asked, too.
+    """
+    found = {u.object: u for u in manifest.unmodelled if u.feature == TRANSPARENCY}
+    for obj in bpy.data.objects:
+        if obj.name_full in there - found.keys() and _has_alpha(obj, color_type):
+            found[obj.name_full] = Unmodelled(obj.name_full, TRANSPARENCY, effect=Effect.COLOR)
+    by_nodes = {u.object for u in manifest.unmodelled if u.by}
+    return [u for name, u in found.items() if name in there and name not in by_nodes]
+
+
+def _has_alpha(obj: Any, color_type: str) -> bool:
+    if color_type in ("OBJECT", "VERTEX"):
+        return bool(obj.color[3] < 1)
+    if color_type not in ("MATERIAL", "TEXTURE") or not hasattr(obj.data, "materials"):
+        return False
+    return any(m and m.diffuse_color[3] < 1 for m in slot_materials(obj))

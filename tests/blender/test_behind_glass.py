@@ -1,0 +1,147 @@
+"""What is behind glass is judged: Blender draws once more without it."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+
+import bpy
+import numpy as np
+import pytest
+from reference_tracer.blender import compare as compare_module
+from reference_tracer.blender.drawing import drawings
+from reference_tracer.compare.cause import UNEXPLAINED
+from reference_tracer.compare.palette import By
+
+PANES = 5
+
+
+@pytest.fixture
+def panes(build):
+    """Five panes of glass, one behind another, before objects and a wall."""
+    scene = build.scene(96, 54)
+    build.camera((0, 0, 9))
+    glass = build.material("Glass", 0.2, 0.7, 0.9, 0.3)
+    for k in range(PANES):
+        build.square(f"Pane {k}", 2.6, location=(-0.4, 0, 5 - 0.5 * k), material=glass)
+    build.square("Wall", 30, location=(0, 0, -4), material=build.material("Grey", 0.3, 0.3, 0.3))
+    red = build.material("Red", 0.9, 0.1, 0.1)
+    build.cube("Behind", 1.6, location=(-0.4, 0.2, 0.5), rotation=(0.4, 0.3, 0.1), material=red)
+    build.cube("Beside", 1.0, location=(4, 1, 0), material=build.material("Blue", 0.1, 0.2, 0.9))
+    for material in bpy.data.materials:
+        material.use_nodes = True
+        socket = material.node_tree.nodes["Principled BSDF"].inputs["Base Color"]
+        socket.default_value = (*material.diffuse_color[:3], 1)
+    return scene
+
+
+@contextmanager
+def drawn_otherwise(monkeypatch, change, back):
+    """Have Blender draw each picture of a changed scene, as a wrong exporter's would be of one."""
+    with monkeypatch.context() as patched:
+        for module in (compare_module, drawings):
+            real = module.picture
+
+            def picture(*args, real=real, **options):
+                change()
+                try:
+                    return real(*args, **options)
+                finally:
+                    back()
+
+            patched.setattr(module, "picture", picture)
+        yield
+
+
+def through(found):
+    """Return the pixels that show a pane."""
+    names = found.scene.objects
+    return np.isin(found.frame.object_index, [names.index(n) for n in names if "Pane" in n])
+
+
+COLORS = [By.VIEWPORT, By.AUTOMATIC, By.MATERIAL]
+
+
+@pytest.mark.parametrize("identity", [True, False])
+@pytest.mark.parametrize("colors", COLORS)
+def test_an_honest_scene_has_no_alarm(panes, compare, colors, identity):
+    alphas = [m.diffuse_color[3] for m in bpy.data.materials]
+    hidden = [o.hide_render for o in bpy.data.objects]
+    found = compare(judge="WORKBENCH", colors=colors, identity=identity)
+    assert found.pixels["unexplained"] == 0
+    seen = through(found)
+    assert seen.mean() > 0.1 and found.causes.behind is not None
+    np.testing.assert_array_equal(found.causes.behind, seen)
+    assert [m.diffuse_color[3] for m in bpy.data.materials] == alphas
+    assert [o.hide_render for o in bpy.data.objects] == hidden
+
+
+@pytest.mark.parametrize("colors", COLORS)
+@pytest.mark.parametrize("what", ["moved", "removed", "recoloured"])
+def test_a_fault_behind_is_found(panes, compare, monkeypatch, colors, what):
+    obj = bpy.data.objects["Behind"]
+    material = obj.data.materials[0]
+
+    def moved(x):
+        obj.location.x += x
+        obj.update_tag()
+
+    def removed(hidden):
+        obj.hide_render = hidden
+
+    def recoloured(color):
+        if colors == By.AUTOMATIC:  # each object has its own, whatever its material
+            obj.color = (*color, 1)
+        material.diffuse_color = (*color, 1)
+
+    changes = {
+        "moved": (lambda: moved(0.3), lambda: moved(-0.3)),
+        "removed": (lambda: removed(True), lambda: removed(False)),
+        "recoloured": (lambda: recoloured((0.1, 0.9, 0.2)), lambda: recoloured((0.9, 0.1, 0.1))),
+    }
+    with drawn_otherwise(monkeypatch, *changes[what]):
+        found = compare(judge="WORKBENCH", colors=colors, identity=False)
+    wrong = found.causes.cause == UNEXPLAINED
+    seen = through(found)
+    assert (wrong & seen).sum() > 50
+    assert found.verdict == "differences"
+    assert not (wrong & (found.frame.object_index == found.scene.objects.index("Beside"))).any()
+
+
+def test_hair_behind_glass_is_no_alarm(panes, build, compare):
+    obj = build.square("Lawn", 1.5, location=(-0.4, -0.6, 1.5))
+    obj.modifiers.new("Hair", "PARTICLE_SYSTEM")
+    settings = obj.particle_systems[0].settings
+    settings.type, settings.count, settings.hair_length = "HAIR", 100, 0.6
+    found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
+    assert found.pixels["unexplained"] == 0 and found.causes.behind.any()
+
+
+def test_panes_of_a_collection_instance(panes, build, compare):
+    scene = bpy.context.scene
+    one = build.square("Pane X", 1.0, link=False, material=bpy.data.materials["Glass"])
+    empty = build.empty("Holder", location=(2.5, -1, 3))
+    empty.instance_type, empty.instance_collection = "COLLECTION", build.collection("Panes", one)
+    scene.display.shading.color_type = "MATERIAL"
+    found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
+    assert found.pixels["unexplained"] == 0
+    np.testing.assert_array_equal(found.causes.behind, through(found))
+
+
+def test_nothing_more_is_drawn_without_glass(build, compare, monkeypatch):
+    build.scene(32, 18)
+    build.camera()
+    build.square("Solid", material=build.material("Red", 0.9, 0.1, 0.1))
+    drawn = []
+    real = drawings.picture
+    monkeypatch.setattr(drawings, "picture", lambda *a, **k: drawn.append(1) or real(*a, **k))
+    found = compare(judge="WORKBENCH", identity=False)
+    assert not drawn and found.causes.behind is None
+
+
+def test_all_of_glass(build, compare):
+    """Nothing is left to be seen behind it."""
+    build.scene(32, 18)
+    build.camera()
+    build.square("Pane", material=build.material("Glass", 0.9, 0.1, 0.1, 0.5))
+    found = compare(judge="WORKBENCH", colors=By.VIEWPORT)
+    assert found.pixels["unexplained"] == 0
