@@ -230,6 +230,11 @@ class Comparison:
         if told["pixels"]:
             features = ", ".join(told["by_feature"])
             yield f"{_share(told['pixels'], total)} of this picture cannot be judged: {features}"
+        if behind := self.pixels.get("behind"):
+            yield (
+                f"what is behind transparent surfaces was judged in {behind['pixels']:,} px, by a "
+                f"picture without them: {behind['unexplained']:,} px are unexplained"
+            )
         if undecided := self.pixels["not_decidable"]:
             yield (
                 f"{_share(undecided, total)} of this picture is not decidable: so far from the "

@@ -36,7 +36,7 @@ def count_pixels(
         the same object in a wrong colour, and how many a wrong object.
     features : sequence of str
         What the tracer does not model; `not_judged` counts the pixels in which one of these would
-        excuse a fault.
+        excuse a fault. `behind` counts those in which what is behind glass was judged.
 
     Returns
     -------
@@ -61,6 +61,9 @@ def count_pixels(
         "share": len(blind) / max(cause.size, 1),
         "by_feature": dict(by_feature.most_common()),
     }
+    if causes.behind is not None:
+        wrong = causes.behind & (cause == UNEXPLAINED)
+        out["behind"] = {"pixels": int(causes.behind.sum()), "unexplained": int(wrong.sum())}
     if identity is not None:
         out["unexplained_shows"] = identity.counts(cause == UNEXPLAINED)
     return out
