@@ -8,14 +8,16 @@ What Cycles shows there proves nothing.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ..arrays import Array, Bools, Floats, Places
+from ..arrays import Array, Bools, Floats
 from ..scene import Camera, Instance, Mesh, Scene
 from ..tracer.camera import Rays, camera_rays, film_positions, pixel_size
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
-from ..tracer.vector import dot, transform_points
+from ..tracer.vector import transform_points
 from ..tracer.world import reaches
 from .bounds import SNAPPING, U32
 
@@ -27,7 +29,8 @@ ROUNDINGS = 8
 # Square metres, of twice the area, the length of the normal: Cycles shows no triangle where the
 # square of that is beyond float32 (measured in 5.2: 1.8444e19 is shown, 1.8449e19 is not).
 LARGEST = float(np.sqrt(np.finfo(np.float32).max)) * (1 - 2.0**-12)
-MOST = 128  # triangles that are looked at in every pixel, the largest
+GROSS = 2.0**-10  # of a weight; of a ground plane of 10 km it is some 2^-19
+MOST = 64  # triangles that are looked at in every pixel, the largest
 
 
 def not_decidable(scene: Scene, frame: Frame, farthest: float) -> Bools:
@@ -44,7 +47,7 @@ def not_decidable(scene: Scene, frame: Frame, farthest: float) -> Bools:
         if far[number] or np.abs(mesh.bounds).max() >= least:
             own = frame.instance_index == number
             out[own] = _beyond(mesh, instance, farthest)[frame.triangle_index[own]]
-    return out | _enlarged(scene, frame)
+    return out | _unsure(scene, frame)
 
 
 def _beyond(mesh: Mesh, instance: Instance, farthest: float) -> Bools:
@@ -63,33 +66,49 @@ def _beyond(mesh: Mesh, instance: Instance, farthest: float) -> Bools:
     return out
 
 
-def _enlarged(scene: Scene, frame: Frame) -> Bools:
-    """Return the pixels (h, w) in which a triangle is hit that the pixel's ray passes by.
+def _unsure(scene: Scene, frame: Frame) -> Bools:
+    """Return the pixels (h, w) in which a large triangle may be hit, or missed, by rounding alone.
 
-    That is one of another instance than the pixel shows, before what it shows.
+    One of another instance than the pixel shows may be hit before that, by a ray that passes it by.
+    One that the pixel shows may be missed if rounding moves its weights by more than GROSS; by
+    less, a neighbour is hit in its place, as they share the edge.
     """
     out = np.zeros(frame.shape, bool)
     found = [
-        (size, number, corners)
+        (large, number)
         for number, instance in enumerate(scene.instances)
-        for size, corners in _large(scene.camera, scene.meshes[instance.mesh], instance)
+        for large in _large(scene.camera, scene.meshes[instance.mesh], instance)
     ]
     if not found:
         return out
     rays = camera_rays(scene.camera, *film_positions(scene.camera.region))
-    t = np.where(frame.instance_index == NOTHING, scene.camera.clip_end, frame.t)
-    for _, number, corners in sorted(found, key=lambda one: -one[0])[:MOST]:
-        hit = _hit_beside(rays, corners, scene.camera.clip_start, t.ravel())
-        hit = hit[frame.instance_index.flat[hit] != number]
-        out.flat[hit] = True
+    t = np.where(frame.instance_index == NOTHING, scene.camera.clip_end, frame.t).ravel()
+    for large, number in sorted(found, key=lambda one: -one[0].size)[:MOST]:
+        terms, off = _weights(rays, large.corners)
+        own = (frame.instance_index == number) & (frame.triangle_index == large.triangle)
+        seen = np.flatnonzero(own)
+        whole = terms[:, seen].sum(axis=0)
+        missed = ((terms[:, seen] < off) & (off > GROSS * whole)).any(axis=0)
+        out.flat[seen[missed]] = True
+        beside = np.flatnonzero(terms.min(axis=0) < 0)
+        beside = beside[frame.instance_index.flat[beside] != number]
+        terms = terms[:, beside]
+        beside = beside[(terms + off >= -TOLERANCE * terms.sum(axis=0)).all(axis=0)]
+        depth = _depths(rays.take(beside), large.corners)
+        out.flat[beside[(depth >= scene.camera.clip_start) & (depth < t[beside])]] = True
     return out
 
 
-def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[tuple[float, Array]]:
-    """Return the triangles that may grow by more than a rasteriser rounds: sizes, corners (3, 3).
+class _Large(NamedTuple):
+    """A triangle that may grow by more than a rasteriser rounds."""
 
-    The size is that of the longest edge, in pixels where the triangle is nearest.
-    """
+    size: float  # of the longest edge, in pixels where the triangle is nearest
+    triangle: int
+    corners: Floats  # (3, 3) world space
+
+
+def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[_Large]:
+    """Return the triangles of an instance that are as large as that."""
     with np.errstate(over="ignore", invalid="ignore"):
         box = transform_points(instance.world_from_object, _box(mesh))
         if not _size(camera, box.T, np.asarray(np.ptp(box, axis=1).sum())) * TOLERANCE > SNAPPING:
@@ -99,7 +118,7 @@ def _large(camera: Camera, mesh: Mesh, instance: Instance) -> list[tuple[float, 
         edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
         size = _size(camera, corners, edges)
         large = np.flatnonzero((size * TOLERANCE > SNAPPING) & np.isfinite(size))
-    return [(float(size[n]), corners[n]) for n in large]
+    return [_Large(float(size[n]), int(n), corners[n]) for n in large]
 
 
 def _box(mesh: Mesh) -> Floats:
@@ -114,38 +133,32 @@ def _size(camera: Camera, points: Array, length: Array) -> Array:
     return length / (scale * min(pixel_size(camera)))
 
 
-def _hit_beside(rays: Rays, corners: Array, nearest: float, t: Floats) -> Places:
-    """Return which of n rays Embree may let hit a triangle (3, 3) that they pass by, before t (n,).
+@np.errstate(all="ignore")
+def _weights(rays: Rays, corners: Array) -> tuple[Floats, Floats]:
+    """Return the weights U, V, W of a triangle's corners (3, 3) along n rays, and their errors.
 
-    U = (vi x vj) . d is linear in d if the rays share their origin o. If they share d, and o is
-    w away from that of the first, it is linear in w: vi and vj are corners from o.
+    They are (3, n) and (3, 1), not yet divided by their sum, which is positive. (vi x vj) . d is
+    linear in d if the rays share their origin o. If they share d, and o is w away from that of the
+    first, it is linear in w: vi and vj are corners from o.
     """
     o, d = rays.origins, rays.directions
     v = corners - o[:, 0]
     i, j = np.roll(v, -1, axis=0), np.roll(v, -2, axis=0)
-    with np.errstate(all="ignore"):
-        if o.shape[1] == 1:
-            terms = np.cross(i, j) @ d
-        else:
-            terms = np.cross(i - j, d[:, 0]) @ (o - o[:, :1]) + (np.cross(i, j) @ d)
-        whole = terms.sum(axis=0)
-        terms *= np.sign(whole)
-        sizes = np.linalg.norm(j - i, axis=1) * (np.linalg.norm(j + i, axis=1) + _spread(o))
-        off = ROUNDINGS * U32 / 2 * _longest(d) * sizes
-        passes = terms.min(axis=0) < 0
-        terms += off[:, None]
-        beside = np.flatnonzero(passes & (terms.min(axis=0) >= -TOLERANCE * np.abs(whole)))
-        some = rays.take(beside)
-        normal = np.cross(v[1] - v[0], v[2] - v[0])
-        depth = (normal @ (v[0][:, None] + o[:, :1] - some.origins)) / (normal @ some.directions)
-    return beside[(depth >= nearest) & (depth < t[beside])]
+    if o.shape[1] == 1:
+        terms = np.cross(i, j) @ d
+    else:
+        terms = np.cross(i - j, d[:, 0]) @ (o - o[:, :1]) + (np.cross(i, j) @ d)
+    terms *= np.sign(terms.sum(axis=0))
+    # The products of (vj - vi) x (vj + vi), each taken to be positive: what cancels has its error.
+    e, s = np.abs(j - i), np.abs(j + i) + 2 * np.ptp(o, axis=1)
+    products = np.roll(e, -1, axis=1) * np.roll(s, -2, axis=1)
+    products += np.roll(e, -2, axis=1) * np.roll(s, -1, axis=1)
+    off: Floats = ROUNDINGS * U32 / 2 * (products @ np.abs(d).max(axis=1))
+    return terms, off[:, None]
 
 
-def _spread(points: Floats) -> float:
-    """Return how far points (3, n) are from the first, at most, twice."""
-    across: Floats = np.ptp(points, axis=1)
-    return 2 * float(across.sum())
-
-
-def _longest(directions: Floats) -> float:
-    return float(np.sqrt(np.max(dot(directions, directions))))
+@np.errstate(all="ignore")
+def _depths(rays: Rays, corners: Array) -> Floats:
+    """Return at which t rays meet the plane of a triangle (3, 3), (n,)."""
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    return (normal @ (corners[0][:, None] - rays.origins)) / (normal @ rays.directions)

@@ -269,3 +269,19 @@ def test_triangles_of_a_large_area(half, share, build, compare):
         without = replace(found.case.picture, color=np.zeros_like(found.picture))
         wrong = result_of(trace_and_compare(replace(found.case, picture=without)))
         assert wrong.pixels["unexplained"] > 0.9 * seen.sum()
+
+
+@pytest.mark.parametrize("far", [1e4, 1e6, 1e7, 1e8, 1e10, 1e13])
+@pytest.mark.parametrize("to", [(1, 1, 0), (0, 1, -1), (0.3, 1, -0.2)])
+@pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
+def test_strips_that_reach_far_in_any_direction(far, to, kind, build, compare):
+    """Float32 loses their weights in one another's products: then Cycles shows none of them."""
+    build.scene(48, 27, "OBJECT")
+    build.camera((0, 0, 8), type=kind, ortho_scale=9.0)
+    corners = [(-3, -3, 0), (3, -3, 0), tuple(far * x for x in to)]
+    build.mesh("Strip", corners, [(0, 1, 2)]).color = (1, 0, 0, 1)
+    build.square("Behind", 60.0, location=(0, 0, -50), color=(0, 1, 0, 1))
+    found = compare(judge="CYCLES")
+    assert found.pixels["unexplained"] == 0
+    if far <= 1e4:  # but for some beside its edges
+        assert found.pixels["not_decidable"] < 10
