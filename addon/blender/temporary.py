@@ -10,13 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
-import numpy as np
 
-from ..compare.palette import VIEWPORT, By, Palette
-from .values import untold
+if TYPE_CHECKING:
+    from ..compare.palette import Palette
 
 # Custom properties. DRAWN marks what the add-on itself draws in a scene. The others mark a
 # temporary scene: the name of the user's, and the features that its judge does not show.
@@ -35,7 +34,7 @@ def temporary_scene(
     scene: Any,
     layer: str | None = None,
     ignored: Collection[str] | None = None,
-    palette: Palette = VIEWPORT,
+    palette: Palette | None = None,
 ) -> Iterator[Any]:
     """Give a copy of a scene that renders one view layer and nothing else; remove it in any case.
 
@@ -49,8 +48,8 @@ def temporary_scene(
         The view layer; by default the scene's first.
     ignored : collection of str, optional
         The features that the judge does not show; None if the copy is for no judge.
-    palette : Palette
-        The colours that it is exported and drawn in.
+    palette : Palette, optional
+        The colours that it is exported and drawn in; by default those of the viewport.
     """
     images = set(bpy.data.images)
     copy = scene.copy()
@@ -72,9 +71,14 @@ def temporary_scene(
 
 
 @contextmanager
-def _in_palette(scene: Any, palette: Palette) -> Iterator[None]:
+def _in_palette(scene: Any, palette: Palette | None) -> Iterator[None]:
     """Show a temporary scene, which is not evaluated yet, in other colours, for a while."""
-    if palette.by == By.VIEWPORT:
+    import numpy as np
+
+    from ..compare.palette import By
+    from .values import untold
+
+    if palette is None or palette.by == By.VIEWPORT:
         yield
         return
     of_objects = palette.by == By.OBJECT

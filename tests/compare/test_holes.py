@@ -6,9 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.case import Alternative
+from reference_tracer.compare.case import Alternative, without
 from reference_tracer.compare.causes import UNEXPLAINED, explain
-from reference_tracer.compare.checks.hidden import without
 from reference_tracer.compare.metrics import boundary
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.rendering import render
@@ -102,7 +101,7 @@ def test_what_hides_behind_an_edge_is_no_anti_aliasing(make):
 def test_a_hole_in_an_object_that_a_flag_hides_is_no_hidden_object(named):
     """The picture shows the object, all around the hole: so it was not hidden for it."""
     frame = render(named)
-    less = without(named, "Wall")
+    less = without(named, ["Wall"])
     gone = render(less)
     wall = np.argwhere(inside(frame, 2))
     y, x = wall[len(wall) // 2]

@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from reference_tracer.compare import causes
-from reference_tracer.compare.case import Alternative
+from reference_tracer.compare.case import Alternative, without
 from reference_tracer.compare.cause import Causes, Hidden
-from reference_tracer.compare.checks.hidden import without
 from reference_tracer.compare.comparing import trace_and_compare
 from reference_tracer.compare.faults import EXAMPLES
 from reference_tracer.compare.faults.fault import Example, Fault
@@ -153,7 +152,7 @@ def test_an_empty_scene_has_nothing_to_get_wrong(make):
 
 def test_it_explains_as_the_comparison_does(case, monkeypatch):
     """With the alternatives, the curves, the absent objects, and traced by the same method."""
-    whole, lacking = case.scene, without(case.scene, "Box")
+    whole, lacking = case.scene, without(case.scene, ["Box"])
     entry = ObjectEntry("Ghost", "MESH", False, "hidden in renders", hidden=True)
     case = replace(
         case,
@@ -187,7 +186,7 @@ def test_it_explains_as_the_comparison_does(case, monkeypatch):
 
 def test_an_alternative_excuses_no_fault_of_the_camera(case):
     """It would have the same camera: else the right picture of it would explain any wrong one."""
-    lacking = without(case.scene, "Box")
+    lacking = without(case.scene, ["Box"])
     shown = replace(case, picture=Picture(render(lacking).color), curves=())
     shown = replace(shown, alternatives=(Alternative("Box", "hidden", lacking),))
     found = result_of(trace_and_compare(shown))

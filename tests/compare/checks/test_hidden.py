@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.case import Alternative
+from reference_tracer.compare.case import Alternative, without
 from reference_tracer.compare.cause import Hidden
 from reference_tracer.compare.causes import HIDDEN, UNEXPLAINED
-from reference_tracer.compare.checks.hidden import with_object, without
+from reference_tracer.compare.checks.hidden import with_object
 from reference_tracer.compare.picture import Picture, numbered
 from reference_tracer.manifest import ObjectEntry
 from reference_tracer.rendering import render
@@ -30,7 +30,7 @@ def named(room):
 
 
 def test_an_object_that_the_picture_lacks(named):
-    lacking = without(named, "Box")
+    lacking = without(named, ["Box"])
     causes = found(named, render(lacking).color, Alternative("Box", WHY, lacking))
     assert causes.hidden == [Hidden("Box", WHY)]
     assert not (causes.cause == UNEXPLAINED).any()
@@ -39,7 +39,7 @@ def test_an_object_that_the_picture_lacks(named):
 
 
 def test_an_object_that_only_the_picture_has(named):
-    lacking = without(named, "Box")
+    lacking = without(named, ["Box"])
     whole = with_object(lacking, named, "Box")
     assert whole.triangle_count == named.triangle_count
     np.testing.assert_array_equal(render(whole).color, render(named).color)
@@ -50,15 +50,15 @@ def test_an_object_that_only_the_picture_has(named):
 
 def test_a_flag_that_explains_nothing_is_not_named(named):
     """The ball is hidden for one side, but it is the box that the picture lacks."""
-    picture = render(without(named, "Box")).color
-    causes = found(named, picture, Alternative("Ball", WHY, without(named, "Ball")))
+    picture = render(without(named, ["Box"])).color
+    causes = found(named, picture, Alternative("Ball", WHY, without(named, ["Ball"])))
     assert causes.hidden == []
     assert (causes.cause == UNEXPLAINED).sum() > 50
 
 
 def test_an_object_that_is_known_to_be_shown(named):
     """By whose surface the picture shows: the reason comes from the manifest."""
-    lacking = without(named, "Box")
+    lacking = without(named, ["Box"])
     names, why = ("Ball", "Box", "Wall"), "hidden in renders"
     frame = render(lacking)
     owners = numbered(names, [lacking.objects[i.object] for i in lacking.instances])
