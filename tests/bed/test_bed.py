@@ -205,6 +205,7 @@ def names(key: str, number: int, label: str = "") -> set[str]:
     return set(right_names(of(key, label), scenes()[number - 1]))
 
 
+@pytest.mark.torture
 def test_names_are_the_same_where_no_picture_tells_them_apart():
     assert names("mirrored_y", 1) == {"mirrored_y", "rows"}
     assert names("sensor_fit", 1) == {"sensor_fit", "focal_length"}

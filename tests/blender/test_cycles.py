@@ -205,7 +205,7 @@ def test_cycles_cannot_show_random_colors_of_instances_and_says_so(build, compar
         compare(judge="CYCLES")
 
 
-@pytest.mark.parametrize("far", [1e3, 3e4, 1e5, 1e6, 1e7, 1e12, 1.8e18, 1.9e18, 1e30])
+@pytest.mark.parametrize("far", [1e3, 1e5, 1e6, 1e12, 1.8e18, 1.9e18, 1e30])
 @pytest.mark.parametrize(("at", "kind"), [(0.0, "PERSP"), (0.37, "PERSP"), (0.11, "ORTHO")])
 def test_triangles_that_reach_far(far, at, kind, build, compare):
     """Cycles shows them a share of their size too large, and from a limit on not at all."""
@@ -271,7 +271,7 @@ def test_triangles_of_a_large_area(half, share, build, compare):
         assert wrong.pixels["unexplained"] > 0.9 * seen.sum()
 
 
-@pytest.mark.parametrize("far", [1e4, 1e6, 1e7, 1e8, 1e10, 1e13])
+@pytest.mark.parametrize("far", [1e4, 1e7, 1e10])
 @pytest.mark.parametrize("to", [(1, 1, 0), (0, 1, -1), (0.3, 1, -0.2)])
 @pytest.mark.parametrize("kind", ["PERSP", "ORTHO"])
 def test_strips_that_reach_far_in_any_direction(far, to, kind, build, compare):

@@ -151,7 +151,7 @@ def test_two_faults_are_found_one_after_the_other(solids):
     assert found.diagnosis.left == 0 and found.verdict == "differences"
 
 
-@pytest.mark.slow
+@pytest.mark.torture
 def test_two_objects_are_found_one_after_the_other(solids):
     frame = render(solids)
     wrong = BY_NAME["object_missing"].make(case_of(solids, frame.color), frame, Guess(object="Box"))
@@ -202,11 +202,13 @@ def _shuffled(color, rng):
     return color
 
 
-LONG = [pytest.param(d, marks=pytest.mark.torture) for d in (_rolling, _blurred, _shuffled)]
+LONG = [
+    pytest.param(d, marks=pytest.mark.torture) for d in (_distorted, _rolling, _blurred, _shuffled)
+]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("damage", [_noise, _distorted, *LONG])
+@pytest.mark.parametrize("damage", [_noise, *LONG])
 def test_damage_gets_no_name(solids, damage):
     color = damage(render(solids).color.copy(), np.random.default_rng(SEED))
     found = diagnosis_of(solids, color)
@@ -245,8 +247,8 @@ def test_a_fault_that_looks_like_another_does_not_get_its_name(solids, name, gue
     assert name in names(found) and not set(names(found)) & others
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("opacity", [0.4, pytest.param(1.0, marks=pytest.mark.torture)])
+@pytest.mark.torture
+@pytest.mark.parametrize("opacity", [0.4, 1.0])
 def test_something_laid_over_the_picture(solids, opacity):
     """But a part of it that has the colour of an object may be that object."""
     color = render(solids).color.copy()
