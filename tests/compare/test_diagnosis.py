@@ -202,9 +202,14 @@ def _shuffled(color, rng):
     return color
 
 
-LONG = [
-    pytest.param(d, marks=pytest.mark.torture) for d in (_distorted, _rolling, _blurred, _shuffled)
-]
+def _salt(color, rng):
+    """Make single pixels white."""
+    color[rng.random(color.shape[:2]) < 0.02] = 1
+    return color
+
+
+TORTURE = _salt, _distorted, _rolling, _blurred, _shuffled
+LONG = [pytest.param(d, marks=pytest.mark.torture) for d in TORTURE]
 
 
 @pytest.mark.slow

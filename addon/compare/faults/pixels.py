@@ -29,6 +29,7 @@ OPACITIES = np.arange(2, 101) / 100  # that are tried
 MOST_INKS = 2  # colours that are laid over
 INK_STEPS = 50  # to which these are told apart
 COVERED = 0.9  # the least share of the unexplained pixels that they must make
+TOGETHER = 0.75  # of the pixels: single ones, like salt, are nothing that is laid over
 MOST_BLENDED = 4096  # pixels that are looked at
 
 
@@ -153,6 +154,8 @@ def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
 def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
     """Return an opacity and few colours that make the unexplained pixels, over several surfaces."""
     yield 0.0
+    if not _hangs_together(evidence.open):
+        return []
     rows, columns = np.nonzero(evidence.open)
     (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
     some = spread(np.ones(len(rows), bool), MOST_BLENDED)
@@ -167,6 +170,16 @@ def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
         return []
     values = (opacity, *inks.ravel().tolist())
     return [Guess(values, values[:4], values[:4], box=(left, bottom, right, top))]
+
+
+def _hangs_together(where: Bools) -> bool:
+    """Return whether most of some pixels (h, w) have two beside them, as what is drawn has."""
+    beside = -where.astype(np.int32)
+    padded = np.pad(where, 1).astype(np.int32)
+    for y in range(3):
+        for x in range(3):
+            beside += padded[y : y + where.shape[0], x : x + where.shape[1]]
+    return bool((beside[where] >= 2).mean() > TOGETHER)
 
 
 def _inks(traced: Floats, shown: Floats, opacity: float) -> tuple[float, float, Floats]:
