@@ -10,6 +10,7 @@ from functools import cache
 
 import numpy as np
 
+from .camera_faults import offset
 from .description import Description
 from .faults import FAULTS
 from .making import Fault, Made, right
@@ -17,6 +18,7 @@ from .renderer import Solid, Tracer
 
 # Pixels beside an edge in which Embree's float32 may tell the same picture apart.
 ROUNDED = 6
+QUARTERS = (-0.25, 0.25)  # of a pixel
 LEAST = 20  # pixels of a second colour that a picture must have to say anything
 EXACT = 1e-9  # relative: sums of some float64 products
 
@@ -48,6 +50,12 @@ def right_names(fault: Fault, scene: Description) -> dict[str, str]:
     for key, reason in (*_of_camera(scene, made), *_of_solids(scene, made)):
         out.setdefault(key, reason)
     own = picture_of(fault, scene)
+    if fault.key == "resampled" and own is not None:
+        # The nearest pixel of a larger picture is a ray beside the centre: the same everywhere.
+        for other in (offset(x, y) for x in QUARTERS for y in QUARTERS):
+            shown = picture_of(other, scene)
+            if shown is not None and same(own, shown):
+                out["pixel_offset"] = f"the same picture: {other.name}"
     for other in FAULTS:
         if other.key not in out and scene.number in other.only and _slow(other) == _slow(fault):
             shown = picture_of(other, scene)
