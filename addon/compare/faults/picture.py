@@ -22,7 +22,7 @@ from .fault import Example, Fault, Find, Guess, Make
 from .pixels import PIXEL_FAULTS
 
 RADII = (0.5, 0.75, 1.0, 1.5, 2.0)  # of filters that are tried, in pixels
-EDGES = 0.75  # the least share of edges that must be mixed, for each pixel of the radius
+EDGES = 0.4, 0.8  # the least share of edges that must be mixed: by less than a pixel, by more
 MIXED = 0.5  # the least share of unexplained pixels that must show no colour of the scene
 _BGRA = [2, 1, 0, 3]
 
@@ -176,7 +176,7 @@ def _edges_mix(evidence: Evidence, radius: float) -> bool:
     made = evidence.picture.made_of(evidence.frame.color)
     apart = [largest_within(v, 1) + largest_within(-v, 1) for v in np.moveaxis(made, -1, 0)]
     edge = np.max(apart, axis=0) > 2 * NEAR
-    return bool(evidence.open[edge].mean() >= EDGES * min(radius, 1.0)) if edge.any() else False
+    return bool(edge.any() and evidence.open[edge].mean() >= EDGES[radius >= 1])
 
 
 def _may_mix(evidence: Evidence, radius: float) -> bool:
