@@ -6,6 +6,7 @@ or if the numbers of one, which a fit finds, make the other. Every name comes wi
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -56,6 +57,8 @@ def right_names(fault: Fault, scene: Description) -> dict[str, str]:
             shown = picture_of(other, scene)
             if shown is not None and same(own, shown):
                 out["pixel_offset"] = f"the same picture: {other.name}"
+    if own is not None and "object_missing" not in out:
+        out.update(_of_missing(scene, made, own))
     for other in FAULTS:
         if other.key not in out and scene.number in other.only and _slow(other) == _slow(fault):
             shown = picture_of(other, scene)
@@ -133,6 +136,18 @@ def _of_solids(scene: Description, made: Made) -> list[tuple[str, str]]:
         if np.allclose(by, by[0], atol=1e-9):
             return [("object_moved", f"'{name}' moved by {np.round(by[0], 6).tolist()} m")]
     return []
+
+
+def _of_missing(scene: Description, made: Made, own: np.ndarray) -> dict[str, str]:
+    """Return what else leaves out all of one object that is seen, as culling does of a sheet."""
+    correct = right(scene)
+    left = {s.name: len(s.triangles) for s in made.solids}
+    for solid in correct.solids:
+        if left.get(solid.name, 0) < len(solid.triangles):
+            others = tuple(s for s in correct.solids if s.name != solid.name)
+            if same(own, replace(correct, solids=others).stored()):
+                return {"object_missing": f"the same picture: '{solid.name}' is missing"}
+    return {}
 
 
 def _alike(first: Solid, second: Solid) -> bool:
