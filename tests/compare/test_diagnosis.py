@@ -267,6 +267,27 @@ def test_something_laid_over_the_picture(solids, opacity):
     assert "overlay" not in names(diagnosis_of(solids, like))
 
 
+@pytest.mark.slow
+def test_stripes_in_a_box_over_one_surface_are_laid_over_it(solids):
+    """Their opacity lies between two; one colour, or a round shape, may be an unknown object."""
+    right = render(solids)
+    floor = right.object_index == right.object_index[5, 24]
+    assert floor[2:14, 4:44].all()
+    striped, plain, round_ = (right.color.copy() for _ in range(3))
+    ink = np.where(np.arange(40)[:, None] % 6 < 3, 0.95, 0.02)
+    striped[2:14, 4:44, :3] = 0.4 * striped[2:14, 4:44, :3] + 0.6 * ink
+    found = diagnosis_of(solids, striped)
+    assert names(found) == ["overlay"]
+    guess = found.diagnosis.told[0].guess
+    assert guess.low[0] <= 0.6 <= guess.high[0] == 1
+    plain[2:14, 4:44, :3] = (0.02, 0.97, 0.95)
+    assert "overlay" not in names(diagnosis_of(solids, plain))
+    y, x = np.mgrid[2:14, 4:44]
+    disc = np.hypot(y - 8, (x - 24) / 3) < 6
+    round_[2:14, 4:44][disc] = striped[2:14, 4:44][disc]
+    assert "overlay" not in names(diagnosis_of(solids, round_))
+
+
 def test_nothing_is_done_where_nothing_is_unexplained(solids):
     def never():
         raise AssertionError("no variant is asked for")

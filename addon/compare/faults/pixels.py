@@ -1,4 +1,4 @@
-"""Faults that mix a picture's pixels with others: another size, JPEG, something laid over it.
+"""Faults that mix a picture's pixels with others: another size, JPEG.
 
 No ray is asked: what is traced goes through the same, and is held against the picture.
 """
@@ -10,27 +10,21 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...arrays import Array, Bools, Colors, Floats
+from ...arrays import Array, Colors
 from ...images import curve_undone, encoded
 from ...scene import Region
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
-from ..evidence import NEAR, Evidence, spread
+from ..evidence import Evidence
 from .fault import Fault, Guess
+from .laid_over import LAID_OVER
 
 SIZES = (1 / 2, 0.9, 0.8, 1 / 3, 1 / 4, 2 / 3, 3 / 4, 2.0)  # of what may have been resampled
 NEAREST, LINEAR, BOX = 0.0, 1.0, 2.0
 QUALITIES = (95, 90, 85, 80, 75, 70, 60, 50, 40, 30)
+FAINT = 0.1  # of an encoded channel: most of what a JPEG makes of a flat colour is off by less
 JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its own way
-LEAST_SURFACES = 2  # that something laid over a picture must cover: else it is a recoloured object
-LEAST_COVERED = 0.02  # of what is covered, for a surface to count
-OPACITIES = np.arange(2, 101) / 100  # that are tried
-MOST_INKS = 2  # colours that are laid over
-INK_STEPS = 50  # to which these are told apart
-COVERED = 0.9  # the least share of the unexplained pixels that they must make
-TOGETHER = 0.75  # of the pixels: single ones, like salt, are nothing that is laid over
-MOST_BLENDED = 4096  # pixels that are looked at
 
 
 def _other_size(case: Case, frame: Frame, guess: Guess) -> Case | None:
@@ -104,6 +98,9 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Guess]]:
     if evidence.picture.levels not in (0, 255):
         return []
     shown = encoded(evidence.picture.color)[..., :3]
+    traced = encoded(evidence.frame.color)[..., :3]
+    if np.median(np.abs(traced - shown).max(axis=-1)[evidence.open]) > FAINT:
+        return []  # other surfaces are shown
 
     def off(quality: int, sampling: int) -> tuple[float, Guess]:
         guess = Guess((float(quality), float(sampling)))
@@ -119,7 +116,7 @@ def _find_jpeg(evidence: Evidence) -> Work[list[Guess]]:
     for quality in range(near - 4, near + 5):
         found.append(off(quality, sampling))
         yield 0.0
-    plain = float(np.abs(encoded(evidence.frame.color)[..., :3] - shown).mean())
+    plain = float(np.abs(traced - shown).mean())
     error, best = min(found, key=lambda pair: pair[0])
     return [best] if error < plain / 2 else []
 
@@ -128,94 +125,6 @@ def _as_jpeg(case: Case, frame: Frame, guess: Guess) -> Case:
     """Allow for what two writers of a JPEG may differ by."""
     picture = replace(case.picture, levels=255, dither=JPEG_LEVELS, opaque=True)
     return replace(case, picture=picture)
-
-
-def _in_box(shape: tuple[int, ...], guess: Guess) -> Bools:
-    assert guess.box
-    left, bottom, right, top = guess.box
-    out = np.zeros(shape, bool)
-    out[bottom:top, left:right] = True
-    return out
-
-
-def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
-    """Return a picture with colours laid over it, wherever it is unexplained in the guess' box."""
-    opacity, inks = guess.values[0], np.reshape(guess.values[1:], (-1, 3))
-    where = _in_box(evidence.open.shape, guess) & evidence.open
-    under, shown = colors[where].astype(np.float64), evidence.picture.color[where, :3]
-    made = (1 - opacity) * under[:, None, :3] + opacity * inks
-    best = np.abs(made - shown[:, None]).max(axis=-1).argmin(axis=1)
-    out = colors.copy()
-    out[where, :3] = made[np.arange(len(best)), best]
-    out[where, 3] = evidence.picture.color[where, 3]
-    return out
-
-
-def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
-    """Return an opacity and few colours that make the unexplained pixels, over several surfaces."""
-    yield 0.0
-    if not _hangs_together(evidence.open):
-        return []
-    rows, columns = np.nonzero(evidence.open)
-    (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
-    some = spread(np.ones(len(rows), bool), MOST_BLENDED)
-    at = rows[some], columns[some]
-    traced = evidence.frame.color[at].astype(np.float64)[:, :3]
-    shown = evidence.picture.color[at].astype(np.float64)[:, :3]
-    if not np.isfinite(shown).all():
-        return []
-    best = max((_inks(traced, shown, o) for o in OPACITIES), key=lambda found: found[0])
-    covered, opacity, inks = best
-    if covered < COVERED or _of_scene(evidence, opacity, inks):
-        return []
-    values = (opacity, *inks.ravel().tolist())
-    return [Guess(values, values[:4], values[:4], box=(left, bottom, right, top))]
-
-
-def _hangs_together(where: Bools) -> bool:
-    """Return whether most of some pixels (h, w) have two beside them, as what is drawn has."""
-    beside = -where.astype(np.int32)
-    padded = np.pad(where, 1).astype(np.int32)
-    for y in range(3):
-        for x in range(3):
-            beside += padded[y : y + where.shape[0], x : x + where.shape[1]]
-    return bool((beside[where] >= 2).mean() > TOGETHER)
-
-
-def _inks(traced: Floats, shown: Floats, opacity: float) -> tuple[float, float, Floats]:
-    """Return the share of n pixels that few colours explain if laid over with an opacity.
-
-    And the opacity, fitted, and the colours (k, 3). Each of them must lie over several surfaces.
-    """
-    ink = (shown - (1 - opacity) * traced) / opacity
-    key, count = np.unique(np.rint(INK_STEPS * ink), axis=0, return_counts=True)
-    inks: list[Floats] = []
-    slopes: list[Floats] = []
-    covered = 0
-    for k in np.argsort(-count, kind="stable")[:MOST_INKS]:
-        own = np.abs(ink - key[k] / INK_STEPS).max(axis=1) <= 1 / INK_STEPS
-        under = np.unique(traced[own], axis=0, return_counts=True)[1]
-        several = (under >= LEAST_COVERED * len(traced)).sum() >= LEAST_SURFACES
-        if several and key[k].min() >= -1 and key[k].max() <= INK_STEPS + 1:
-            inks.append(np.median(ink[own], axis=0))
-            slopes.append(np.stack([v[own] - v[own].mean(axis=0) for v in (traced, shown)]))
-            covered += int(own.sum())
-    if inks:
-        a, b = np.concatenate(slopes, axis=1)
-        opacity = 1 - float((a * b).sum() / max(float((a * a).sum()), 1e-12))
-        kept = [(shown - (1 - opacity) * traced) / opacity] if opacity > 0 else []
-        inks = (
-            [np.median(kept[0][np.abs(ink - i).max(axis=1) <= 1 / INK_STEPS], axis=0) for i in inks]
-            if kept
-            else []
-        )
-    return min(covered / len(traced), 1.0) if inks else 0.0, opacity, np.array(inks)
-
-
-def _of_scene(evidence: Evidence, opacity: float, inks: Floats) -> bool:
-    """Return whether what is laid over hides all, and has a colour that an object may have."""
-    table = evidence.case.scene.color_table[:, None, :3]
-    return opacity > 1 - NEAR and bool((np.abs(table - inks).max(axis=-1) <= NEAR).any())
 
 
 PIXEL_FAULTS = (
@@ -238,21 +147,8 @@ PIXEL_FAULTS = (
         _find_jpeg,
         ("quality",),
         put_right=_as_jpeg,
-        effort=4,
         sampled=False,
         after=_jpeg,
     ),
-    Fault(
-        "overlay",
-        "something is laid over the picture: opacity {opacity:.2f}, "
-        "colour ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
-        "switch off stamps, overlays, watermarks and cursors",
-        lambda case, frame, guess: case,
-        _find_overlay,
-        ("opacity", "red", "green", "blue"),
-        put_right=lambda case, frame, guess: case,
-        effort=4,
-        sampled=False,
-        after=_laid_over,
-    ),
+    LAID_OVER,
 )

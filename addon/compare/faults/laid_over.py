@@ -1,0 +1,157 @@
+"""The fault of something that is laid over a picture: a stamp, a watermark, a cursor, lines."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...arrays import Bools, Colors, Floats
+from ...tracer.progress import Work
+from ..evidence import NEAR, Evidence, spread
+from .fault import Fault, Guess
+
+Values = tuple[float, ...]
+
+LEAST_SURFACES = 2  # that a colour laid over a picture must cover: else it may be an object's
+LEAST_COVERED = 0.02  # of what is covered, for a surface to count
+OPACITIES = np.arange(2, 101) / 100  # that are tried
+MOST_INKS = 2  # colours that are laid over
+INK_STEPS = 50  # to which these are told apart
+COVERED = 0.9  # the least share of the unexplained pixels that they must make
+TOGETHER = 0.75  # of the pixels: single ones, like salt, are nothing that is laid over
+MOST_BLENDED = 4096  # pixels that are looked at
+
+
+def _in_box(shape: tuple[int, ...], guess: Guess) -> Bools:
+    assert guess.box
+    left, bottom, right, top = guess.box
+    out = np.zeros(shape, bool)
+    out[bottom:top, left:right] = True
+    return out
+
+
+def _laid_over(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
+    """Return a picture with colours laid over it, wherever it is unexplained in the guess' box."""
+    opacity, inks = guess.values[0], np.reshape(guess.values[1:], (-1, 3))
+    where = _in_box(evidence.open.shape, guess) & evidence.open
+    under, shown = colors[where].astype(np.float64), evidence.picture.color[where, :3]
+    made = (1 - opacity) * under[:, None, :3] + opacity * inks
+    best = np.abs(made - shown[:, None]).max(axis=-1).argmin(axis=1)
+    out = colors.copy()
+    out[where, :3] = made[np.arange(len(best)), best]
+    out[where, 3] = evidence.picture.color[where, 3]
+    return out
+
+
+def _find_overlay(evidence: Evidence) -> Work[list[Guess]]:
+    """Return an opacity and few colours that make the unexplained pixels.
+
+    They lie over several surfaces, or two of them fill a box, as a stamp's do.
+    """
+    yield 0.0
+    if not _hangs_together(evidence.open):
+        return []
+    rows, columns = np.nonzero(evidence.open)
+    (left, right), (bottom, top) = ((int(np.min(v)), int(np.max(v)) + 1) for v in (columns, rows))
+    some = spread(np.ones(len(rows), bool), MOST_BLENDED)
+    at = rows[some], columns[some]
+    traced = evidence.frame.color[at].astype(np.float64)[:, :3]
+    shown = evidence.picture.color[at].astype(np.float64)[:, :3]
+    if not np.isfinite(shown).all():
+        return []
+    best = max((_inks(traced, shown, o) for o in OPACITIES), key=lambda found: found[0])
+    covered, opacity, inks = best
+    boxed = len(rows) >= COVERED * (right - left) * (top - bottom)
+    if covered < COVERED and boxed:
+        covered, opacity, inks = _inks(traced, shown, 1.0, surfaces=1)
+        own = _of_scene(evidence, inks).all() or len(inks) < MOST_INKS  # it may be an object
+    else:
+        own = opacity > 1 - NEAR and _of_scene(evidence, inks).any()
+    if covered < COVERED or own:
+        return []
+    values = (opacity, *inks.ravel().tolist())
+    low, high = _as_likely(traced, shown, values)
+    return [Guess(values, low, high, box=(left, bottom, right, top))]
+
+
+def _as_likely(traced: Floats, shown: Floats, values: Values) -> tuple[Values, Values]:
+    """Return from where to where the opacity and the first colour may lie.
+
+    Over one surface, an ink is as likely to be a stronger one that covers less.
+    """
+    if len(np.unique(traced, axis=0)) > 1:
+        return values[:4], values[:4]
+    under, ink = traced[0], np.array(values[1:4])
+    darker = 1 - shown / np.maximum(under, 1e-12)
+    brighter = (shown - under) / np.maximum(1 - under, 1e-12)
+    least = float(np.clip(np.maximum(darker, brighter).max(), NEAR, 1.0))
+    strong = (ink - (1 - least) * under) / least
+    low, high = np.sort((ink, strong), axis=0).tolist()
+    return (least, *low), (1.0, *high)
+
+
+def _hangs_together(where: Bools) -> bool:
+    """Return whether most of some pixels (h, w) have two beside them, as what is drawn has."""
+    beside = -where.astype(np.int32)
+    padded = np.pad(where, 1).astype(np.int32)
+    for y in range(3):
+        for x in range(3):
+            beside += padded[y : y + where.shape[0], x : x + where.shape[1]]
+    return bool((beside[where] >= 2).mean() > TOGETHER)
+
+
+def _inks(
+    traced: Floats, shown: Floats, opacity: float, surfaces: int = LEAST_SURFACES
+) -> tuple[float, float, Floats]:
+    """Return the share of n pixels that few colours explain if laid over with an opacity.
+
+    And the opacity, fitted, and the colours (k, 3). Each of them must lie over some surfaces.
+    """
+    ink = (shown - (1 - opacity) * traced) / opacity
+    left = np.ones(len(ink), bool)
+    owned: list[Bools] = []  # which pixels have the first ink, the second
+    for _ in range(MOST_INKS):
+        if not left.any():
+            break
+        key, count = np.unique(np.rint(INK_STEPS * ink[left]), axis=0, return_counts=True)
+        common = key[np.argmax(count)]
+        own = left & (np.abs(ink - common / INK_STEPS).max(axis=1) <= 1 / INK_STEPS)
+        left &= ~own
+        under = np.unique(traced[own], axis=0, return_counts=True)[1]
+        several = (under >= LEAST_COVERED * len(traced)).sum() >= surfaces
+        if several and common.min() >= -1 and common.max() <= INK_STEPS + 1:
+            owned.append(own)
+    if not owned:
+        return 0.0, opacity, np.empty((0, 3))
+    # What is seen of the surfaces beneath, by least squares, is what the inks let through.
+    below, above = (
+        np.concatenate([v[o] - v[o].mean(axis=0) for o in owned]) for v in (traced, shown)
+    )
+    apart = float((below * below).sum())
+    if apart > NEAR:
+        opacity = 1 - float((below * above).sum() / apart)
+    if opacity <= 0:
+        return 0.0, opacity, np.empty((0, 3))
+    ink = (shown - (1 - opacity) * traced) / opacity
+    covered = sum(int(own.sum()) for own in owned) / len(traced)
+    return covered, opacity, np.array([np.median(ink[own], axis=0) for own in owned])
+
+
+def _of_scene(evidence: Evidence, inks: Floats) -> Bools:
+    """Return which of k colours (k, 3) an object of the scene may have, (k,)."""
+    table = evidence.case.scene.color_table[:, None, :3]
+    return (np.abs(table - inks).max(axis=-1) <= NEAR).any(axis=0)
+
+
+LAID_OVER = Fault(
+    "overlay",
+    "something is laid over the picture: opacity {opacity:.2f}, "
+    "colour ({red:.3f}, {green:.3f}, {blue:.3f}), linear",
+    "switch off stamps, overlays, watermarks and cursors",
+    lambda case, frame, guess: case,
+    _find_overlay,
+    ("opacity", "red", "green", "blue"),
+    put_right=lambda case, frame, guess: case,
+    effort=4,
+    sampled=False,
+    after=_laid_over,
+)
