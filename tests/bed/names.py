@@ -10,6 +10,7 @@ from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import trimesh
 
 from .camera_faults import offset
 from .description import Description
@@ -135,7 +136,17 @@ def _of_solids(scene: Description, made: Made) -> list[tuple[str, str]]:
         by = other.vertices - own.vertices
         if np.allclose(by, by[0], atol=1e-9):
             return [("object_moved", f"'{name}' moved by {np.round(by[0], 6).tolist()} m")]
+        displaced = tuple(_displaced(own, by) if s.name == name else s for s in made.solids)
+        if same(made.stored(), replace(made, solids=displaced).stored()):
+            return [("smooth_displaced", f"the same picture: '{name}' displaced")]
     return []
+
+
+def _displaced(solid: Solid, by: np.ndarray) -> Solid:
+    """Return a solid displaced along its vertices' normals by what a change moves them by."""
+    normal = trimesh.Trimesh(solid.vertices, solid.triangles, process=False).vertex_normals
+    distance = (by * normal).sum(axis=1).mean()
+    return replace(solid, vertices=solid.vertices + distance * normal)
 
 
 def _of_missing(scene: Description, made: Made, own: np.ndarray) -> dict[str, str]:
