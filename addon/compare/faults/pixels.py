@@ -12,7 +12,7 @@ import numpy as np
 
 from ...arrays import Array, Colors
 from ...images import curve_undone, encoded
-from ...scene import Region
+from ...scene import Region, ViewWindow
 from ...tracer.frame import Frame
 from ...tracer.progress import Work
 from ..case import Case
@@ -27,14 +27,17 @@ FAINT = 0.1  # of an encoded channel: most of what a JPEG makes of a flat colour
 JPEG_LEVELS = 8.0  # by how much two writers' pixels may differ: each rounds its own way
 
 
-def _other_size(case: Case, frame: Frame, guess: Guess) -> Case | None:
-    """Return the case with the whole picture traced at another size."""
+def _other_size(case: Case, frame: Frame, guess: Guess) -> Case:
+    """Return the case with what the picture shows, be it a border's, traced at another size."""
     camera = case.scene.camera
-    width, height = (max(1, round(guess.values[0] * n)) for n in (camera.width, camera.height))
-    r = camera.region
-    if (r.width, r.height) != (camera.width, camera.height):
-        return None  # a border's pixels would not fall on those of another size
-    camera = replace(camera, width=width, height=height, region=Region(0, 0, width, height))
+    r, w = camera.region, camera.window
+    across, up = (w.right - w.left) / camera.width, (w.top - w.bottom) / camera.height
+    window = ViewWindow(
+        w.left + r.x0 * across, w.left + r.x1 * across, w.bottom + r.y0 * up, w.bottom + r.y1 * up
+    )
+    width, height = (max(1, round(guess.values[0] * n)) for n in (r.width, r.height))
+    whole = Region(0, 0, width, height)
+    camera = replace(camera, window=window, width=width, height=height, region=whole)
     return case.with_scenes(lambda scene: scene.seen_by(camera))
 
 
