@@ -68,7 +68,7 @@ def _resampled(colors: Colors, guess: Guess, evidence: Evidence) -> Colors:
 
 def _sizes(evidence: Evidence) -> Work[list[Guess]]:
     """Return the sizes and ways that are tried."""
-    ways = {NEAREST: "the nearest pixel", LINEAR: "linearly", BOX: "the mean of pixels"}
+    ways = {NEAREST: "by the nearest pixel", LINEAR: "linearly", BOX: "by the mean of pixels"}
     return [
         Guess((size, way), words=words)
         for size in SIZES
@@ -133,7 +133,7 @@ def _as_jpeg(case: Case, frame: Frame, guess: Guess) -> Case:
 PIXEL_FAULTS = (
     Fault(
         "resampled",
-        "the picture is rendered at {size:.4g} of its size, and resampled by {words}",
+        "the picture is rendered at {size:.4g} of its size, and resampled {words}",
         "render it at the size at which it is compared",
         _other_size,
         _sizes,
