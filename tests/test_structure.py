@@ -24,6 +24,7 @@ FLOORS = {
     "tracer": 1,
     "framing": 1,
     "scene_files": 1,
+    "mesh_files": 1,
     "mesh_diagnosis": 1,
     "certified": 2,
     "rendering": 2,
