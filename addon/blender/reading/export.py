@@ -18,6 +18,7 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
+from ..opened import reports
 from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
@@ -170,6 +171,7 @@ def _manifest(
         camera=camera,
         objects=tuple(entries),
         unmodelled=(*features, *of_scene(scene, depsgraph.scene)),
+        notes=reports(),
     )
 
 
