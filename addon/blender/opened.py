@@ -6,8 +6,9 @@ sequencer in a channel that it does not have: it reports an error, and goes on.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ def open_file(path: Path) -> None:
         If it cannot be opened, with Blender's reason. What was open before then still is.
     """
     _reports.clear()
-    with _heard() as loaded:
+    with _heard() as loaded, redirect_stdout(sys.stderr):  # Blender writes its reports by Python
         try:
             bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
         except RuntimeError as error:
