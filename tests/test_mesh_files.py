@@ -265,7 +265,7 @@ def test_a_mesh_of_points_in_a_plane_is_named(tmp_path):
     content = (tmp_path / "a.glb").read_bytes()
     assert content.count(b'"type":"VEC3"') == 1
     (tmp_path / "a.glb").write_bytes(content.replace(b'"type":"VEC3"', b'"type":"VEC2"'))
-    with pytest.raises(SceneError, match=r"a\.glb' .*: accessor 1 is of type VEC2, not VEC3"):
+    with pytest.raises(SceneError, match=r"a\.glb' .*: accessor 1 is of type 'VEC2', not VEC3"):
         load_meshes(tmp_path / "a.glb")
 
 

@@ -145,7 +145,7 @@ REFUSED = {
         "accessor 0 takes .* GiB, more than is free",
     ),
     "a component": (edit("accessors", componentType=5124), "accessor 0 has the componentType 5124"),
-    "a type": (edit("accessors", type="VEC2"), "accessor 0 is of type VEC2, not VEC3"),
+    "a type": (edit("accessors", type="VEC2"), "accessor 0 is of type 'VEC2', not VEC3"),
     "an offset": (edit("accessors", byteOffset=4), "accessor 0 ends at byte 52 of buffer view 0"),
     "a stride": (edit("bufferViews", byteStride=8), "buffer view 0 has rows 8 bytes apart"),
     "a wide stride": (edit("bufferViews", byteStride=252), "ends at byte 768 of buffer view 0"),

@@ -17,7 +17,7 @@ from ...arrays import Array, Floats, Index
 from ...scene import SceneError
 from ...tracer.memory import free_memory
 from .buffers import Buffers
-from .document import Document, Thing
+from .document import Document, Thing, quoted
 
 _COMPONENTS: dict[int, np.dtype[Any]] = {  # little-endian, by the file's number
     5120: np.dtype("i1"),
@@ -95,7 +95,7 @@ class Accessors:
     def _of_kind(self, number: int, asker: str, kind: str) -> Thing:
         accessor = self._document.thing("accessors", number, asker)
         if accessor.content.get("type") != kind:
-            said = str(accessor.content.get("type"))[:20]
+            said = quoted(accessor.content.get("type"))
             raise SceneError(f"{accessor.label} is of type {said}, not {kind}, as {asker} needs it")
         return accessor
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from urllib.parse import unquote, unquote_to_bytes, urlsplit
 
 from ...scene import SceneError
-from .document import Document, Thing, printable
+from .document import Document, Thing, short
 from .extensions import DECODED_NOT, MESHOPT
 from .notes import Notes
 
@@ -93,7 +93,7 @@ def _data(uri: str, label: str) -> memoryview:
 
 def _file(folder: Path, uri: str, size: int, label: str) -> memoryview:
     """Return the first bytes of a file in the folder, or below it."""
-    shown = printable(uri[:80])
+    shown = short(uri)
     try:
         parts = urlsplit(uri)
         is_address = bool(parts.scheme or parts.netloc)

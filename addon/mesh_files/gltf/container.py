@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from ...scene import SceneError
-from .document import Document
+from .document import Document, quoted
 from .notes import Notes
 
 _MAGIC = b"glTF"
@@ -107,6 +107,8 @@ def _check_version(document: Document) -> None:
     version, least = (asset.content.get(key, "2.0") for key in ("version", "minVersion"))
     if "version" not in asset.content or not str(version).startswith("2."):
         said = asset.content.get("version")
-        raise SceneError(f"its asset.version is {said!r}; glTF 2 is read: export it again")
+        raise SceneError(f"its asset.version is {quoted(said)}; glTF 2 is read: export it again")
     if least != "2.0":
-        raise SceneError(f"its asset.minVersion is {least!r}; glTF 2.0 is read: export it as 2.0")
+        raise SceneError(
+            f"its asset.minVersion is {quoted(least)}; glTF 2.0 is read: export it as 2.0"
+        )

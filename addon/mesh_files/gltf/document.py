@@ -13,6 +13,7 @@ from ...arrays import Floats
 from ...scene import SceneError
 
 _LARGEST = 2**53  # a size or number beyond it is not exact in all readers (3.6.1.1)
+_SHOWN = 60  # characters of a value in a message
 _LABELS = {  # what messages call the things in the file's lists
     "scenes": "scene",
     "nodes": "node",
@@ -28,6 +29,16 @@ _LABELS = {  # what messages call the things in the file's lists
 def printable(text: str) -> str:
     """Return a text that can stand in a line: what cannot be printed becomes a question mark."""
     return "".join(c if c.isprintable() else "?" for c in text)
+
+
+def short(text: str) -> str:
+    """Return the beginning of a text, as messages show it."""
+    return printable(text[:_SHOWN])
+
+
+def quoted(value: Any) -> str:
+    """Return the beginning of a value, as messages show it."""
+    return short(repr(value))
 
 
 @dataclass(frozen=True)
@@ -112,7 +123,7 @@ class Thing:
 
     def wrong(self, key: str, wanted: str) -> SceneError:
         """Return the error of a value that is not what it should be."""
-        value = printable(repr(self.content[key])[:40])
+        value = quoted(self.content[key])
         return SceneError(f"{self.label} has the {key} {value}, which must be {wanted}")
 
 
@@ -136,7 +147,7 @@ class Document(Thing):
         if number >= len(items):
             raise SceneError(f"{asker} names {label}, and the file has {len(items)} of them")
         found = _thing(items[number], label)
-        return Thing(found.content, f"{label} '{found.name}'") if found.name else found
+        return Thing(found.content, f"{label} {quoted(found.name)}") if found.name else found
 
     def every(self, kind: str) -> Iterator[Thing]:
         """Yield all things of a kind."""
@@ -146,7 +157,7 @@ class Document(Thing):
 
 def _thing(value: Any, label: str) -> Thing:
     if not isinstance(value, dict):
-        raise SceneError(f"{label} is {printable(repr(value)[:40])}, which must be an object")
+        raise SceneError(f"{label} is {quoted(value)}, which must be an object")
     return Thing(value, label)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...scene import SceneError
-from .document import Document, printable
+from .document import Document, short
 from .notes import Notes, listed
 
 QUANTISATION = "KHR_mesh_quantization"
@@ -101,7 +101,7 @@ def _names(document: Document, key: str) -> list[str]:
     names = document.items(key)
     if not all(isinstance(name, str) for name in names):
         raise document.wrong(key, "a list of names")
-    return [printable(name) for name in names]
+    return [short(name) for name in names]
 
 
 def _present(content: dict[str, Any]) -> Iterator[str]:
@@ -114,7 +114,7 @@ def _present(content: dict[str, Any]) -> Iterator[str]:
         elif isinstance(value, dict):
             extensions = value.get("extensions")
             if isinstance(extensions, dict):
-                yield from map(printable, extensions)
+                yield from map(short, extensions)
             # What an extension or the user's extras hold is theirs.
             own = ("extensions", "extras")
             waiting += [v for k, v in value.items() if k not in own and isinstance(v, list | dict)]

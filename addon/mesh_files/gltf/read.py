@@ -14,7 +14,7 @@ from ..contents import Contents, Placed
 from .accessors import Accessors
 from .buffers import Buffers
 from .container import open_container
-from .document import Document, Thing
+from .document import Document, Thing, short
 from .extensions import INSTANCING, check_extensions
 from .nodes import Tree, instances, read_tree
 from .notes import Notes
@@ -137,7 +137,7 @@ def _names(document: Document, tree: Tree, numbers: list[int]) -> dict[int, str]
 
 def _name_the_unused(document: Document, notes: Notes) -> None:
     """Name what the file has that is no mesh."""
-    animations = [a.name or a.label for a in document.every("animations")]
+    animations = [short(a.name) or a.label for a in document.every("animations")]
     if animations:
         notes.add("Animations are not played; everything is traced at rest", *animations)
     if count := document.count("cameras"):
