@@ -1,4 +1,4 @@
-"""Writes and reads scenes as .npz, and reads meshes from OBJ, PLY, STL and GLB files by trimesh.
+"""Writes and reads scenes as .npz, and reads meshes from OBJ, PLY, STL and glTF files.
 
 A .npz is read without pickle: it can hold numbers and nothing that runs.
 """
@@ -10,6 +10,7 @@ import math
 import os
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import takewhile, zip_longest
 from pathlib import Path
 from typing import Any
@@ -20,12 +21,13 @@ import numpy as np
 from .arrays import Array, Floats
 from .checked_json import camera_of, whole
 from .framing import ANGLE, BACKWARD, axes_of, framing, shown_points
+from .mesh_files.gltf import read_gltf
 from .scene import Camera, Instance, Mesh, Plane, Scene, SceneError, check_size, drop_non_finite
 from .tracer.memory import free_memory
 
 Placed = tuple[Mesh, Floats]  # with its world_from_object, (4, 4)
 
-MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb")
+MESH_SUFFIXES = (".obj", ".ply", ".stl", ".glb", ".gltf")
 _SCHEMA = "reference_tracer.scene/1"
 _ARRAYS = {  # the arrays of a .npz and their shapes, by what has them
     "mesh": {"vertices": "n3", "triangles": "n3", "slots": "n", "corner_colors": "n34"},
@@ -133,9 +135,9 @@ def check_is_file(path: str | Path) -> None:
 
 
 def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
-    """Read the meshes of an OBJ, PLY, STL or GLB file.
+    """Read the meshes of an OBJ, PLY, STL, GLB or glTF file.
 
-    `up` is the file's axis that is up, "y" or "z": by default Y of a GLB, as its specification
+    `up` is the file's axis that is up, "y" or "z": by default Y of glTF, as its specification
     says, and Z of the others, which do not say.
 
     Returns
@@ -149,21 +151,19 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
     SceneError
         If there is no such file, it cannot be read, or it holds no triangle.
     """
-    import trimesh
-
     path = Path(path)
     check_is_file(path)
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")  # trimesh's, of its own work
             kind = path.suffix.lower().lstrip(".")
-            if kind == "ply":
-                _refuse_strips(path)
-            loaded: Any = trimesh.load(
-                path, file_type=kind, force="scene", process=False, skip_materials=True
-            )
-            is_y_up = (up or ("y" if kind == "glb" else "z")) == "y"
-            out = [m for node in loaded.graph.nodes_geometry for m in _mesh_of(loaded, node)]
+            is_gltf = kind in ("glb", "gltf")
+            is_y_up = (up or ("y" if is_gltf else "z")) == "y"
+            if is_gltf:
+                found = read_gltf(path).placed
+                out = [(replace(p.mesh, name=p.object), p.world_from_object) for p in found]
+            else:
+                out = _read_by_trimesh(path, kind)
     except Exception as error:  # each of trimesh's readers raises its own kinds
         why = str(error)
         if "unexpected length" in why:  # trimesh takes a PLY's first list for the length of all
@@ -174,6 +174,17 @@ def load_meshes(path: str | Path, up: str | None = None) -> list[Placed]:
     if not any(len(mesh.triangles) for mesh, _ in out):
         raise SceneError(f"'{path}' holds no triangles.")
     return out
+
+
+def _read_by_trimesh(path: Path, kind: str) -> list[Placed]:
+    import trimesh
+
+    if kind == "ply":
+        _refuse_strips(path)
+    loaded: Any = trimesh.load(
+        path, file_type=kind, force="scene", process=False, skip_materials=True
+    )
+    return [m for node in loaded.graph.nodes_geometry for m in _mesh_of(loaded, node)]
 
 
 def _refuse_strips(path: Path) -> None:

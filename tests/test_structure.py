@@ -23,6 +23,7 @@ FLOORS = {
     "methods": 1,
     "tracer": 1,
     "framing": 1,
+    "mesh_files": 1,
     "scene_files": 1,
     "mesh_diagnosis": 1,
     "certified": 2,
