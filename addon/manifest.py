@@ -151,6 +151,13 @@ class Manifest:
             if whole := sum(not e.exported for e in unseen):
                 told += f", with nothing of {_count(whole, 'object')} in view"
             yield f"  outside the view, and not needed: {told}", False
+        yield from self._remarks()
+
+    def remarks(self) -> list[str]:
+        """Return the last of these lines: what the file holds that is shown otherwise, or not."""
+        return [text for text, _ in self._remarks()]
+
+    def _remarks(self) -> Iterator[tuple[str, bool]]:
         for u in self.unmodelled:
             yield f"  {u.line()}", u.effect is not Effect.NONE
         for note in self.notes:

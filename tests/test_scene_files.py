@@ -12,8 +12,9 @@ import zipfile
 import numpy as np
 import pytest
 from reference_tracer import scene_files
+from reference_tracer.mesh_files.load import load_meshes
 from reference_tracer.scene import Instance, Mesh, Plane, Region, Scene, SceneError
-from reference_tracer.scene_files import load_meshes, load_scene, save_scene
+from reference_tracer.scene_files import load_scene, save_scene
 
 
 @pytest.fixture

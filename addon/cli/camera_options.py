@@ -7,7 +7,9 @@ from dataclasses import fields
 from pathlib import Path
 
 from ..framing import ANGLE, SIZE, Choice
-from ..scene_files import MESH_SUFFIXES
+from ..mesh_files.load import READERS
+from ..scene import SceneError
+from ..scene_files import check_is_file
 from .arguments import is_blend, refuse
 from .parser import COUNT, FINITE, POSITIVE, Parser, number
 
@@ -93,15 +95,42 @@ def _add_parts_of_blend(parser: Parser) -> None:
     )
 
 
+# What Blender imports and `reftrace` does not read.
+_OF_OTHERS = frozenset(
+    ".3ds .abc .bvh .collada .dae .dxf .fbx .svg .usd .usda .usdc .usdz .vrml .wrl .x3d".split()
+)
+
+
+def check_kind(path: Path) -> None:
+    """Raise a SceneError if there is no such file, or it is of a kind that is not read.
+
+    A .blend is not looked at: it may be open in the Blender that runs this.
+    """
+    suffix = path.suffix.lower()
+    if suffix == ".blend":
+        return
+    check_is_file(path)
+    if suffix == ".npz" or suffix in READERS:
+        return
+    do = ""
+    if suffix in _OF_OTHERS:
+        do = ": import it into Blender, and save a .blend"
+    elif suffix.startswith(".blend"):
+        do = ": a backup of Blender's is a .blend once it is renamed"
+    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(READERS)}{do}")
+
+
 def choice_from(given: Namespace, path: Path) -> Choice:
     """Return what the options choose of a file.
 
     Raises
     ------
     SceneError
-        If an option has no effect for such a file, or beside the others.
+        If the file is of no kind that is read, or an option has no effect for it, or beside the
+        others.
     """
-    is_mesh = path.suffix.lower() in MESH_SUFFIXES
+    check_kind(path)
+    is_mesh = path.suffix.lower() in READERS
     _refuse_without_camera(given, is_mesh)
     if is_mesh:
         refuse(given, _OF_BLEND, f"is for a .blend: '{path}' has no such thing")

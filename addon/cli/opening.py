@@ -10,49 +10,77 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..framing import ANGLE, SIZE, Choice
+from ..manifest import Manifest
+from ..mesh_files.contents import Contents
+from ..mesh_files.load import READERS, load_meshes, scene_of_meshes
 from ..scene import Scene, SceneError
-from ..scene_files import MESH_SUFFIXES, check_is_file, load_meshes, load_scene, scene_of_meshes
+from ..scene_files import check_is_file, load_scene
 from ..tracer.settings import Settings
 from . import running
+from .arguments import is_blend
+from .camera_options import check_kind
+from .file_manifest import file_manifest
 
 _AS_SAVED = Choice()
-SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(MESH_SUFFIXES)})"
+SOURCES = f"scene.blend, scene.npz, or a mesh ({', '.join(READERS)})"
+
+
+class Opened(NamedTuple):
+    """What a file gives."""
+
+    scene: Scene
+    settings: Settings  # that it stores
+    manifest: Manifest
 
 
 def load(path: Path, choice: Choice = _AS_SAVED) -> tuple[Scene, Settings]:
     """Return the scene of a .blend, a .npz or a mesh, with the settings that it stores.
 
-    Meshes are framed where no camera is chosen.
+    What is to be said of it is printed. Raises what :func:`open_file` raises.
+    """
+    opened = open_file(path, choice)
+    lines = opened.manifest.lines()
+    if not is_blend(path):  # there it is plain what is exported
+        lines = opened.manifest.remarks()
+    print(*lines, sep="\n", end="\n" if lines else "")
+    return opened.scene, opened.settings
+
+
+def open_file(path: Path, choice: Choice = _AS_SAVED) -> Opened:
+    """Open a .blend, a .npz or a mesh. Meshes are framed where no camera is chosen.
 
     Raises
     ------
     SceneError, OSError
         If there is no such scene, or it cannot be read.
     """
-    suffix = path.suffix.lower()
-    if suffix == ".blend":
+    if is_blend(path):
         with open_blend(path, choice) as blender:
             from ..blender.compare import export_open_file
 
             scene, manifest, settings = export_open_file(blender.context)
-        print(*manifest.lines(), sep="\n")
-        return scene, settings
-    check_is_file(path)
-    if suffix == ".npz":
-        return load_scene(path), Settings()
-    if suffix in MESH_SUFFIXES:
-        size = choice.width or SIZE[0], choice.height or SIZE[1]
-        camera = choice.placed(*size) if choice.eye else None
+        return Opened(scene, settings, manifest)
+    check_kind(path)
+    contents = Contents(())
+    if path.suffix.lower() == ".npz":
+        scene = load_scene(path)
+    else:
         import_trimesh()
-        meshes = load_meshes(path, choice.up)
-        try:
-            return scene_of_meshes(meshes, camera, *size, choice.angle or ANGLE), Settings()
-        except SceneError as error:
-            raise SceneError(f"'{path}': {error}") from error
-    raise SceneError(f"'{path}' is none of .blend, .npz, {', '.join(MESH_SUFFIXES)}")
+        contents = load_meshes(path, choice.up)
+        scene = _framed(path, contents, choice)
+    return Opened(scene, Settings(), file_manifest(path, scene, contents))
+
+
+def _framed(path: Path, contents: Contents, choice: Choice) -> Scene:
+    size = choice.width or SIZE[0], choice.height or SIZE[1]
+    camera = choice.placed(*size) if choice.eye else None
+    try:
+        return scene_of_meshes(contents, camera, *size, choice.angle or ANGLE)
+    except SceneError as error:
+        raise SceneError(f"'{path}': {error}") from error
 
 
 def import_trimesh() -> None:

@@ -25,3 +25,6 @@ class Contents:
     # What the file holds and the meshes do not show, or show in one of several ways: a sentence
     # each, with what it changes.
     notes: tuple[str, ...] = ()
+    # What of the file's surfaces is not traced, in the same words: it may change the picture, and
+    # nobody knows where, so a comparison cannot agree.
+    missing: tuple[str, ...] = ()

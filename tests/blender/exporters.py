@@ -18,11 +18,12 @@ from typing import Any
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 from numpy.typing import NDArray
 from reference_tracer.blender.reading.export import export
+from reference_tracer.mesh_files.load import load_meshes, scene_of_meshes
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Scene
-from reference_tracer.scene_files import load_meshes, scene_of_meshes
 from reference_tracer.tracer.vector import transform_points
 
 from .exporter_scenes import SCENES, make_scene
@@ -104,6 +105,14 @@ def _without_modifiers() -> None:
     _show_all()
 
 
+def _in_world_space() -> None:
+    for obj in bpy.data.objects:
+        if obj.type == "MESH":
+            obj.data.transform(obj.matrix_world)
+            obj.matrix_world = Matrix()
+
+
+_SCALED = Cell("a polygon that is not flat is cut by its scaled shape", _in_world_space)
 _EYE = Cell("what only the eye hides is written", lambda: _show("Hidden"))
 
 
@@ -119,6 +128,7 @@ _GLTF = {
     "hidden_and_empty": Cell("hidden and excluded objects are written", _show_all),
 }
 CELLS: dict[tuple[str, str], Cell] = {
+    **{("scales", suffix): _SCALED for suffix in ("obj", "ply")},
     **{("hidden_and_empty", suffix): _EYE for suffix in ("ply", "stl")},
     **{(scene, suffix): cell for scene, cell in _GLTF.items() for suffix in ("glb", "gltf")},
 }

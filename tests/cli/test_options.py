@@ -19,6 +19,10 @@ from .parts import SMALL
 
 BAD = {
     "no file": (["none.ply"], "none.ply"),
+    "a kind that is not read": (["words.txt"], "'words.txt' is none of .blend, .npz, .obj"),
+    "a kind that Blender imports": (["scene.fbx"], "import it into Blender"),
+    "a backup": (["scene.blend1"], "a .blend once it is renamed"),
+    "a folder": (["folder.png"], "'folder.png' is no file but a folder"),
     "other suffix": (["words.txt"], "words.txt"),
     "empty mesh": (["empty.obj"], "empty.obj"),
     "no scene": (["empty.npz"], "empty.npz"),
@@ -77,7 +81,7 @@ BAD = {
     "out suffix": (["ball.ply", "--out", "x.jpg"], "x.jpg"),
     "out is a folder, PNG": (["ball.ply", "--out", "folder.png"], "folder.png"),
     "out is a folder, EXR": (["ball.ply", "--out", "folder.exr"], "folder.exr"),
-    "out under a file": (["none.ply", "--out", "words.txt/x.png"], "to the folder 'words.txt'"),
+    "out under a file": (["empty.obj", "--out", "words.txt/x.png"], "to the folder 'words.txt'"),
 }
 
 
@@ -86,7 +90,7 @@ def test_bad_input_is_named_and_nothing_is_written(
     case, ball, tmp_path, capsys, monkeypatch, exit_code
 ):
     monkeypatch.chdir(tmp_path)
-    for name in ("empty.obj", "empty.npz", "words.txt"):
+    for name in ("empty.obj", "empty.npz", "words.txt", "scene.fbx", "scene.blend1"):
         (tmp_path / name).touch()
     for name in ("folder.png", "folder.exr"):
         (tmp_path / name).mkdir()

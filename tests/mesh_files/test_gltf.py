@@ -11,7 +11,7 @@ from urllib.parse import quote
 import numpy as np
 import pytest
 from reference_tracer.mesh_files.gltf import read_gltf
-from reference_tracer.scene_files import load_meshes
+from reference_tracer.mesh_files.load import load_meshes
 
 from .gltf_build import (
     INDICES,
@@ -49,7 +49,7 @@ def test_a_square(path):
 def test_y_is_turned_up(path):
     """By the command's reader: (x, y, z) becomes (x, -z, y)."""
     Build().shown(translation=[0, 5, 7]).write(path)
-    ((mesh, world),) = load_meshes(path)
+    ((mesh, world, _),) = load_meshes(path).placed
     assert (mesh.vertices[0] @ world[:3, :3].T + world[:3, 3]).tolist() == [0, -7, 5]
 
 

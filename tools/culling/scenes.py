@@ -7,14 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
+from reference_tracer.mesh_files.contents import Contents, Placed
+from reference_tracer.mesh_files.load import scene_of_meshes
 from reference_tracer.scene import Camera, Mesh, Scene, ViewWindow
-from reference_tracer.scene_files import scene_of_meshes
-
-Placed = tuple[Mesh, NDArray[np.float64]]  # with its matrix, as `scene_of_meshes` has it
 
 
 def mesh(vertices: NDArray, triangles: NDArray) -> Placed:
-    return Mesh(np.array(vertices, float), np.array(triangles), name="Mesh"), np.eye(4)
+    return Placed(Mesh(np.array(vertices, float), np.array(triangles)), np.eye(4), "Mesh")
 
 
 def sphere(detail: int, radius: float, x: float, y: float, z: float) -> Placed:
@@ -40,7 +39,8 @@ def ahead(width: int, height: int, half: float = 0.5, **options) -> Camera:
 
 
 def scene(camera: Camera, *meshes: Placed) -> Scene:
-    return scene_of_meshes(list(meshes), camera, camera.width, camera.height)
+    named = tuple(shown._replace(object=f"Mesh {k}") for k, shown in enumerate(meshes))
+    return scene_of_meshes(Contents(named), camera, camera.width, camera.height)
 
 
 def fine_sphere(width: int, height: int, detail: int) -> Scene:

@@ -18,16 +18,15 @@ from ...compare.comparing import trace_and_compare
 from ...compare.comparison import EXIT_CODES, Comparison
 from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source
-from ...manifest import Manifest, ObjectEntry
 from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
 from ...report import folders, page
-from ...scene import Camera, Scene, SceneError
+from ...scene import Camera, SceneError
 from ...tracer.progress import Work, result_of
 from ..arguments import is_blend
 from ..compare_options import CompareOptions, add_options
-from ..opening import import_trimesh, load, open_blend
+from ..opening import import_trimesh, open_blend, open_file
 from ..parser import EXIT_CODES_HELP, Parser
 from ..running import progress_bar
 
@@ -167,9 +166,9 @@ def _blend(
 def _file(
     options: CompareOptions, picture: images.StoredPicture, place: dict[str, Any]
 ) -> Work[Comparison]:
-    scene, stored = load(options.scene, options.choice)
+    scene, stored, manifest = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
-    manifest = replace(_manifest(options.scene, scene), notes=notes)
+    manifest = replace(manifest, notes=(*manifest.notes, *notes))
     manifest = yield from diagnosed(scene, manifest)
     shown = _shown(options, picture, scene.camera)
     settings, checked = options.settings_over(stored), bool(options.self_check)
@@ -201,26 +200,4 @@ def _shown(
         levels=picture.levels,
         dither=dither,
         opaque=picture.opaque,
-    )
-
-
-def _manifest(path: Path, scene: Scene) -> Manifest:
-    """Return the account of a scene that never saw Blender."""
-    entries = tuple(_entry(scene, number, name) for number, name in enumerate(scene.objects))
-    return Manifest(path.name, path.stem, "", 0, "FILE", scene.camera.name, entries)
-
-
-def _entry(scene: Scene, number: int, name: str) -> ObjectEntry:
-    used = [i.mesh for i in scene.instances if i.object == number]
-    planes = sum(p.object == number for p in scene.planes)
-    own = [scene.meshes[k] for k in set(used)]
-    return ObjectEntry(
-        name,
-        "INFINITE_PLANE" if planes else "MESH",
-        exported=bool(used or planes),
-        reason="" if used or planes else "nothing of it is in the file",
-        triangles=sum(len(m.triangles) for m in own),
-        vertices=sum(len(m.vertices) for m in own),
-        instances=len(used) + planes,
-        traced_triangles=sum(len(scene.meshes[k].triangles) for k in used),
     )

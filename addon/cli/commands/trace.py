@@ -10,10 +10,10 @@ from pathlib import Path
 from ... import images
 from ...certified.rounding import check_can_be_checked, check_is_proven, check_rounding
 from ...framing import Choice
+from ...mesh_files.load import READERS
 from ...rendering import render
 from ...report import folders
 from ...scene import Scene, SceneError
-from ...scene_files import MESH_SUFFIXES
 from ...tracer.coloring import Color
 from ...tracer.frame import Frame
 from ...tracer.progress import result_of
@@ -115,7 +115,7 @@ def trace(options: TraceOptions) -> int:
     )
     for line in (*s.required(), *checked):
         print(line)
-    is_mesh = options.scene.suffix.lower() in MESH_SUFFIXES
+    is_mesh = options.scene.suffix.lower() in READERS
     if options.is_png and is_mesh and not options.settings.color:
         print("each mesh has one flat colour: --color facing shows its shape")
     return AGREE

@@ -12,10 +12,14 @@ import pytest
 import trimesh
 from reference_tracer.cli import opening
 from reference_tracer.mesh_diagnosis import diagnose
+from reference_tracer.mesh_files.contents import Contents, Placed
+from reference_tracer.mesh_files.load import load_meshes, scene_of_meshes
 from reference_tracer.rendering import render
 from reference_tracer.scene import Mesh, SceneError
-from reference_tracer.scene_files import load_meshes, load_scene, scene_of_meshes
+from reference_tracer.scene_files import load_scene
 from reference_tracer.tracer.vector import transform_points
+
+from .plys import write_ply
 
 
 @pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
@@ -24,7 +28,7 @@ def test_meshes_from_files(suffix, tmp_path):
     shape.apply_translation((3, 4, 5))
     path = tmp_path / f"mesh.{suffix.upper()}"
     shape.export(path, file_type=suffix)
-    ((mesh, matrix),) = load_meshes(path)
+    ((mesh, matrix, _),) = load_meshes(path).placed
     corners = mesh.vertices[mesh.triangles] @ matrix[:3, :3].T + matrix[:3, 3]
     expected = shape.triangles
     if suffix == "glb":  # whose Y is up
@@ -46,7 +50,8 @@ def test_a_file_of_several_meshes_keeps_them_apart(tmp_path):
     whole = scene_of_meshes(loaded, None, 30, 20)
     assert len(whole.instances) == len(whole.objects) == 3
     assert len({tuple(i.colors[0]) for i in whole.instances}) == 3
-    assert np.ptp([matrix[:3, 3] for _, matrix in loaded], axis=0).max() == pytest.approx(20)
+    matrices = [placed.world_from_object for placed in loaded.placed]
+    assert np.ptp([m[:3, 3] for m in matrices], axis=0).max() == pytest.approx(20)
 
 
 @pytest.mark.parametrize(
@@ -71,17 +76,24 @@ def test_bad_mesh_files_are_named(name, content, tmp_path):
         load_meshes(tmp_path / name)
 
 
-def test_triangles_that_are_not_finite_are_left_out(tmp_path):
-    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 nan 1\nf 1 2 3\nf 1 2 4\n")
-    ((mesh, _),) = load_meshes(tmp_path / "a.obj")
-    assert len(mesh.triangles) == 1
+def test_faces_that_are_not_finite_are_left_out_and_named(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 nan 1\nf 1 2 3\nf 1 2 4 3\n")
+    found = load_meshes(tmp_path / "a.obj")
+    assert len(found.placed[0].mesh.triangles) == 1
+    assert found.missing[0].startswith("1 face with a corner that is no finite number")
+    assert "the first is face 2" in found.missing[0]
 
 
-def world(meshes):
+def alone(mesh, matrix=None):
+    """Return a mesh as the only one of a file."""
+    return Contents((Placed(mesh, np.eye(4) if matrix is None else matrix, mesh.name),))
+
+
+def world(contents):
     """Return the corners of every mesh's triangles in world space, one after the other."""
     return [
         transform_points(matrix, mesh.vertices.T).T[mesh.triangles]
-        for mesh, matrix in (meshes if isinstance(meshes, list) else [meshes])
+        for mesh, matrix, _ in contents.placed
     ]
 
 
@@ -122,50 +134,6 @@ def test_which_axis_is_up_where_nobody_says(suffix, up, tmp_path):
     assert high == {"y": 2, "z": 3}[up]
 
 
-STRIP = [0, 1, 2, 3, -1, 2, 3, 4, 5, 5, 6, 6, 5, 7, -1, 8, 0, -1, 9, 8, 7, -1]
-TRIANGLES = [(0, 1, 2), (2, 1, 3), (2, 3, 4), (4, 3, 5), (5, 6, 7)[::-1], (9, 8, 7)]
-
-
-def write_ply(path, points, lists, form, index="int"):
-    """Write elements of lists, by their names, as a PLY in any of its three forms."""
-    names = "".join(
-        f"element {name} {len(rows)}\nproperty list int {index} vertex_indices\n"
-        for name, rows in lists.items()
-    )
-    head = f"ply\nformat {form} 1.0\nelement vertex {len(points)}\n"
-    head += "".join(f"property float {x}\n" for x in "xyz") + names + "end_header\n"
-    rows = [row for some in lists.values() for row in some]
-    order = ">" if "big" in form else "<"
-    if form == "ascii":
-        lines = [*map(list, points), *([len(row), *row] for row in rows)]
-        body = "".join(f"{' '.join(map(str, line))}\n" for line in lines).encode()
-    else:
-        body = np.asarray(points).astype(f"{order}f4").tobytes()
-        for row in rows:
-            body += np.array([len(row), *row]).astype(f"{order}i4").tobytes()
-    path.write_bytes(head.encode() + body)
-
-
-BINARY = "binary_little_endian", "binary_big_endian"
-
-
-@pytest.mark.parametrize("form", ["ascii", *BINARY])
-@pytest.mark.parametrize("faces", [[], TRIANGLES])
-def test_strips_are_refused_also_beside_faces(form, faces, tmp_path):
-    """trimesh would leave them out without a word."""
-    points, path = np.eye(10, 3, dtype=np.float32), tmp_path / "a.ply"
-    write_ply(path, points, {"face": faces, "tristrips": [STRIP]}, form)
-    with pytest.raises(SceneError, match=r"a\.ply.* holds triangle strips: save it as triangles"):
-        load_meshes(path)
-
-
-def test_faces_that_differ_in_length_are_refused(tmp_path):
-    points, path = np.eye(10, 3, dtype=np.float32), tmp_path / "a.ply"
-    write_ply(path, points, {"face": [(0, 1, 2), (2, 3, 4, 5)]}, BINARY[0])
-    with pytest.raises(SceneError, match=r"a\.ply.* differ in length: save it as triangles"):
-        load_meshes(path)
-
-
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("scale", [1e-310, 1e300, 1e307])
 def test_hostile_coordinates_warn_of_nothing(scale, tmp_path):
@@ -179,7 +147,7 @@ def test_hostile_coordinates_warn_of_nothing(scale, tmp_path):
 def test_what_cannot_be_framed_or_is_no_number_is_refused_without_a_warning(tmp_path):
     huge = Mesh(1.7e308 * np.eye(3) - 1e308, [[0, 1, 2]], name="huge.ply")
     with pytest.raises(SceneError, match=r"^it is too large to be framed: scale it down$"):
-        scene_of_meshes([(huge, np.eye(4))], None, 8, 8)
+        scene_of_meshes(alone(huge), None, 8, 8)
     bits = np.array([0x7F800001, 0, 0x7F7FFFFF] * 3, np.uint32).view(np.float32).reshape(3, 3)
     write_ply(tmp_path / "a.ply", bits, {"face": [(0, 1, 2)]}, "binary_little_endian")
     with pytest.raises(SceneError, match="holds no triangles"):
@@ -200,7 +168,7 @@ def test_what_cannot_be_framed_or_is_no_number_is_refused_without_a_warning(tmp_
 def test_the_picture_of_a_mesh_is_nine_tenths_full(shape, size, make):
     far = shape.bounding_box.extents.max() * np.array((9, -7, 2.0))
     matrix = trimesh.transformations.translation_matrix(far)
-    frame = render(scene_of_meshes([(make.mesh(shape), matrix)], None, *size))
+    frame = render(scene_of_meshes(alone(make.mesh(shape), matrix), None, *size))
     seen = frame.instance_index == 0
     y, x = (np.flatnonzero(seen.any(axis=axis)) for axis in (1, 0))
     spans = np.array([np.ptp(x) + 1, np.ptp(y) + 1])
@@ -287,15 +255,15 @@ def test_there_is_no_such_file(load, kind, tmp_path, monkeypatch):
 
 def test_no_meshes():
     with pytest.raises(SceneError, match="no meshes"):
-        scene_of_meshes([], None, 30, 20)
+        scene_of_meshes(Contents(()), None, 30, 20)
 
 
 @pytest.mark.parametrize("size, word", [((6.5, 4), "width .* is 6.5"), ((6, 4.0), "height .* 4.0")])
 def test_a_part_of_a_pixel(size, word):
     box = Mesh(np.eye(3), [[0, 1, 2]])
     with pytest.raises(SceneError, match=rf"{word}; it must be an integer"):
-        scene_of_meshes([(box, np.eye(4))], None, *size)
-    assert scene_of_meshes([(box, np.eye(4))], None, np.int64(6), 4).camera.width == 6
+        scene_of_meshes(alone(box), None, *size)
+    assert scene_of_meshes(alone(box), None, np.int64(6), 4).camera.width == 6
 
 
 def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
@@ -307,7 +275,9 @@ def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
     several.export(tmp_path / "a.glb")
     trimesh.creation.icosphere(1).export(tmp_path / "b.stl")
     points = np.round(np.column_stack((*np.c_[[np.cos(v := np.arange(6)), np.sin(v)]], v)), 3)
-    write_ply(tmp_path / "c.ply", points, {"face": [(0, 1, 2, 3), (2, 3, 4, 5)]}, BINARY[0])
+    write_ply(
+        tmp_path / "c.ply", points, {"face": [(0, 1, 2, 3), (2, 3, 4, 5)]}, "binary_little_endian"
+    )
     text = "".join(f"v {x} {y} {z}\n" for x, y, z in points) + "f 1 2 3 4 5 6\nf 1 2 3 4\n"
     (tmp_path / "d.obj").write_text(text)
     code = """if True:
@@ -324,18 +294,22 @@ def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", code, *files], capture_output=True, text=True, check=True
     )
-    *found, imported = done.stdout.splitlines()
-    expected = [m.vertices[m.triangles].tolist() for path in files for m, _ in load_meshes(path)]
+    lines = done.stdout.splitlines()  # with notes between
+    *found, imported = [line for line in lines if line.startswith("[")]
+    expected = [
+        m.vertices[m.triangles].tolist() for path in files for m, *_ in load_meshes(path).placed
+    ]
     assert found == list(map(str, expected)) and len(found) == 5 and imported == "[]"
 
 
-def test_strips_are_found_behind_a_long_head(tmp_path):
-    """Trimesh would leave them out without a word, wherever the head names them."""
-    comments = "comment nothing to see here\n" * 4000
-    head = f"ply\nformat ascii 1.0\n{comments}element vertex 3\nproperty float x\n"
-    head += "property float y\nproperty float z\nelement tristrips 1\n"
-    head += "property list int int vertex_indices\nend_header\n"
-    (tmp_path / "a.ply").write_text(head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
-    assert len(comments) > 1 << 16
-    with pytest.raises(SceneError, match="holds triangle strips"):
-        load_meshes(tmp_path / "a.ply")
+def test_a_property_of_a_ply_may_have_spaces_in_its_name(tmp_path):
+    """As a vertex group has that Blender writes."""
+    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    head += "property float Bone 1\nproperty float z\nelement face 1\n"
+    head += "property list uchar uint vertex_indices\nend_header\n"
+    (tmp_path / "a.ply").write_text(head + "0 0 9 1\n1 0 9 1\n0 1 9 2\n3 0 1 2\n")
+    (placed,) = load_meshes(tmp_path / "a.ply").placed
+    np.testing.assert_array_equal(placed.mesh.vertices, [(0, 0, 1), (1, 0, 1), (0, 1, 2)])
+    (tmp_path / "b.ply").write_text(head.replace("float Bone 1", "float"))
+    with pytest.raises(SceneError, match="its head is not understood: 'property float'"):
+        load_meshes(tmp_path / "b.ply")

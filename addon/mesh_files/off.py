@@ -1,0 +1,87 @@
+"""Reads OFF, with or without colours, normals and texture coordinates of its vertices."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..scene import SceneError
+from .contents import Contents
+from .meshes import contents
+
+_KIND = re.compile(rb"(ST)?(C)?(N)?(4)?(n)?OFF")
+_COMMENT = re.compile(rb"#.*")
+
+
+def read_off(path: Path) -> Contents:
+    """Read an OFF file: a line for each vertex, then a line for each face.
+
+    What follows a vertex's coordinates, or a face's corners, is colours and the like.
+
+    Raises
+    ------
+    SceneError
+        If it is cut off, not an OFF file, or one of another number of dimensions, or binary.
+    """
+    lines = _lines(path.read_bytes())
+    _, words = next(lines, (0, [b""]))
+    kind = _KIND.fullmatch(words[0])
+    if not kind:
+        raise SceneError("it is no OFF file: its first word is not OFF")
+    if kind[4] or kind[5]:
+        raise SceneError(f"{words[0].decode()} has another number of dimensions: save it as OFF")
+    if words[1:2] == [b"BINARY"]:
+        raise SceneError("it is a binary OFF file: save it as text")
+    line, counts = (1, words[1:]) if words[1:] else next(lines, (0, []))
+    vertex_count, face_count = _integers(line, counts[:2], 2)
+    numbers: list[bytes] = []
+    for _ in range(vertex_count):
+        line, words = _next(lines, "vertices", vertex_count)
+        if len(words) < 3:
+            raise SceneError(f"line {line}: a vertex has three coordinates")
+        numbers += words[:3]
+    corners: list[int] = []
+    sizes: list[int] = []
+    for _ in range(face_count):
+        line, words = _next(lines, "faces", face_count)
+        (size,) = _integers(line, words[:1], 1)
+        corners += _integers(line, words[1 : 1 + size], size)
+        sizes.append(size)
+    try:
+        vertices = np.array(list(map(float, numbers)), np.float64).reshape(-1, 3)
+    except ValueError as error:
+        raise SceneError(f"a vertex has a coordinate that is no number: {error}") from None
+    more = sum(1 for _ in lines)
+    notes = [f"{more:,} lines behind the last face are not understood, and left out"] * bool(more)
+    faces = np.array(corners, np.intp), np.array(sizes, np.intp)
+    return contents(vertices, *faces, [path.stem], notes=notes)
+
+
+def _lines(content: bytes) -> Iterator[tuple[int, list[bytes]]]:
+    """Yield the number and the words of each line that has some."""
+    for number, line in enumerate(content.splitlines(), 1):
+        if words := (_COMMENT.sub(b"", line) if b"#" in line else line).split():
+            yield number, words
+
+
+def _next(
+    lines: Iterator[tuple[int, list[bytes]]], what: str, count: int
+) -> tuple[int, list[bytes]]:
+    found = next(lines, None)
+    if found is None:
+        raise SceneError(f"it is cut off: fewer than its {count:,} {what} are there")
+    return found
+
+
+def _integers(line: int, words: Sequence[bytes], count: int) -> list[int]:
+    """Return so many integers, none of them negative."""
+    try:
+        found = list(map(int, words))
+    except ValueError as error:
+        raise SceneError(f"line {line}: {error}") from None
+    if len(found) < count or min(found, default=0) < 0:
+        raise SceneError(f"line {line}: {count} integers from 0 on should be there")
+    return found

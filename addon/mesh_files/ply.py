@@ -1,0 +1,135 @@
+"""Reads PLY: text and binary, of either byte order, with faces of any mixture of sizes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..arrays import Array, Floats
+from ..scene import SceneError
+from .contents import Contents
+from .meshes import contents
+from .ply_tables import Binary, Columns, Element, Lists, Property, Text, read_tables
+
+_TYPES = {  # numpy's names, by PLY's old and new ones
+    "char": "i1",
+    "uchar": "u1",
+    "short": "i2",
+    "ushort": "u2",
+    "int": "i4",
+    "uint": "u4",
+    "float": "f4",
+    "double": "f8",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "i2",
+    "uint16": "u2",
+    "int32": "i4",
+    "uint32": "u4",
+    "float32": "f4",
+    "float64": "f8",
+}
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_CORNERS = "vertex_indices", "vertex_index"
+
+
+def read_ply(path: Path) -> Contents:
+    """Read the faces and the triangle strips of a PLY file.
+
+    Raises
+    ------
+    SceneError
+        If it is cut off, or not a PLY file, or has no vertices.
+    """
+    content = path.read_bytes()
+    order, elements, start = _head(content)
+    body = Binary(content[start:], order) if order else Text(content[start:])
+    vertices: Floats = np.zeros((0, 3))
+    sizes: list[Array] = [np.zeros(0, np.intp)]
+    corners: list[Array] = [np.zeros(0, np.intp)]
+    notes = []
+    for element, found in zip(elements, read_tables(body, elements), strict=True):
+        if element.name == "vertex":
+            vertices = _vertices(found)
+        elif element.name in ("face", "tristrips"):
+            lists = next((found[name] for name in _CORNERS if name in found), None)
+            if not isinstance(lists, Lists):
+                raise SceneError(f"its element '{element.name}' has no list 'vertex_indices'")
+            lists = _of_strips(lists) if element.name == "tristrips" else lists
+            corners.append(lists.values.astype(np.intp))
+            sizes.append(lists.sizes)
+        elif element.count:
+            notes.append(_passed_over(element))
+    faces = np.concatenate(corners), np.concatenate(sizes)
+    return contents(vertices, *faces, [path.stem], notes=notes)
+
+
+def _passed_over(element: Element) -> str:
+    if element.name == "edge":
+        return f"{element.count:,} edges are not drawn: what has no surface meets no ray"
+    return f"{element.count:,} rows of '{element.name}' are not understood, and left out"
+
+
+def _vertices(found: Columns) -> Floats:
+    """Return (v, 3): float32 if all coordinates are stored so, else float64."""
+    columns = [found.get(axis) for axis in "xyz"]
+    if any(column is None or isinstance(column, Lists) for column in columns):
+        raise SceneError("its vertices have no x, y and z")
+    together = np.stack(columns, axis=1)
+    return together.astype(np.float32 if together.dtype == np.float32 else np.float64)
+
+
+def _of_strips(strips: Lists) -> Lists:
+    """Return the triangles of strips: each corner makes one with the two before it.
+
+    Every second one is turned, and -1 begins a new strip. What is repeated to go on elsewhere makes
+    triangles of no area, which are left out.
+    """
+    flat = strips.values.astype(np.intp)
+    ends = np.cumsum(strips.sizes)
+    flat = np.insert(flat, ends, -1)  # each list is a strip of its own, too
+    place = np.arange(len(flat))
+    begin = np.maximum.accumulate(np.where(flat < 0, place, -1)) + 1
+    parts = np.stack((flat[:-2], flat[1:-1], flat[2:]), axis=1)
+    is_turned = (place - begin)[:-2] % 2 == 1
+    parts[is_turned] = parts[is_turned][:, [1, 0, 2]]
+    a, b, c = parts.T
+    parts = parts[(parts.min(axis=1, initial=0) >= 0) & (a != b) & (b != c) & (c != a)]
+    return Lists(parts.reshape(-1), np.full(len(parts), 3))
+
+
+def _head(content: bytes) -> tuple[str, list[Element], int]:
+    """Return the byte order ("" of text), the elements, and where the body begins."""
+    if content[:3] != b"ply":
+        raise SceneError("it is no PLY file: its first word is not ply")
+    order, elements, place = None, list[Element](), 0
+    while place < len(content):
+        end = content.find(b"\n", place) + 1 or len(content)
+        words = content[place:end].decode("utf-8", "replace").split()
+        place = end
+        match words:
+            case ["format", kind, *_] if kind in _ORDERS:
+                order = _ORDERS[kind]
+            case ["element", name, count] if count.isdecimal():
+                elements.append(Element(name, int(count), ()))
+            case ["property", *rest] if elements:
+                last = elements.pop()
+                properties = (*last.properties, _property(rest))
+                elements.append(Element(last.name, last.count, properties))
+            case ["end_header"] if order is not None:
+                return order, elements, place
+            case [] | ["ply"] | ["comment" | "obj_info", *_]:
+                pass
+            case _:
+                raise SceneError(f"its head is not understood: '{' '.join(words)[:60]}'")
+    raise SceneError("it is cut off: its head has no end")
+
+
+def _property(words: list[str]) -> Property:
+    match words:  # Blender writes a vertex group by its name, which may have spaces
+        case [kind, first, *more] if kind in _TYPES:
+            return Property(" ".join((first, *more)), _TYPES[kind])
+        case ["list", long, kind, name] if kind in _TYPES and _TYPES.get(long, "f")[0] != "f":
+            return Property(name, _TYPES[kind], _TYPES[long])
+    raise SceneError(f"its head is not understood: 'property {' '.join(words)[:60]}'")

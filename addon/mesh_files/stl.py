@@ -1,0 +1,75 @@
+"""Reads STL, binary and text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from ..scene import SceneError
+from .contents import Contents
+from .meshes import contents
+
+_HEAD = 84  # bytes: 80 of any text, and the number of triangles
+_FACET = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+# The words of a text, but for `solid` and `vertex`; what else a line begins with is refused.
+_OTHER = frozenset(b"facet outer endloop endfacet endsolid".split())
+
+
+def read_stl(path: Path) -> Contents:
+    """Read an STL file. It is binary if it is as long as its number of triangles says.
+
+    Raises
+    ------
+    SceneError
+        If it is cut off, or not an STL file.
+    """
+    content = path.read_bytes()
+    count = int.from_bytes(content[80:_HEAD], "little")
+    long = _HEAD + count * _FACET.itemsize
+    is_text = content.lstrip()[:5].lower() == b"solid"
+    if len(content) == long or not is_text:
+        return _binary(content, count, long, path.stem)
+    return _text(content, path.stem)
+
+
+def _binary(content: bytes, count: int, long: int, name: str) -> Contents:
+    if len(content) < long or len(content) < _HEAD:
+        raise SceneError(f"it is cut off, or no STL: {len(content):,} bytes of {long:,} are there")
+    facets = np.frombuffer(content, _FACET, count, _HEAD)
+    notes = []
+    if more := len(content) - long:
+        notes = [f"{more:,} bytes behind the last triangle are not understood, and left out"]
+    corners = np.arange(3 * count)
+    sizes = np.full(count, 3)
+    return contents(facets["corners"].reshape(-1, 3), corners, sizes, [name], notes=notes)
+
+
+def _text(content: bytes, stem: str) -> Contents:
+    numbers: list[bytes] = []
+    sizes: list[int] = []
+    owners: list[int] = []
+    names: dict[str, int] = {}
+    current, key = 0, b""
+    for line, text in enumerate(content.splitlines(), 1):
+        words = text.split()
+        key = words[0].lower() if words else key
+        if not words:
+            continue
+        if key == b"vertex" and len(words) == 4 and sizes:
+            numbers += words[1:]
+            sizes[-1] += 1
+        elif key == b"solid":
+            name = b" ".join(words[1:]).decode("utf-8", "replace") or stem
+            current = names.setdefault(name, len(names))
+        elif key == b"outer":
+            sizes.append(0)
+            owners.append(current)
+        elif key not in _OTHER:
+            shown = text.strip()[:40].decode("utf-8", "replace")
+            raise SceneError(f"line {line} is not understood: '{shown}'")
+    if key != b"endsolid":
+        raise SceneError("it is cut off: its last line is not 'endsolid'")
+    vertices = np.array(list(map(float, numbers)), np.float64).reshape(-1, 3)
+    corners = np.arange(len(vertices))
+    return contents(vertices, corners, np.array(sizes, np.intp), list(names), np.array(owners))
