@@ -175,12 +175,13 @@ def judge(
     build: Build,
     formats: Iterable[Format] = FORMATS,
     stated: bool = True,
+    seed: int = 0,
 ) -> Iterator[Row]:
     """Yield a scene's row for each format; if not `stated`, by the scene as it is shown."""
     for kind in formats:
         cell = CELLS.get((name, kind.suffix))
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
-        make_scene(name, build)
+        make_scene(name, build, seed)
         path = folder / f"{name}.{kind.suffix}"
         kind.write(str(path))
         if stated and cell:

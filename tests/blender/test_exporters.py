@@ -27,6 +27,14 @@ def test_every_format_is_read_as_it_was_written(name, build, tmp_path):
     assert not wrong, "\n".join((exporters.HEAD, *wrong))
 
 
+@pytest.mark.torture
+@pytest.mark.parametrize("seed", range(1, 50))
+@pytest.mark.parametrize("name", SCENES)
+def test_other_seeds(name, seed, build, tmp_path):
+    wrong = [row.line() for row in judge(name, tmp_path, build, seed=seed) if not row.is_right]
+    assert not wrong, "\n".join((exporters.HEAD, *wrong))
+
+
 @pytest.mark.parametrize(("name", "suffix"), CELLS)
 def test_what_an_exporter_leaves_out_it_does(name, suffix, build, tmp_path):
     """Without what is stated of a cell, it is wrong: no statement is there in vain."""
