@@ -41,6 +41,7 @@ class Effect(Enum):
 
     NONE = "it changes nothing that is compared"
     UNPLACED = "it may change the picture, and nobody knows where"
+    MISSING = "the file lacks it: what it would show, nobody knows"
     COLOR = "the object's surfaces have colours that the tracer does not know"
     DRAWN = "it draws itself, over what is traced"
     IN_FRONT = "the object is drawn over what is before it"
@@ -57,7 +58,7 @@ class Effect(Enum):
 
 @dataclass(frozen=True, eq=False)
 class Unmodelled:
-    """A feature of the scene that the tracer does not model.
+    """A feature of the scene that the tracer does not model, or that the file lacks.
 
     A box of bounds that are not finite is dropped, as it would explain anything.
     """
@@ -76,6 +77,15 @@ class Unmodelled:
     def __str__(self) -> str:
         owner = self.object if self.object.startswith("scene '") else f"'{self.object}'"
         return f"{self.feature} of {owner}"
+
+    def line(self) -> str:
+        """Return the feature as a person reads it."""
+        detail = f" ({self.detail})" if self.detail else ""
+        if self.effect is Effect.MISSING:
+            return f"{self.feature}: {self.object}{detail}"
+        none = self.effect is Effect.NONE
+        said = "not modelled, but it changes nothing here" if none else "not modelled"
+        return f"{said}: {self.object}: {self.feature}{detail}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the feature as JSON can hold it."""
@@ -149,10 +159,7 @@ class Manifest:
 
     def _remarks(self) -> Iterator[tuple[str, bool]]:
         for u in self.unmodelled:
-            detail = f" ({u.detail})" if u.detail else ""
-            none = u.effect is Effect.NONE
-            said = "not modelled, but it changes nothing here" if none else "not modelled"
-            yield f"  {said}: {u.object}: {u.feature}{detail}", not none
+            yield f"  {u.line()}", u.effect is not Effect.NONE
         for note in self.notes:
             yield f"  note: {note}", False
 

@@ -36,6 +36,17 @@ def curves(action: Any) -> list[Any]:
     return [curve for strip in strips for bag in strip.channelbags for curve in bag.fcurves]
 
 
+def bake_folder(modifier: Any, bake: Any) -> str:
+    """Return where a bake of geometry nodes has its files; empty if it is in the .blend itself.
+
+    It can be there from 4.3 on.
+    """
+    target = getattr(bake, "bake_target", "DISK")
+    target = modifier.bake_target if target == "INHERIT" else target
+    folder = bake.directory if bake.use_custom_path else modifier.bake_directory
+    return "" if target == "PACKED" else folder
+
+
 def radii(obj: Any, frame: Any) -> list[float]:
     """Return the radii of what a grease pencil's frame draws, in metres."""
     if obj.type == "GPENCIL":

@@ -137,8 +137,10 @@ def open_blend(path: Path, choice: Choice = _AS_SAVED) -> Iterator[Any]:
 
 def _open(bpy: Any, path: Path) -> None:
     with running.held():
+        from ..blender.opened import open_file
+
         try:
-            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+            open_file(path)
         except RuntimeError as error:
             reason = str(error).split(": ")[-1].strip()  # Blender itself has printed it all
             raise SceneError(f"'{path}' cannot be opened: {reason}") from error

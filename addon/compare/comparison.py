@@ -83,7 +83,7 @@ class Comparison:
             yield cause.warns and self.pixels["by_cause"][cause.key]
         yield self.pixels["not_judged"]["pixels"]
         yield self.empty
-        yield from (u.effect is Effect.UNPLACED for u in self.manifest.unmodelled)
+        yield from (u.effect in (Effect.UNPLACED, Effect.MISSING) for u in self.manifest.unmodelled)
         yield from (entry.left_out for entry in self.manifest.objects)
         yield from (row.missed for row in self.self_check)
         yield self.background and not self.background.transparent

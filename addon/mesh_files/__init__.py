@@ -1,1 +1,1 @@
-"""Reads meshes from files: OBJ, PLY, OFF, STL, GLB; a format a file."""
+"""Reads meshes from files: OBJ, PLY, OFF, STL, glTF; a format a file."""

@@ -14,7 +14,7 @@ from ..framing import ANGLE, BACKWARD, axes_of, framing, shown_points
 from ..scene import Camera, Instance, Scene, SceneError, check_size
 from ..scene_files import check_is_file
 from .contents import Contents
-from .glb import read_glb
+from .gltf import read_gltf
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
@@ -25,7 +25,8 @@ READERS: dict[str, Callable[[Path], Contents]] = {
     ".ply": read_ply,
     ".off": read_off,
     ".stl": read_stl,
-    ".glb": read_glb,
+    ".glb": read_gltf,
+    ".gltf": read_gltf,
 }
 _Y_UP = frozenset((".glb", ".gltf"))  # as their specification says; the others do not say
 

@@ -127,9 +127,9 @@ def _head(content: bytes) -> tuple[str, list[Element], int]:
 
 
 def _property(words: list[str]) -> Property:
-    match words:
-        case [kind, name] if kind in _TYPES:
-            return Property(name, _TYPES[kind])
+    match words:  # Blender writes a vertex group by its name, which may have spaces
+        case [kind, first, *more] if kind in _TYPES:
+            return Property(" ".join((first, *more)), _TYPES[kind])
         case ["list", long, kind, name] if kind in _TYPES and _TYPES.get(long, "f")[0] != "f":
             return Property(name, _TYPES[kind], _TYPES[long])
     raise SceneError(f"its head is not understood: 'property {' '.join(words)[:60]}'")

@@ -18,6 +18,7 @@ from .extremes import ExtremeRow, ExtremeScene, try_extremes
 from .faults import Fault, dependence, find_faults
 from .names import distinct
 from .picture import Look, look
+from .shared_edges import SharedEdges, try_edges
 from .student import Limits, Student
 from .student_error import StudentError
 from .subject import Subject
@@ -34,6 +35,7 @@ class Judgement:
     name: str  # what a reader calls it
     checks: Tally | None = None  # None: not finished
     faults: list[Fault] = field(default_factory=list)
+    edges: SharedEdges | None = None  # None: it failed before
     scenes: list[str] = field(default_factory=list)  # the names of all
     looks: list[Look] = field(default_factory=list)  # of those that were finished
     examples: dict[str, list[Example]] = field(default_factory=dict)  # by the scene's name
@@ -53,6 +55,11 @@ class Judgement:
     def score(self) -> float:
         """0 to 100: the mean of the checks and every scene; what has failed counts as 0."""
         return score_of(self.tallies)
+
+    @property
+    def leaks(self) -> str:
+        """What is to be said of edges between two triangles, if any leaks: it does not count."""
+        return self.edges.sentence if self.edges else ""
 
     @property
     def verdict(self) -> str:
@@ -110,6 +117,7 @@ def _on_checks(out: Judgement, student: Student, checks: Checks) -> None:
     t, s = student.ask(checks.origins, checks.directions, checks.triangles)
     answers = Answers(checks, t, s)
     out.faults = find_faults(answers) + dependence(checks, answers, student.ask)
+    out.edges = try_edges(student.ask)
     wrong, known = answers.hit != checks.known.hit, checks.known
     out.checks = Tally.of(
         answers.hit | known.hit,

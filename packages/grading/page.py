@@ -93,6 +93,8 @@ def _student(number: int, j: Judgement) -> str:
             text = f"<code>{f.name}</code> ({f.pairs:,} checks): {escape(f.sentence)}"
             parts.append(f"<li>{text}.</li>")
         parts.append("</ul>")
+    if j.leaks:
+        parts.append(f"<p>{escape(j.leaks)}.</p>")
     if j.printed:
         parts.append(f"<details><summary>It prints {j.printed:,} bytes</summary>")
         parts.append(f"<pre>{escape(j.said)}</pre></details>")

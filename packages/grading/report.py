@@ -30,6 +30,7 @@ _UNITS = {
     "t": "of those, with the right t, within the rounding of float64",
     "barycentrics": "of those with the right triangle, with the right barycentrics",
     "boundary": "pixels where float64 may see another surface: counted apart, not in the score",
+    "leaking": "edges that two triangles share, a ray through which misses both: not in the score",
     "stride": "every so many pixels were judged, in both directions",
     "pixel": "[x, y] of the picture, or of its border, from the lower left",
     "origin": "metres, world space; so are direction and triangle (p1, p2, p3)",
@@ -72,6 +73,7 @@ def _student(j: Judgement) -> dict[str, Any]:
         "printed": j.said,
         "errors": [_error(where, error) for where, error in j.errors],
         "faults": [fault.to_dict() for fault in j.faults],
+        "shared_edges": j.edges.to_dict() if j.edges else None,
         "checks": _tally(j.checks),
         "scenes": [_scene(j, found) for found in j.looks],
         "extremes": {

@@ -61,6 +61,8 @@ def lines(j: Judgement) -> list[str]:
         out += dict.fromkeys(f"    {file}, line {n}: {text}" for file, n, _, text in error.trace)
     for fault in j.faults:
         out += wrapped(f"{fault.name} ({fault.pairs:,} checks): {fault.sentence}")
+    if j.leaks:
+        out += wrapped(j.leaks)
     if j.printed:
         first = j.said.strip().splitlines()[:1]
         out.append(f"  it prints ({j.printed:,} bytes): {' '.join(first)[:120]}")

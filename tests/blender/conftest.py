@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import contextlib
+import subprocess
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -14,10 +15,12 @@ import bpy
 import numpy as np
 import pytest
 import reference_tracer
+from reference_tracer.blender import registration
 from reference_tracer.blender.compare import compared, gather_case
 from reference_tracer.blender.engine import export_for_render
 from reference_tracer.blender.reading.export import export as export_depsgraph
 from reference_tracer.blender.temporary import temporary_scene
+from reference_tracer.cli.main import main
 from reference_tracer.tracer.progress import result_of
 
 from .live import kept  # noqa: F401  # a fixture
@@ -175,5 +178,21 @@ def workbench(tmp_path):
         pixels = np.array(loaded.pixels[:], np.float32).reshape(height, width, 4)
         bpy.data.images.remove(loaded)
         return pixels
+
+    return run
+
+
+@pytest.fixture
+def reftrace(addon, capfd):
+    """A command in this process, which has Blender already; what Blender prints is heard, too."""
+
+    def run(*argv: object) -> subprocess.CompletedProcess:
+        registration.unregister()  # the command registers by itself, in a process of its own
+        capfd.readouterr()
+        try:
+            code = main([*map(str, argv)])
+        finally:
+            registration.register()
+        return subprocess.CompletedProcess(argv, code, *capfd.readouterr())
 
     return run

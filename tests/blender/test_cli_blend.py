@@ -11,8 +11,6 @@ import bpy
 import numpy as np
 import pytest
 from PIL import Image
-from reference_tracer.blender import registration
-from reference_tracer.cli.main import main
 from reference_tracer.images import to_display
 from reference_tracer.rendering import render
 from reference_tracer.scene_files import load_scene
@@ -29,22 +27,6 @@ def shell(*argv: object, cwd: Path | None = None) -> subprocess.CompletedProcess
         timeout=300,
         cwd=cwd,
     )
-
-
-@pytest.fixture
-def reftrace(addon, capfd):
-    """A command in this process, which has Blender already; what Blender prints is heard, too."""
-
-    def run(*argv: object) -> subprocess.CompletedProcess:
-        registration.unregister()  # the command registers by itself, in a process of its own
-        capfd.readouterr()
-        try:
-            code = main([*map(str, argv)])
-        finally:
-            registration.register()
-        return subprocess.CompletedProcess(argv, code, *capfd.readouterr())
-
-    return run
 
 
 @pytest.fixture

@@ -228,13 +228,12 @@ class TestDiagnose:
         assert found["closed"] and found["consistent_winding"]
 
 
-def test_a_mesh_that_only_we_refuse_is_named(tmp_path):
-    """Its reader takes points of one coordinate for points."""
+def test_a_mesh_of_points_in_a_plane_is_named(tmp_path):
     trimesh.creation.box().export(tmp_path / "a.glb")
     content = (tmp_path / "a.glb").read_bytes()
     assert content.count(b'"type":"VEC3"') == 1
     (tmp_path / "a.glb").write_bytes(content.replace(b'"type":"VEC3"', b'"type":"VEC2"'))
-    with pytest.raises(SceneError, match=r"a\.glb' cannot be read as a mesh: Mesh"):
+    with pytest.raises(SceneError, match=r"a\.glb' .*: accessor 1 is of type 'VEC2', not VEC3"):
         load_meshes(tmp_path / "a.glb")
 
 
@@ -301,3 +300,16 @@ def test_scipy_is_not_imported_for_a_mesh_and_is_not_missed(tmp_path):
         m.vertices[m.triangles].tolist() for path in files for m, *_ in load_meshes(path).placed
     ]
     assert found == list(map(str, expected)) and len(found) == 5 and imported == "[]"
+
+
+def test_a_property_of_a_ply_may_have_spaces_in_its_name(tmp_path):
+    """As a vertex group has that Blender writes."""
+    head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    head += "property float Bone 1\nproperty float z\nelement face 1\n"
+    head += "property list uchar uint vertex_indices\nend_header\n"
+    (tmp_path / "a.ply").write_text(head + "0 0 9 1\n1 0 9 1\n0 1 9 2\n3 0 1 2\n")
+    (placed,) = load_meshes(tmp_path / "a.ply").placed
+    np.testing.assert_array_equal(placed.mesh.vertices, [(0, 0, 1), (1, 0, 1), (0, 1, 2)])
+    (tmp_path / "b.ply").write_text(head.replace("float Bone 1", "float"))
+    with pytest.raises(SceneError, match="its head is not understood: 'property float'"):
+        load_meshes(tmp_path / "b.ply")

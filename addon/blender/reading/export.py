@@ -18,10 +18,12 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
+from ..opened import reports
 from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
+from .missing import missing, why_gone
 from .unmodelled import of_scene
 from .view_volume import outside
 from .visible import Seen, Shown, visible
@@ -149,37 +151,40 @@ def _plane(index: int, matrix: Floats, color: Colors) -> Plane:
 def _manifest(
     depsgraph: Any, camera: str, seen: dict[str, Seen], meshes: dict[int, Read]
 ) -> Manifest:
-    scene = user_scene(depsgraph.scene)
-    layer = depsgraph.view_layer
+    drawn, layer, mode = depsgraph.scene, depsgraph.view_layer, depsgraph.mode
+    scene = user_scene(drawn)
+    gone = {o.name_full: why for o in bpy.data.objects if (why := why_gone(o))}
     entries = [
-        _entry(name, entry, [meshes[key][0] for key in entry.mesh_keys])
+        _entry(name, entry, [meshes[key][0] for key in entry.mesh_keys], gone.get(name, ""))
         for name, entry in seen.items()
     ]
     there = set(layer.objects)  # a name alone may be a library's object
     for obj in scene.objects:
         if obj.name_full not in seen:
-            why = _hidden(obj, obj in there, layer, depsgraph.mode)
-            entries.append(ObjectEntry(obj.name_full, obj.type, False, why, hidden=True))
+            is_gone = obj.name_full in gone  # that excuses no pixel, as a flag that hides it does
+            why = gone.get(obj.name_full) or _hidden(obj, obj in there, layer, mode)
+            entries.append(ObjectEntry(obj.name_full, obj.type, False, why, hidden=not is_gone))
     features = [u for e in seen.values() for u in e.features.values()]
     return Manifest(
         file=bpy.path.basename(bpy.data.filepath),
         scene=scene.name,
         view_layer=layer.name,
         frame=scene.frame_current,
-        evaluation=depsgraph.mode,
+        evaluation=mode,
         camera=camera,
         objects=tuple(entries),
-        unmodelled=(*features, *of_scene(scene, depsgraph.scene)),
+        unmodelled=(*features, *of_scene(scene, drawn), *missing(drawn, layer, mode, seen)),
+        notes=reports(),
     )
 
 
-def _entry(name: str, seen: Seen, meshes: list[Mesh]) -> ObjectEntry:
+def _entry(name: str, seen: Seen, meshes: list[Mesh], gone: str) -> ObjectEntry:
     exported = bool(seen.instances or seen.planes)
     return ObjectEntry(
         name=name,
         type="INFINITE_PLANE" if seen.planes else seen.type,
         exported=exported,
-        reason="" if exported else _nothing(seen),
+        reason="" if exported else gone or _nothing(seen),
         triangles=sum(len(mesh.triangles) for mesh in meshes),
         vertices=sum(len(mesh.vertices) for mesh in meshes),
         instances=seen.instances + seen.planes,

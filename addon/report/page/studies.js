@@ -24,8 +24,9 @@ function manifestCard() {
         element(
           "p",
           { class: "notice" },
-          element("strong", {}, "Not modelled: "),
-          `${u.object}: ${u.feature}${u.detail ? ` (${u.detail})` : ""}`,
+          element("strong", {}, `${u.effect === "missing" ? words(u.feature) : "Not modelled"}: `),
+          u.effect === "missing" ? u.object : `${u.object}: ${u.feature}`,
+          u.detail ? ` (${u.detail})` : "",
         ),
       ),
       ...notes.map((note) => element("p", { class: "muted" }, note)),

@@ -1,0 +1,58 @@
+"""Opens a .blend, and remembers what Blender reported of it.
+
+Blender opens a file also where it cannot take over all that is in it, such as a strip of the
+sequencer in a channel that it does not have: it reports an error, and goes on.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+_reports: dict[str, tuple[str, ...]] = {}  # by the file's path: of the one that was opened last
+
+
+def open_file(path: Path) -> None:
+    """Open a .blend, without its scripts and its windows.
+
+    Raises
+    ------
+    RuntimeError
+        If it cannot be opened, with Blender's reason. What was open before then still is.
+    """
+    _reports.clear()
+    with _heard() as loaded, redirect_stdout(sys.stderr):  # Blender writes its reports by Python
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(path.resolve()), load_ui=False, use_scripts=False)
+        except RuntimeError as error:
+            if not loaded:
+                raise
+            lines = (line.removeprefix("Error: ").strip() for line in str(error).splitlines())
+            _reports[bpy.data.filepath] = tuple(line for line in lines if line)
+
+
+@contextmanager
+def _heard() -> Iterator[list[Any]]:
+    """Give a list that is empty until Blender has opened a file."""
+    loaded: list[Any] = []
+
+    @bpy.app.handlers.persistent
+    def hear(*_: Any) -> None:
+        loaded.append(True)
+
+    bpy.app.handlers.load_post.append(hear)
+    try:
+        yield loaded
+    finally:
+        bpy.app.handlers.load_post.remove(hear)
+
+
+def reports() -> tuple[str, ...]:
+    """Return what Blender reported when it opened the file that is open, a sentence each."""
+    found = _reports.get(bpy.data.filepath, ())
+    return tuple(f"Blender opened the file with a report: {line}" for line in found)

@@ -1,0 +1,185 @@
+"""Names what a .blend needs for what is seen, and does not have: libraries, data-blocks, files.
+
+Blender shows something in their place, or nothing. So the picture that is compared is not what the
+file is meant to show: a warning, which explains no pixel.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator
+from typing import Any
+
+import bpy
+
+from ...manifest import Effect, Unmodelled
+from .missing_files import Lost, exists, lost_files
+
+MOST = 5  # things that one line names
+# What a data-block passes on of what it uses, by the types of both (`ID.id_type`): the rest of it
+# is not seen in surfaces that show one colour. One that is not here passes on everything.
+_PASSES = {
+    "SCENE": ("ACTION",),
+    "MATERIAL": ("ACTION",),
+    "CAMERA": ("ACTION",),
+    "WORLD": (),
+    "LIGHT": (),
+    "LIGHT_PROBE": (),
+    "SPEAKER": (),
+}
+_UNSEEN = ("LIGHT", "LIGHT_PROBE", "SPEAKER", "WORLD", "SOUND", "TEXT")  # types of data-blocks
+_OF_MATERIALS = ("MATERIAL", "TEXTURE")  # types of colours
+
+
+_Users = dict[Any, set[Any]]  # as `bpy.data.user_map` has it: of each data-block, what uses it
+
+
+def missing(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterator[Unmodelled]:
+    """Yield what is missing of what a scene shows.
+
+    Parameters
+    ----------
+    drawn : bpy.types.Scene
+        The scene that is exported: the user's, or a temporary copy of it.
+    layer : bpy.types.ViewLayer
+    mode : str
+        The evaluation, 'VIEWPORT' or 'RENDER'.
+    shown : collection of str
+        The full names of the objects that the depsgraph hands out.
+    """
+    files = list(lost_files(mode, drawn.frame_current))
+    if not (files or bpy.data.libraries or bpy.app.autoexec_fail):
+        return  # it takes time to find out what uses what
+    users = bpy.data.user_map()
+    reached = _reached(users, _first(drawn, layer, shown))
+    lost = [thing for thing in (*_placeholders(users), *files) if thing.block in reached]
+    if drawn.display.shading.color_type not in _OF_MATERIALS:
+        lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
+    yield from _told(lost, users, reached)
+    if bpy.app.autoexec_fail:
+        yield from _drivers(reached)
+
+
+def why_gone(obj: Any) -> str:
+    """Return why an object is a placeholder, or shows one; empty if neither is so."""
+    for block in (obj, obj.data, obj.instance_collection):
+        if block and block.is_missing:
+            lacks = "does not have it" if _is_there(block) else "is missing"
+            whose = "its library" if block == obj else f"the library of its {_named(block)},"
+            return f"{whose} '{_library(block)}' {lacks}"
+    return ""
+
+
+def _placeholders(blocks: Iterable[Any]) -> Iterator[Lost]:
+    """Yield the placeholders of what libraries should have had."""
+    for block in blocks:
+        if block.is_missing and block.id_type not in _UNSEEN and block.id_type != "LIBRARY":
+            kind = "data in library" if _is_there(block) else "library"
+            yield Lost(block, kind, _library(block), _named(block))
+
+
+def _source(block: Any) -> Any:
+    """Return the library of a placeholder, or of what an override overrides."""
+    override = block.override_library
+    return override.reference.library if override and override.reference else block.library
+
+
+def _library(block: Any) -> str:
+    source = _source(block)
+    return source.filepath if source else "unknown"
+
+
+def _is_there(block: Any) -> bool:
+    """Return whether the library of a placeholder is a file."""
+    source = _source(block)
+    return bool(source) and exists(source, source.filepath)
+
+
+def _named(block: Any) -> str:
+    return f"{block.bl_rna.name.lower()} '{block.name}'"
+
+
+def _first(drawn: Any, layer: Any, shown: Collection[str]) -> Iterator[Any]:
+    """Yield what is seen without being used by anything else."""
+    yield drawn
+    yield drawn.camera
+    for obj in layer.objects:
+        is_shown = obj.name_full in shown and obj.type not in (*_UNSEEN, "CAMERA")
+        if is_shown or obj.is_missing:
+            yield obj
+
+
+def _reached(users: _Users, first: Iterable[Any]) -> set[Any]:
+    """Return the data-blocks that shape what is seen."""
+    uses: dict[Any, list[Any]] = defaultdict(list)
+    for block, of_block in users.items():
+        for user in of_block:
+            if _passes(user, block):
+                uses[user].append(block)
+    reached: set[Any] = set()
+    left = list(first)
+    while left:
+        block = left.pop()
+        if block not in reached:
+            reached.add(block)
+            left += uses[block]
+    return reached
+
+
+def _passes(user: Any, used: Any) -> bool:
+    """Return whether what a data-block uses can be seen in it."""
+    if user.id_type == "NODETREE":
+        return bool(user.type == "GEOMETRY")
+    if user.id_type == "OBJECT":
+        if user.type == "ARMATURE":  # bones are not drawn, whatever their shape
+            return used == user.parent or used not in [b.custom_shape for b in user.pose.bones]
+        return user.type != "EMPTY" or used.id_type != "IMAGE"
+    return used.id_type in _PASSES.get(user.id_type, (used.id_type,))
+
+
+def _told(lost: Iterable[Lost], users: _Users, reached: set[Any]) -> Iterator[Unmodelled]:
+    """Yield an entry for each library, file and folder that is missing."""
+    found: dict[tuple[str, str], list[str]] = defaultdict(list)
+    for thing in lost:
+        names = sorted(_objects(thing.block, users, reached))
+        of = "" if thing.block.id_type == "OBJECT" or not names else f" of {_listed(names)}"
+        found[thing.kind, thing.name].append(thing.of + of)
+    for (kind, name), things in found.items():
+        yield Unmodelled(name, f"missing {kind}", _listed(things), None, Effect.MISSING)
+
+
+def _objects(block: Any, users: _Users, reached: set[Any]) -> set[str]:
+    """Return the names of the objects by which a data-block is seen, in quotes."""
+    found: set[str] = set()
+    seen: set[Any] = set()
+    left = [block]
+    while left:
+        user = left.pop()
+        if user.id_type == "OBJECT":
+            found.add(f"'{user.name}'")
+        elif user not in seen:
+            seen.add(user)
+            left += [u for u in users.get(user, ()) if u in reached and _passes(u, user)]
+    return found
+
+
+def _listed(names: list[str]) -> str:
+    more = len(names) - MOST
+    return ", ".join(names[:MOST]) + (f" and {more} more" if more > 0 else "")
+
+
+def _drivers(blocks: Iterable[Any]) -> Iterator[Unmodelled]:
+    """Yield the drivers whose Python Blender has not run, as scripts are off."""
+    for block in blocks:
+        animation = getattr(block, "animation_data", None)
+        drivers = animation.drivers if animation else ()
+        names = [curve.data_path for curve in drivers if _was_not_run(curve)]
+        if names:
+            detail = f"scripts are off: {_listed(list(dict.fromkeys(names)))}"
+            yield Unmodelled(block.name, "driver that did not run", detail, None, Effect.MISSING)
+
+
+def _was_not_run(curve: Any) -> bool:
+    driver = curve.driver
+    is_python = driver.type == "SCRIPTED" and not driver.is_simple_expression
+    return is_python and not driver.is_valid and not curve.mute

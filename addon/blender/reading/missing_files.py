@@ -1,0 +1,143 @@
+"""Finds the files that a .blend names, shape what is seen, and are not there.
+
+Data-blocks name some (fonts, images, caches, volumes), modifiers and nodes others.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from glob import escape, glob
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import bpy
+
+from ..versions import bake_folder
+
+_TILE = re.compile(r"<(UDIM|UVTILE)>")
+_NUMBER = re.compile(r"\d+(?=\D*$)")  # a sequence's: the last of a name
+
+
+class Lost(NamedTuple):
+    """Something that a data-block needs, and that is not there."""
+
+    block: Any  # bpy.types.ID
+    kind: str
+    name: str  # a path, as the .blend has it
+    of: str  # what of the block needs it
+
+
+def lost_files(mode: str, frame: int) -> Iterator[Lost]:
+    """Yield the files that are not there, of all data-blocks, used or not.
+
+    Parameters
+    ----------
+    mode : str
+        The evaluation, 'VIEWPORT' or 'RENDER': it decides which modifiers are on.
+    frame : int
+        The scene's.
+    """
+    yield from _of_blocks(frame)
+    for obj in bpy.data.objects:
+        for of, kind, path in _of_object(obj, mode):
+            if path and not exists(obj, path):
+                yield Lost(obj, kind, path, of)
+    for tree in bpy.data.node_groups:
+        for node in tree.nodes if tree.type == "GEOMETRY" else ():
+            path = _imported(node)
+            if path and not exists(tree, path):
+                yield Lost(tree, "file", path, f"node '{node.name}' of '{tree.name}'")
+
+
+def _of_blocks(frame: int) -> Iterator[Lost]:
+    for font in bpy.data.fonts:
+        if font.filepath != "<builtin>" and _is_lost(font):
+            yield Lost(font, "file", font.filepath, f"font '{font.name}'")
+    for image in bpy.data.images:
+        if image.source in ("FILE", "SEQUENCE", "MOVIE", "TILED"):
+            pattern = image.filepath if image.source != "SEQUENCE" else _any_frame(image.filepath)
+            if _is_lost(image, pattern):
+                yield Lost(image, "file", image.filepath, f"image '{image.name}'")
+    for cache in bpy.data.cache_files:
+        shown = cache.frame if cache.override_frame else frame
+        pattern = _of_frame(cache.filepath, int(shown)) if cache.is_sequence else cache.filepath
+        if _is_lost(cache, pattern):
+            yield Lost(cache, "file", pattern, f"cache '{cache.name}'")
+    for volume in bpy.data.volumes:
+        pattern = _any_frame(volume.filepath) if volume.is_sequence else volume.filepath
+        if _is_lost(volume, pattern):
+            yield Lost(volume, "file", volume.filepath, f"volume '{volume.name}'")
+
+
+def _is_lost(block: Any, pattern: str | None = None) -> bool:
+    """Return whether a data-block's file is neither packed nor there."""
+    path = block.filepath if pattern is None else pattern
+    return bool(path) and not getattr(block, "packed_file", None) and not exists(block, path)
+
+
+def _any_frame(path: str) -> str:
+    return _NUMBER.sub("*", path)
+
+
+def _of_frame(path: str, frame: int) -> str:
+    return _NUMBER.sub(lambda number: f"{frame:0{len(number[0])}}", path)
+
+
+def exists(block: Any, path: str) -> bool:
+    """Return whether a path of a data-block leads anywhere; it may have a * in its name."""
+    full = bpy.path.abspath(path, library=block.library)
+    if os.path.exists(full):
+        return True
+    folder, name = os.path.split(full)
+    pattern = escape(_TILE.sub("*", name)).replace("[*]", "*")
+    return "*" in pattern and bool(glob(os.path.join(escape(folder), pattern)))
+
+
+def _of_object(obj: Any, mode: str) -> Iterator[tuple[str, str, str]]:
+    """Yield what of an object reads files, what kind they are, and where they should be."""
+    for modifier in obj.modifiers:
+        if modifier.show_viewport if mode == "VIEWPORT" else modifier.show_render:
+            for kind, path in _of_modifier(modifier):
+                yield f"modifier '{modifier.name}' of '{obj.name}'", kind, path
+    for system in obj.particle_systems:
+        if path := _baked(system.point_cache):
+            yield f"particle system '{system.name}' of '{obj.name}'", "folder", path
+
+
+def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
+    kind = modifier.type
+    if kind == "MESH_CACHE":
+        yield "file", modifier.filepath
+    elif kind == "OCEAN" and modifier.is_cached:
+        yield "folder", modifier.filepath
+    elif kind == "FLUID" and modifier.fluid_type == "DOMAIN":
+        domain = modifier.domain_settings
+        if domain.has_cache_baked_any:
+            yield "folder", domain.cache_directory
+    elif kind in ("CLOTH", "SOFT_BODY"):
+        yield "folder", _baked(modifier.point_cache)
+    elif kind == "DYNAMIC_PAINT" and modifier.canvas_settings:
+        for surface in modifier.canvas_settings.canvas_surfaces:
+            yield "folder", _baked(surface.point_cache)
+    elif kind == "NODES":
+        for bake in modifier.bakes:
+            yield "folder", bake_folder(modifier, bake)
+
+
+def _baked(cache: Any) -> str:
+    """Return the folder in which a `bpy.types.PointCache` has its files, if it has any."""
+    if cache.use_external:
+        return cache.filepath
+    if cache.is_baked and cache.use_disk_cache:
+        return f"//blendcache_{Path(bpy.data.filepath).stem}"
+    return ""
+
+
+def _imported(node: Any) -> str:
+    """Return the path that a node of geometry nodes imports, if it is written in the node."""
+    if not node.bl_idname.startswith("GeometryNodeImport"):
+        return ""
+    path = node.inputs.get("Path")
+    return "" if path is None or path.is_linked else path.default_value

@@ -1,0 +1,120 @@
+"""Which extensions of glTF are applied, which leave the shape alone, and which are refused.
+
+Source: Khronos, glTF 2.0 extension registry, and the specification of each extension.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from ...scene import SceneError
+from .document import Document, short
+from .notes import Notes, listed
+
+QUANTISATION = "KHR_mesh_quantization"
+INSTANCING = "EXT_mesh_gpu_instancing"
+VISIBILITY = "KHR_node_visibility"
+LEVELS = "MSFT_lod"  # the node itself is the finest level, and is what is traced
+DRACO = "KHR_draco_mesh_compression"
+MESHOPT = "EXT_meshopt_compression", "KHR_meshopt_compression"
+
+APPLIED = frozenset({QUANTISATION, INSTANCING, VISIBILITY, LEVELS})
+COMPRESSED = frozenset({DRACO, *MESHOPT})  # not decoded: refused where there is no plain data
+DECODED_NOT = "Compressed data is not decoded; the plain data beside it is traced"
+# Of materials, textures, lights, animations and data about data. An extension that moves, adds or
+# hides anything must not stand here.
+NO_SHAPE = frozenset(
+    {
+        "ADOBE_materials_clearcoat_specular",
+        "ADOBE_materials_clearcoat_tint",
+        "ADOBE_materials_thin_transparency",
+        "AGI_stk_metadata",
+        "EXT_instance_features",
+        "EXT_lights_ies",
+        "EXT_lights_image_based",
+        "EXT_mesh_features",
+        "EXT_structural_metadata",
+        "EXT_texture_avif",
+        "EXT_texture_webp",
+        "FB_geometry_metadata",
+        "GODOT_single_root",
+        "KHR_animation_pointer",
+        "KHR_lights_punctual",
+        "KHR_materials_anisotropy",
+        "KHR_materials_clearcoat",
+        "KHR_materials_diffuse_transmission",
+        "KHR_materials_dispersion",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_iridescence",
+        "KHR_materials_pbrSpecularGlossiness",
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_unlit",
+        "KHR_materials_variants",
+        "KHR_materials_volume",
+        "KHR_materials_volume_scatter",
+        "KHR_node_hoverability",
+        "KHR_node_selectability",
+        "KHR_techniques_webgl",
+        "KHR_texture_basisu",
+        "KHR_texture_transform",
+        "KHR_xmp",
+        "KHR_xmp_json_ld",
+        "MSFT_packing_normalRoughnessMetallic",
+        "MSFT_packing_occlusionRoughnessMetallic",
+        "MSFT_texture_dds",
+        "NV_materials_mdl",
+    }
+)
+
+
+def check_extensions(document: Document, notes: Notes) -> None:
+    """Refuse what the file requires and nobody applies; name what it uses and nobody knows.
+
+    Raises
+    ------
+    SceneError
+        If the file cannot be read rightly without an extension that is not applied.
+    """
+    required = _names(document, "extensionsRequired")
+    if compressed := [name for name in required if name in COMPRESSED]:
+        raise SceneError(
+            f"it is compressed by {listed(compressed)}, which is not decoded: "
+            "export it without compression"
+        )
+    known = APPLIED | NO_SHAPE
+    if unknown := [name for name in required if name not in known]:
+        raise SceneError(
+            f"it requires {listed(unknown)}, which Reference Tracer does not apply: "
+            "export it without"
+        )
+    used = dict.fromkeys((*_names(document, "extensionsUsed"), *_present(document.content)))
+    unknown = [name for name in used if name not in known | COMPRESSED]
+    if unknown:
+        notes.add("Extensions are not known, so what they move or add is not traced", *unknown)
+
+
+def _names(document: Document, key: str) -> list[str]:
+    names = document.items(key)
+    if not all(isinstance(name, str) for name in names):
+        raise document.wrong(key, "a list of names")
+    return [short(name) for name in names]
+
+
+def _present(content: dict[str, Any]) -> Iterator[str]:
+    """Yield the extensions that objects of the file hold, listed or not."""
+    waiting: list[Any] = [content]
+    while waiting:
+        value = waiting.pop()
+        if isinstance(value, list):
+            waiting += [item for item in value if isinstance(item, list | dict)]
+        elif isinstance(value, dict):
+            extensions = value.get("extensions")
+            if isinstance(extensions, dict):
+                yield from map(short, extensions)
+            # What an extension or the user's extras hold is theirs.
+            own = ("extensions", "extras")
+            waiting += [v for k, v in value.items() if k not in own and isinstance(v, list | dict)]

@@ -1,0 +1,103 @@
+"""What Blender reports when it opens a file is a note; what it cannot open is never traced."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import struct
+from pathlib import Path
+
+import bpy
+import pytest
+from reference_tracer.cli.opening import open_blend
+from reference_tracer.scene import SceneError
+
+KNOWN, UNKNOWN = 113, 300  # channels of a sequencer, which has 128
+
+
+def patched(path: Path, build) -> None:
+    """Write a file with a strip in a channel that Blender does not have: it reports that."""
+    build.scene(32, 18)
+    build.solids()
+    build.corner_camera()
+    editor = bpy.context.scene.sequence_editor_create()
+    strips = editor.strips if hasattr(editor, "strips") else editor.sequences
+    length = {"length" if bpy.app.version >= (5, 0, 0) else "frame_end": 10}
+    strips.new_effect("Strip", "COLOR", channel=KNOWN, frame_start=1, **length)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), compress=False)
+    content, known = path.read_bytes(), struct.pack("<i", KNOWN)
+    at = content.find(known)
+    while at >= 0:
+        path.write_bytes(content[:at] + struct.pack("<i", UNKNOWN) + content[at + 4 :])
+        try:
+            bpy.ops.wm.open_mainfile(filepath=str(path))
+        except RuntimeError as error:
+            if "channel" in str(error):
+                return
+        at = content.find(known, at + 1)
+    raise AssertionError("no byte of the file is the strip's channel")
+
+
+@pytest.fixture
+def reported(build, tmp_path) -> Path:
+    path = tmp_path / "reported.blend"
+    patched(path, build)
+    return path
+
+
+def test_a_file_that_opens_with_a_report_is_compared(reported, tmp_path, reftrace):
+    done = reftrace("compare", reported, "--out", tmp_path / "out")
+    assert done.returncode == 0, done.stderr
+    (line,) = (line for line in done.stdout.splitlines() if "note: Blender opened" in line)
+    assert "strip" in line and "channel" in line
+    found = json.loads((tmp_path / "out" / "comparison.json").read_text(encoding="utf-8"))
+    assert any("channel" in note for note in found["scene"]["notes"])
+    assert "channel larger" in (tmp_path / "out" / "page.html").read_text(encoding="utf-8")
+
+
+def damaged(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[:5000])
+
+
+def no_blend(path: Path) -> None:
+    path.write_bytes(b"no .blend at all" * 100)
+
+
+def empty(path: Path) -> None:
+    path.write_bytes(b"")
+
+
+@pytest.mark.parametrize("spoil", [damaged, no_blend, empty], ids=lambda f: f.__name__)
+def test_the_file_that_was_open_before_is_not_taken_for_it(spoil, reported, reftrace, tmp_path):
+    """Not even where it had the same path, and was opened with a report itself."""
+    export = "export", reported, "--out", tmp_path / "a.npz"
+    assert reftrace(*export).returncode == 0
+    (tmp_path / "a.npz").unlink()
+    spoil(reported)
+    done = reftrace(*export)
+    assert done.returncode == 4 and not (tmp_path / "a.npz").exists()
+    assert f"'{reported}' cannot be opened" in done.stderr.splitlines()[-1]
+
+
+def test_a_report_is_of_its_own_file(reported, build, tmp_path, reftrace):
+    """The next file has none, also where it takes the first one's place."""
+    other = tmp_path / "other.blend"
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    build.scene(32, 18)
+    build.solids()
+    build.corner_camera()
+    bpy.ops.wm.save_as_mainfile(filepath=str(other))
+    export = "export", reported, "--out", tmp_path / "a.npz"
+    assert "note: Blender opened" in reftrace(*export).stdout
+    assert "note:" not in reftrace("export", other, "--out", tmp_path / "b.npz").stdout
+    shutil.copy(other, reported)
+    assert "note:" not in reftrace(*export).stdout
+
+
+def test_a_folder_is_none(tmp_path):
+    (tmp_path / "folder.blend").mkdir()
+    with (
+        pytest.raises(SceneError, match="no file but a folder"),
+        open_blend(tmp_path / "folder.blend"),
+    ):
+        pass
