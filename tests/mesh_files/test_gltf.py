@@ -423,6 +423,14 @@ class TestInstances:
         assert np.allclose(box(triangles), [[-3, 100, 0], [0, 102, 0]], atol=1e-6) and not notes
         assert area(triangles) == pytest.approx(6, rel=1e-15)
 
+    def test_instances_of_no_mesh_are_named(self, path):
+        build = Build().shown()
+        build.json["scenes"][0]["nodes"].append(
+            build.node(name="Empty", extensions={"EXT_mesh_gpu_instancing": {"attributes": {}}})
+        )
+        triangles, (note,) = read(build.write(path))
+        assert area(triangles) == 1 and "without a mesh" in note and "node 1 'Empty'" in note
+
 
 class TestBuffers:
     @pytest.mark.parametrize("kind", ["application/octet-stream", "application/gltf-buffer", ""])
@@ -525,6 +533,18 @@ class TestNotes:
         build.json["bufferViews"][0]["extensions"] = {name: {"buffer": 0, "byteLength": 4}}
         triangles, (note,) = read(build.write(path))
         assert area(triangles) == 1 and "plain data" in note and name in note
+
+    def test_a_version_that_2_0_is_enough_for(self, path):
+        build = Build().shown()
+        build.json["asset"] = {"version": "2.1", "minVersion": "2.0"}
+        assert area(read(build.write(path))[0]) == 1
+
+    def test_a_name_is_said_once(self, path):
+        build = skinned((0.5, 0, 0, 0))
+        mesh = build.json["meshes"][0]
+        mesh["primitives"] += [{"mode": 0, "attributes": {"POSITION": 0}}] * 2
+        notes = read(build.write(path))[1]
+        assert len(notes) == 2 and all(note.count("mesh 0") == 1 for note in notes)
 
     def test_a_rotation_that_is_too_long(self, path):
         triangles, (note,) = read(Build().shown(rotation=[0, 0, 2, 0], name="N").write(path))

@@ -228,6 +228,16 @@ REFUSED = {
         ),
         "primitive 0 of mesh 0 is compressed by KHR_draco_mesh_compression",
     ),
+    "draco's weights alone": (
+        lambda b: primitive(
+            attributes={
+                "POSITION": 0,
+                "WEIGHTS_0": b.add("accessors", componentType=5126, count=4, type="VEC4"),
+            },
+            extensions={"KHR_draco_mesh_compression": {}},
+        )(b),
+        "primitive 0 of mesh 0 is compressed by KHR_draco_mesh_compression",
+    ),
     "meshopt alone": (
         lambda b: (
             b.json.update(buffers=[{"byteLength": 60}, {"byteLength": 60}]),
