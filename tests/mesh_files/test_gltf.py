@@ -98,6 +98,13 @@ class TestNodes:
         assert names[:4] == ["A", "A (node 1)", "Mesh", "node 3"]
         assert len(set(names)) == 6 and names[5] == "??"
 
+    def test_a_name_that_is_made_is_taken_already(self, path):
+        build = Build()
+        mesh = build.mesh()
+        build.scene(*(build.node(mesh=mesh, name=name) for name in ("A (node 2)", "A", "A")))
+        names = {p.object for p in read_gltf(build.write(path)).placed}
+        assert names == {"A (node 2)", "A", "A (node 2) (node 2)"}
+
     def test_a_node_that_is_hidden_and_those_below_it(self, path):
         build = Build()
         build.extension("KHR_node_visibility", required=True)
