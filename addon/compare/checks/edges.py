@@ -37,8 +37,8 @@ DEPTH_TIE = Cause(
     2,
     "depth_tie",
     "depth tie",
-    "what Blender shows lies {figure:.3g} m behind what the tracer sees "
-    "(a depth buffer tells {allowed:.3g} m apart there)",
+    "what the picture shows lies {figure:.3g} m behind what the tracer sees "
+    "(what lies {allowed:.3g} m apart is told apart there)",
     "m",
     (0.0, 0.7, 1.0),
     explains=True,
@@ -143,7 +143,9 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     nothing[:, np.isfinite(may.sure.t)] = np.inf
     asks = (nothing < np.inf).any(axis=0)
     asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
-    closed = _closed(scene, asked.beside, asks & ~asked.lost)
+    closed = np.full(len(width), np.inf)
+    if part.picture.renderer.closed:
+        closed = _closed(scene, asked.beside, asks & ~asked.lost)
     farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
     visible = may.hits.t <= farthest
     for side, off in zip(found, of, strict=True):
