@@ -155,6 +155,7 @@ class StoredPicture:
     color: Colors  # (h, w, 4) linear RGBA, premultiplied alpha, row 0 at the bottom
     levels: int  # above 0 of sRGB's curve in which it was stored; 0 for floats
     opaque: bool  # the file has no alpha
+    engine: str = ""  # of Blender, as the file's own header has it: 'cycles', 'other'; else ''
 
 
 def read_picture(path: str | Path) -> StoredPicture:
@@ -197,7 +198,8 @@ def _png_of(path: Path, file: Any) -> StoredPicture | None:
     color = np.ones((*stored.shape[:2], 4), np.float32)
     for row, own in zip(color, stored[::-1], strict=True):
         row[:, : len(order)] = by_runs(lambda some: decoded(some / most), own[:, order])
-    return StoredPicture(color, 255 if kind == _PALETTE else 2**depth - 1, len(order) == 3)
+    levels = 255 if kind == _PALETTE else 2**depth - 1
+    return StoredPicture(color, levels, len(order) == 3, _engine_of(file))
 
 
 def _exr_of(path: Path, file: Any) -> StoredPicture | None:
@@ -210,7 +212,19 @@ def _exr_of(path: Path, file: Any) -> StoredPicture | None:
         return None
     color = np.ones((*stored.shape[:2], 4), np.float32)
     color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
-    return StoredPicture(color, 0, len(at) == 3)
+    return StoredPicture(color, 0, len(at) == 3, _engine_of(file))
+
+
+def _engine_of(file: Any) -> str:
+    """Return which of Blender's engines made a picture; '' where Blender did not write the header.
+
+    Blender notes the scene, the camera and how long it rendered; Cycles also notes its samples, for
+    each layer. No other engine notes its name.
+    """
+    noted = {note.name for note in file.spec().extra_attribs}
+    if not {"Scene", "Camera", "RenderTime"} <= noted:
+        return ""
+    return "cycles" if any(name.startswith("cycles.") for name in noted) else "other"
 
 
 def _library() -> Any:

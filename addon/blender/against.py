@@ -9,12 +9,12 @@ with colours that change between corners, no view transform is tried.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -96,14 +96,33 @@ def alternatives(
     ):
         other, viewport = export(bpy.context.evaluated_depsgraph_get())
     drawn, seen = ({entry.name: entry for entry in m.objects} for m in (manifest, viewport))
-    out = []
-    for name in seen.keys() & drawn.keys():
+    out: list[_Hidden] = []
+    for name in sorted(seen.keys() & drawn.keys()):
         if drawn[name].hidden and seen[name].exported:
-            out.append(Alternative(name, drawn[name].reason, with_object(scene, other, name)))
+            shown = partial(with_object, other=other, name=name)
+            out.append(_Hidden(name, drawn[name].reason, shown))
         elif seen[name].hidden and drawn[name].exported:
-            out.append(Alternative(name, seen[name].reason, without(scene, [name])))
-    out.sort(key=lambda a: a.object)
-    return (*out[:MOST], *_frames(context, palette))
+            out.append(_Hidden(name, seen[name].reason, partial(without, names=[name])))
+    return (*_one_by_one_and_all(scene, out[:MOST]), *_frames(context, palette))
+
+
+class _Hidden(NamedTuple):
+    """An object that a flag hides for one side, and what the scene is without the flag."""
+
+    name: str
+    reason: str
+    shown_otherwise: Callable[[Scene], Scene]
+
+
+def _one_by_one_and_all(scene: Scene, hidden: Sequence[_Hidden]) -> Iterator[Alternative]:
+    """Yield the scene without each flag; then without all, as one object may lie before another."""
+    for name, reason, change in hidden:
+        yield Alternative(name, reason, change(scene))
+    if len(hidden) > 1:
+        for _, _, change in hidden:
+            scene = change(scene)
+        reasons = dict.fromkeys(one.reason for one in hidden)
+        yield Alternative("', '".join(h.name for h in hidden), ", ".join(reasons), scene)
 
 
 def _frames(context: Any, palette: Palette) -> list[Alternative]:

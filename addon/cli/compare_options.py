@@ -9,6 +9,7 @@ from pathlib import Path
 from ..certified.rounding import check_is_proven
 from ..compare.animation import frames_named
 from ..compare.palette import By
+from ..compare.renderers import RENDERERS
 from ..framing import Choice
 from ..scene import SceneError
 from ..tracer.settings import Settings
@@ -49,6 +50,7 @@ class CompareOptions:
     against: Path | None
     filter: float | None  # pixels
     dither: float | None  # levels of 255
+    renderer: str | None  # whose rounding excuses a pixel; None for what the picture says
     colors_out: Path | None  # where the colours are written that it should have
     # What the page shows besides.
     trade: bool
@@ -64,7 +66,7 @@ class CompareOptions:
         if given.as_is:
             refuse(given, ("colors", "colors_out"), "is for a picture like for like, not --as-is")
         if given.against is None:
-            refuse(given, ("filter", "dither"), "is for a picture of --against")
+            refuse(given, ("filter", "dither", "renderer"), "is for a picture of --against")
         else:
             why = "is for Blender's picture, not for one of --against"
             refuse(given, ("judge", "identity", "as_is"), why)
@@ -84,6 +86,7 @@ class CompareOptions:
             against=given.against,
             filter=given.filter,
             dither=given.dither,
+            renderer=given.renderer,
             colors_out=given.colors_out,
             trade=given.trade,
             extremes=given.extremes,
@@ -237,4 +240,11 @@ def _add_against(parser: Parser) -> None:
         type=AT_LEAST_0,
         metavar="LEVELS",
         help="noise in a .png, in levels of 255 (default what the .blend says, else 0)",
+    )
+    group.add_argument(
+        "--renderer",
+        choices=list(RENDERERS),
+        help="whose rounding excuses a pixel: rays, of float32, or raster, with a depth buffer of "
+        "24 bits (default rays, unless Blender noted in the file that another engine than Cycles "
+        "made it)",
     )

@@ -43,6 +43,7 @@ class FrameRow(NamedTuple):
     agree: int = 0
     explained: int = 0
     unexplained: int = 0
+    excused: int = 0  # of those that rest on rounding, if they are too many; see `excused.py`
     error: str = ""
 
     @classmethod
@@ -50,7 +51,9 @@ class FrameRow(NamedTuple):
         """Return the row of a comparison, as its JSON holds it."""
         p = found["pixels"]
         explained = p["differ"] - p["unexplained"]
-        return cls(frame, found["verdict"], p["agree"], explained, p["unexplained"])
+        rests = found["excused"]
+        excused = rests["pixels"] if rests["share"] > rests["most"] else 0
+        return cls(frame, found["verdict"], p["agree"], explained, p["unexplained"], excused)
 
 
 def worst_first(rows: Iterable[FrameRow]) -> list[FrameRow]:

@@ -6,6 +6,8 @@ The tracer's own errors in float64 are far below these bounds.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ..arrays import Array, Bools, Floats
@@ -13,8 +15,7 @@ from ..images import encoded
 from ..runs import run_starts
 from ..scene import Camera, Scene
 from ..tracer.camera import pixel_size
-from ..tracer.frame import Frame
-from ..tracer.hits import NOTHING, Hits
+from ..tracer.hits import Hits
 from ..tracer.progress import Work
 from ..tracer.shading import by_mesh
 from ..tracer.vector import transform_points
@@ -73,6 +74,16 @@ def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
     positions : (n, 3) float64
         Where they lie, in world space.
     """
+    return corner_errors(scene, hits, positions, lambda own, s: (own * s).sum(axis=0))
+
+
+def corner_errors(
+    scene: Scene, hits: Hits, positions: Floats, together: Callable[[Floats, Floats], Floats]
+) -> Floats:
+    """Return what the errors of the corners of n triangles come to, (n,) metres.
+
+    `together` makes one of the errors of k corners (3, k) and the barycentrics (3, k).
+    """
     eye = scene.camera.origin
     far = np.abs(positions - eye).sum(axis=1)
     error = _MODEL * (np.abs(eye).sum() + far) + _VIEW * (2 * np.abs(eye).sum() + far)
@@ -82,21 +93,28 @@ def view_error(scene: Scene, hits: Hits, positions: Floats) -> Floats:
         first = run_starts(*names[:, rows])
         instance, triangle = names[:, rows[first]]
         length = np.diff(first, append=len(rows))
-        matrices, error[rows] = scene.instance_matrices[..., instance], 0.0
-        for s, corner in zip(hits.s[:, rows], mesh.triangles[triangle].T, strict=True):
+        matrices = scene.instance_matrices[..., instance]
+        own = np.empty((3, len(first)))
+        for out, corner in zip(own, mesh.triangles[triangle].T, strict=True):
             v = mesh.vertices[corner].T
             p = np.abs(transform_points(matrices, v)).sum(axis=0)
             model = transform_points(np.abs(matrices), np.abs(v)).sum(axis=0)
-            own = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
-            error[rows] += s * np.repeat(own, length)
+            out[:] = _MODEL * model + _VIEW * (p + np.abs(eye).sum())
+        error[rows] = together(np.repeat(own, length, axis=1), hits.s[:, rows])
     return U32 * error
 
 
-def pixel_error(camera: Camera, depth: Floats, view: Floats, y: Floats | float = 0.0) -> Floats:
-    """Return how far Blender's sample may lie from the pixel's centre, (n,) pixels.
+def pixel_error(
+    camera: Camera,
+    depth: Floats,
+    view: Floats,
+    y: Floats | float = 0.0,
+    snapping: float = SNAPPING,
+) -> Floats:
+    """Return how far the other side's sample may lie from the pixel's centre, (n,) pixels.
 
-    Snapping to 1/256 pixel, plus the error `view` (n,) of a point at `depth` (n,) on the film, at
-    its height `y` (n,) there, in window units.
+    Snapping, plus the error `view` (n,) of a point at `depth` (n,) on the film, at its height `y`
+    (n,) there, in window units.
     """
     width, height = pixel_size(camera)
     w, projection = camera.window, camera.projection
@@ -104,20 +122,19 @@ def pixel_error(camera: Camera, depth: Floats, view: Floats, y: Floats | float =
     moved = view * projection.slant(steepest)
     moved = moved / projection.scale(np.maximum(depth, camera.clip_start), y)
     film = _FILM * U32 * max(camera.width, camera.height)
-    return SNAPPING + film + moved / min(width, height)
+    return snapping + film + moved / min(width, height)
 
 
-def depth_resolution(camera: Camera, depth: Floats, view: Floats) -> Floats:
-    """Return how far apart in depth Blender can tell two surfaces, (n,) metres.
+def depth_step(camera: Camera, depth: Floats) -> Floats:
+    """Return how near a buffer of 24 bits takes two depths (n,) for one, metres.
 
-    A 24-bit depth buffer holds f / (f - n) (1 - n / z) of a perspective camera, so a step at depth
-    z is z^2 (f - n) / (f n) 2^-24; of an orthographic one (f - n) 2^-24. Both surfaces carry the
-    error `view` (n,) besides.
+    It holds f / (f - n) (1 - n / z) of a perspective camera, so a step at depth z is
+    z^2 (f - n) / (f n) 2^-24; of an orthographic one (f - n) 2^-24.
     """
     near, far = camera.clip_start, camera.clip_end
     z = np.asarray(depth, np.float64)
     step = camera.projection.depth_step((far - near) * U32, z, near, far)
-    return _DEPTH_STEPS * step + 2 * view
+    return np.asarray(_DEPTH_STEPS * step, np.float64)
 
 
 def differing(
@@ -180,34 +197,13 @@ def difference(
         return apart, np.maximum(HALF_UNITS * unit, LEAST_STEP) + more
 
 
-def sample_band(scene: Scene, frame: Frame, all_rows: list[slice]) -> Work[Floats]:
-    """Return how far from each pixel's centre Blender's sample may lie, (h, w) pixels.
-
-    That is the largest error of the surfaces seen in the 3 x 3 pixels around, and of those farther
-    away that float32 may move as far as this pixel. `all_rows` are looked at one after the other.
-    """
-    camera = scene.camera
-    w = camera.window
-    own = np.zeros(frame.shape)  # of the surface that the pixel itself shows
-    for number, rows in enumerate(all_rows):
-        hits = frame.hits(rows)
-        seen = np.flatnonzero(hits.instance != NOTHING)
-        hits = hits.take(seen)
-        view = view_error(scene, hits, frame.positions(rows)[seen])
-        row = seen // frame.shape[1] + (rows.start or 0)
-        y = w.bottom + (row + camera.region.y0 + 0.5) * pixel_size(camera)[1]
-        own[rows].reshape(-1)[seen] = pixel_error(camera, hits.t, view, y)
-        yield number / len(all_rows)
-    return (yield from spread_error(own))
-
-
-def spread_error(own: Floats) -> Work[Floats]:
-    """Return the largest error that reaches each pixel, at least SNAPPING, (h, w).
+def spread_error(own: Floats, least: float = SNAPPING) -> Work[Floats]:
+    """Return the largest error that reaches each pixel, and at `least` that, (h, w).
 
     `own` (h, w) is the error of the surface that each pixel shows, in pixels. It counts in a square
     around that pixel that reaches as far as the next power of two.
     """
-    band = np.full(own.shape, SNAPPING)
+    band = np.full(own.shape, least)
     height, most = len(own), max(own.shape)
     reach = 1
     while True:

@@ -19,7 +19,7 @@ from ..tracer import shading
 from ..tracer.frame import Frame
 from ..tracer.hits import NOTHING
 from ..tracer.progress import Work, scaled
-from .bounds import DECIDABLE, sample_band
+from .bounds import DECIDABLE
 from .case import Case
 from .cause import AGREE, NOT_DECIDABLE, NOT_TRACED, UNEXPLAINED, Cause, Causes
 from .checks import anti_aliasing, clip, color, edges, hidden, identity, unmodelled
@@ -33,6 +33,7 @@ from .checks.hidden import HIDDEN
 from .checks.probe import OpenPixels, blocks, other_color
 from .checks.unmodelled import NOT_MODELLED
 from .embree import not_decidable
+from .renderers import sample_band
 
 # All causes, in the order of the legend.
 CAUSES: tuple[Cause, ...] = (
@@ -137,7 +138,7 @@ def _open(pixels: OpenPixels) -> Work[None]:
     scene = pixels.case.scene
     frame = pixels.frame
     seen = frame.instance_index
-    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape))
+    pixels.band = yield from sample_band(scene, frame, blocks(frame.shape), pixels.picture.renderer)
     pixels.band += pixels.picture.off_center
     if pixels.picture.farthest < np.inf:
         pixels.band[not_decidable(scene, frame, pixels.picture.farthest)] = np.inf

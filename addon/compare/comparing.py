@@ -13,6 +13,7 @@ from .causes import explain
 from .comparison import Comparison
 from .counts import count_pixels
 from .diagnosis import diagnose
+from .excused import excused
 from .guessing import SECONDS
 from .identity import Identity
 from .methods import list_methods
@@ -101,6 +102,7 @@ def compare(case: Case, frame: Frame) -> Work[Comparison]:
         found.causes,
         pixels,
         measured,
+        excused(found.case, traced, found.causes),
         identity=identity,
         self_check=checked,
         background=found.background,

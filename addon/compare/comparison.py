@@ -22,6 +22,7 @@ from .checks.background import Background
 from .checks.hidden import HIDDEN
 from .checks.unmodelled import NOT_MODELLED
 from .diagnosis import Diagnosis
+from .excused import COMPARABLE, Excused
 from .identity import Identity
 from .methods import MethodRow
 from .self_check import FaultRow, table
@@ -31,8 +32,6 @@ SCHEMA = "reference_tracer.comparison/1"
 # The verdicts, the gravest last, and what each is to a shell. 3 (the sizes do not match) and 4 (the
 # input cannot be read) end a command before there is a verdict.
 EXIT_CODES = {"agree": 0, "warnings": 1, "not comparable": 1, "cancelled": 1, "differences": 2}
-
-COMPARABLE = 0.5  # the largest share of a picture in which no fault could be found
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +43,7 @@ class Comparison:
     causes: Causes
     pixels: dict[str, Any]  # see count_pixels
     metrics: dict[str, Any]  # see image_metrics
+    excused: Excused  # what rests on rounding
     methods: tuple[MethodRow, ...] = ()
     identity: Identity | None = None  # which object each side shows
     self_check: tuple[FaultRow, ...] = ()  # faults made on purpose, and whether they were found
@@ -73,7 +73,7 @@ class Comparison:
         certificate = self.case.certificate
         if self.pixels["unexplained"] or (certificate and not certificate.passed):
             return "differences"
-        if self.pixels["not_judged"]["share"] > COMPARABLE:
+        if max(self.pixels["not_judged"]["share"], self.excused.share) > COMPARABLE:
             return "not comparable"
         return "warnings" if any(self._doubts()) else "agree"
 
@@ -82,6 +82,7 @@ class Comparison:
         for cause in CAUSES:
             yield cause.warns and self.pixels["by_cause"][cause.key]
         yield self.pixels["not_judged"]["pixels"]
+        yield self.excused.too_much
         yield self.empty
         yield from (u.effect in (Effect.UNPLACED, Effect.MISSING) for u in self.manifest.unmodelled)
         yield from (entry.left_out for entry in self.manifest.objects)
@@ -119,6 +120,7 @@ class Comparison:
             "tracer": self._tracer(),
             "methods": [row.to_dict() for row in self.methods],
             "pixels": self.pixels,
+            "excused": self.excused.to_dict(),
             "causes": {c.key: c.to_dict() for c in CAUSES},
             "transform": self.causes.transform,
             "shades": [shade._asdict() for shade in self.causes.shades],
@@ -203,6 +205,9 @@ class Comparison:
             f"{inside['differ']:,} of {inside['total']:,} interior and {rim['differ']:,} of "
             f"{rim['total']:,} boundary pixels differ"
         )
+        if self.case.picture.source.file:
+            words = self.case.picture.renderer.words
+            yield f"a pixel may differ by the rounding of {words} (--renderer)"
         if self.background:
             yield self.background.line()
         if self.empty:
@@ -241,6 +246,7 @@ class Comparison:
                 "origin, or at such a scale, float32 moves Blender's surfaces by more than half a "
                 "pixel; move the scene to the origin, or apply the objects' scale"
             )
+        yield from self.excused.lines()
 
 
 def _share(pixels: int, total: int) -> str:

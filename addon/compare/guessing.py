@@ -26,13 +26,12 @@ from ..rendering import steps
 from ..scene import Scene, SceneError
 from ..tracer.frame import Frame
 from ..tracer.progress import Work
-from .case import WHOLE
+from .case import PRECISE, WHOLE
 from .causes import explain
 from .evidence import Evidence
 from .faults.fault import Fault, Guess
 from .trial import Trial, tried
 
-PRECISE = 0.97  # the least share of changed pixels that a guess must be right in
 COMPLETE = 0.75  # the least share of the pixels of the regions that it touches
 FITTED = (
     0.9  # that share for numbers that were fitted: the wrong kind is nearly right in small places

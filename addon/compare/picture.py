@@ -20,6 +20,7 @@ from ..tracer import shading
 from ..tracer.hits import Hits
 from .bounds import DECIDABLE, SNAPPING, difference, differing
 from .identity import NOTHING, UNKNOWN
+from .renderers import RASTER, Renderer
 
 D = TypeVar("D", bound=np.generic)
 Where = Array | slice | tuple[Array, ...]
@@ -83,6 +84,7 @@ class Picture:
     # (...) the index of the unmodelled feature that draws itself over what is traced, or NOTHING.
     drawn: Integers | None = None
     beneath: Colors | None = None  # (..., 4) the colour without these features; NaN: not known
+    renderer: Renderer = RASTER  # whose rounding excuses a pixel
 
     def to_dict(self) -> dict[str, Any]:
         """Return who made it and how, as JSON can hold it."""
@@ -92,6 +94,7 @@ class Picture:
             "source": source.name,
             **({"picture": source.file} if source.file else {}),
             "sample_radius": self.sample_radius,
+            "renderer": self.renderer.name,
             "snapping": self.snapping,
             "filter_radius": self.filter_radius,
             "settings": source.settings,

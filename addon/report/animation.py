@@ -99,7 +99,8 @@ def _cells(row: FrameRow) -> list[str]:
     if row.error:
         return [str(row.frame), "-", "-", "-", f"{row.verdict}: {row.error}"]
     counts = row.agree, row.explained, row.unexplained
-    return [str(row.frame), *(f"{n:,}" for n in counts), row.verdict]
+    why = f": {row.excused:,} px rest on rounding alone" if row.excused else ""
+    return [str(row.frame), *(f"{n:,}" for n in counts), f"{row.verdict}{why}"]
 
 
 def _page(title: str, frames: range, rows: Sequence[FrameRow], directory: Path) -> str:

@@ -123,6 +123,22 @@ def test_an_object_that_renders_do_not_have(scene, drawn, judged):
     assert found["pixels"]["unexplained"] == 0
 
 
+def test_objects_before_one_another_that_renders_do_not_have(scene, drawn, judged):
+    """Neither alone is what the picture shows."""
+    front = bpy.data.objects["Green"].copy()
+    front.name = "Front"
+    front.location = bpy.data.objects["Green"].location.lerp(scene.camera.location, 0.15)
+    front.location.z += 0.5
+    front.color = (0.1, 0.1, 0.9, 1)
+    scene.collection.objects.link(front)
+    drawn(view_transform="Standard")
+    for name in ("Green", "Front"):
+        bpy.data.objects[name].hide_render = True
+    _, found, _ = judged()
+    assert "Green" in str(found["hidden"]) and "Front" in str(found["hidden"])
+    assert found["pixels"]["unexplained"] == 0
+
+
 def test_an_object_that_is_gone_without_a_reason(scene, drawn, judged):
     drawn(view_transform="Standard")
     bpy.data.objects.remove(bpy.data.objects["Green"])

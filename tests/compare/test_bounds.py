@@ -12,12 +12,13 @@ from reference_tracer.compare.bounds import (
     LEAST_STEP,
     SNAPPING,
     U32,
-    depth_resolution,
+    depth_step,
     differing,
     pixel_error,
     view_error,
 )
 from reference_tracer.compare.causes import AGREE
+from reference_tracer.compare.renderers import RENDERERS
 from reference_tracer.images import decoded, encoded
 from reference_tracer.rendering import render
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
@@ -135,7 +136,7 @@ def test_a_depth_buffer_tells_apart_what_is_farther_than_the_resolution(make, or
         far = near * 10.0 ** rng.uniform(1, 5)
         camera = make.camera(clip_start=near, clip_end=far, orthographic=orthographic)
         depth = np.exp(rng.uniform(np.log(near), np.log(far), 200))
-        gap = depth_resolution(camera, depth, np.zeros(200))
+        gap = depth_step(camera, depth)
         first, second, close = (
             buffer(camera, d, orthographic) for d in (depth, depth + gap, depth + 0.05 * gap)
         )
@@ -158,8 +159,9 @@ def buffer(camera, depth, orthographic):
 def test_errors_of_the_surfaces_add_to_the_resolution(make):
     depth = np.array([2.0, 3.0])
     camera = make.camera()
-    plain = depth_resolution(camera, depth, np.zeros(2))
-    assert np.allclose(depth_resolution(camera, depth, np.array([0.0, 0.5])) - plain, [0, 1])
+    for renderer in RENDERERS.values():
+        plain = renderer.resolution(camera, depth, np.zeros(2))
+        assert np.allclose(renderer.resolution(camera, depth, np.array([0.0, 0.5])) - plain, [0, 1])
 
 
 def test_half_float_colours_agree(room, explained):

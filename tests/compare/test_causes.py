@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import trimesh
-from reference_tracer.compare.bounds import differing, sample_band
+from reference_tracer.compare.bounds import differing
 from reference_tracer.compare.causes import (
     AGREE,
     NOT_DECIDABLE,
@@ -19,6 +19,7 @@ from reference_tracer.compare.causes import (
     UNEXPLAINED,
 )
 from reference_tracer.compare.checks.unmodelled import covered
+from reference_tracer.compare.renderers import sample_band
 from reference_tracer.manifest import Unmodelled
 from reference_tracer.rendering import render
 from reference_tracer.scene import Region, ViewWindow

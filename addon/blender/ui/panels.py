@@ -106,6 +106,8 @@ class _Result(Part):
         comparison = results.content(Kind.COMPARISON, context.scene)
         icon = {"agree": "CHECKMARK", "differences": "CANCEL"}.get(comparison.verdict, "ERROR")
         layout.label(text=comparison.verdict.capitalize(), icon=icon)
+        for line in comparison.excused.lines():
+            wrapped(layout, context, line.strip(), "ERROR")
         draw_findings(layout, context, comparison)
         draw_table(layout, [*_counts(comparison.pixels), *_measures(comparison)])
         rows = [("Traced by", "s", "Wrong", "Ambig.")]

@@ -18,6 +18,7 @@ from ...compare.comparing import trace_and_compare
 from ...compare.comparison import EXIT_CODES, Comparison
 from ...compare.palette import By, GivenColors
 from ...compare.picture import Picture, Source
+from ...compare.renderers import RASTER, RAYS, RENDERERS, Renderer
 from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
 from ...report import engines as engines_report
@@ -200,4 +201,10 @@ def _shown(
         levels=picture.levels,
         dither=dither,
         opaque=picture.opaque,
+        renderer=RENDERERS[options.renderer] if options.renderer else _renderer_of(picture),
     )
+
+
+def _renderer_of(picture: images.StoredPicture) -> Renderer:
+    """Return what a picture was made by: all but Cycles rasterise of Blender's engines."""
+    return RASTER if picture.engine not in ("", "cycles") else RAYS

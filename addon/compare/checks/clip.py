@@ -13,8 +13,9 @@ import numpy as np
 from ...scene import Camera
 from ...tracer.hits import NOTHING, Hits
 from ...tracer.progress import Work
-from ..bounds import U32, depth_resolution
+from ..bounds import U32
 from ..cause import Cause
+from ..renderers import Renderer
 from .probe import LAYERS, OpenPixels, Part, near_surfaces
 
 CLIP_PLANE = Cause(
@@ -37,7 +38,7 @@ def check(pixels: OpenPixels) -> Work[None]:
     """Find open pixels at the clip planes, a part of the picture at a time."""
     if pixels.open.any():
         scene = pixels.case.scene
-        wide = replace(scene, camera=_widened(scene.camera))
+        wide = replace(scene, camera=_widened(scene.camera, pixels.picture.renderer))
         yield from near_surfaces(pixels, wide, 0.0, _clipped)
 
 
@@ -69,11 +70,11 @@ def _clipped(part: Part) -> Work[None]:
             return
 
 
-def _widened(camera: Camera) -> Camera:
-    """Return a camera that also sees what Blender may take to be within its clip range."""
+def _widened(camera: Camera, renderer: Renderer) -> Camera:
+    """Return a camera that also sees what a renderer may take to be within its clip range."""
     ends = np.array((camera.clip_start, camera.clip_end), np.float64)
     view = U32 * WIDENED * (float(np.abs(camera.origin).sum()) + np.abs(ends))
-    before, behind = depth_resolution(camera, ends, view)
+    before, behind = renderer.resolution(camera, ends, view)
     start = camera.clip_start - before
     if not camera.projection.sees_behind:
         start = max(start, camera.clip_start / 2)

@@ -37,8 +37,8 @@ DEPTH_TIE = Cause(
     2,
     "depth_tie",
     "depth tie",
-    "what Blender shows lies {figure:.3g} m behind what the tracer sees "
-    "(a depth buffer tells {allowed:.3g} m apart there)",
+    "what the picture shows lies {figure:.3g} m behind what the tracer sees "
+    "(what lies {allowed:.3g} m apart is told apart there)",
     "m",
     (0.0, 0.7, 1.0),
     explains=True,
@@ -68,15 +68,19 @@ class _Asked(NamedTuple):
     centre: Hits
     lost: Bools  # the picture's own method lost what the centre sees
     found: Floats  # (2, n) px: how far away the picture's colour is seen, and its object
+    behind: list[tuple[Hits, Floats]]  # what may tie with the centre, and how far behind, (n,) m
     beside: list[Hits]  # at the samples in the band
 
 
 def _look(part: Part) -> Work[None]:
-    """Ask at samples, then behind, then the triangles themselves, while pixels have no cause."""
+    """Ask behind, then at samples, then the triangles themselves, while pixels have no cause.
+
+    What is shown on the very same ray is a tie, even if an edge is near.
+    """
     centre = yield from part.probe.trace()
     lost = ~part.picture.differ(part.scene, centre)
-    asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [])
-    for look in (_beside, _behind, _covering):
+    asked = _Asked(centre, lost, _sides(part.scene, part.picture, centre, 0.0), [], [])
+    for look in (_behind, _beside, _mixed, _covering):
         if not part.done:
             yield from look(part, asked)
 
@@ -112,24 +116,42 @@ def _beside(part: Part, asked: _Asked) -> Work[None]:
 
 
 def _behind(part: Part, asked: _Asked) -> Work[None]:
-    """Look for what Blender shows in surfaces that tie with the first one."""
-    scene, picture = part.scene, part.picture
+    """Look for what Blender shows in surfaces that tie with the first one.
+
+    That may be the centre itself: these rays are float64's, and of surfaces that are nearer than
+    its last place they may see another one than the picture, which is certified.
+    """
     first = asked.centre
     allowed = np.where(first.instance != NOTHING, part.resolution(first), -1.0)
-    color, owner = asked.found < np.inf
-    color &= ~asked.lost
+    with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
+        moved = np.abs(first.t - part.pixels.frame.t[part.at])
+    part.give(asked.lost & (moved <= allowed), DEPTH_TIE, moved, allowed)
     hits = first
     for _ in range(LAYERS):
         hits = yield from part.probe.trace(after=hits)
-        with np.errstate(invalid="ignore"):  # inf - inf, where nothing is hit
+        with np.errstate(invalid="ignore"):
             gap = hits.t - first.t
-            tied = gap <= allowed
+        if not (gap <= allowed).any():
+            break
+        asked.behind.append((hits, np.where(gap <= allowed, gap, np.inf)))
+    yield from _mixed(part, asked)
+
+
+def _mixed(part: Part, asked: _Asked) -> Work[None]:
+    """Give a tie to pixels with the colour or the object behind, and the other where it was found.
+
+    An edge may have decided one of the two drawings, a tie the other.
+    """
+    scene, picture = part.scene, part.picture
+    color, owner = asked.found < np.inf
+    color = color & ~asked.lost
+    allowed = part.resolution(asked.centre)
+    for hits, gap in asked.behind:
+        tied = gap < np.inf
         color |= tied & picture.same_color(scene, hits)
-        owner |= tied & ~picture.other_object(hits.instance)
+        owner = owner | (tied & ~picture.other_object(hits.instance))
         part.give(tied & color & owner, DEPTH_TIE, gap, allowed)
         yield 0.0
-        if part.done:
-            return
 
 
 def _covering(part: Part, asked: _Asked) -> Work[None]:
@@ -143,7 +165,9 @@ def _covering(part: Part, asked: _Asked) -> Work[None]:
     nothing[:, np.isfinite(may.sure.t)] = np.inf
     asks = (nothing < np.inf).any(axis=0)
     asks[may.pixel[(of < np.inf).any(axis=0) & (may.hits.t <= farthest)]] = True
-    closed = _closed(scene, asked.beside, asks & ~asked.lost)
+    closed = np.full(len(width), np.inf)
+    if part.picture.renderer.closed:
+        closed = _closed(scene, asked.beside, asks & ~asked.lost)
     farthest = np.minimum(farthest, (closed + part.resolution(asked.centre))[may.pixel])
     visible = may.hits.t <= farthest
     for side, off in zip(found, of, strict=True):

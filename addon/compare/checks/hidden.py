@@ -2,7 +2,8 @@
 
 The manifest names objects that the tracer was told to leave out: if the picture is known to show
 one, this is the cause. An alternative scene is believed if tracing it gives what the picture shows
-in most of the pixels that it changes at all, and only in those.
+in nearly all of the pixels that it changes at all, as a fault must: a picture that is wrong in
+another way agrees with it here and there. Then it excuses only those.
 """
 
 from __future__ import annotations
@@ -15,9 +16,9 @@ from ...scene import Scene
 from ...tracer.frame import Frame
 from ...tracer.progress import Work, scaled
 from ...tracer.settings import Settings
-from ..case import Alternative
-from ..cause import AGREE, Cause, Hidden
-from . import edges
+from ..case import PRECISE, Alternative
+from ..cause import AGREE, Cause, Causes, Hidden
+from . import anti_aliasing, edges
 from .probe import OpenPixels, by_blocks
 
 HIDDEN = Cause(
@@ -30,9 +31,6 @@ HIDDEN = Cause(
     explains=True,
     warns=True,
 )
-
-
-CONFIRMED = 0.5  # of the pixels that an alternative changes
 
 
 def check(pixels: OpenPixels) -> Work[None]:
@@ -66,16 +64,37 @@ def _look_at(pixels: OpenPixels, other: Alternative) -> Work[None]:
     colorless = case.colorless
     picture = replace(pixels.picture, owner=None, owners=None, colorless=colorless)
     there = replace(pixels, case=case, picture=picture)
-    traced, same = yield from scaled(traced_instead(there), 0.0, 0.5)
+    traced, same = yield from scaled(traced_instead(there), 0.0, 0.4)
+    there = replace(there, frame=traced)
     changed = (traced.color != pixels.frame.color).any(axis=-1)
     changed &= pixels.open | (pixels.out.cause == AGREE)
     changed &= ~colorless[traced.instance_index]  # any colour would be the right one
-    if (same & changed).sum() <= CONFIRMED * changed.sum():
+    needed = PRECISE * changed.sum()
+    right = same & changed
+    if right.sum() <= changed.sum() / 2:
+        return  # so much is no edge
+    if right.sum() < needed:
+        right |= yield from scaled(_at_edges(there, changed & ~same), 0.4, 0.3)
+    if right.sum() < needed:
         return
     same &= changed & pixels.open
     pixels.give(same, HIDDEN, _named(pixels, Hidden(other.object, other.reason)))
     # Its edges are as uncertain as those of the traced scene.
-    yield from scaled(edges.check(there), 0.5, 0.5)
+    yield from scaled(_edges(there), 0.7, 0.3)
+
+
+def _edges(there: OpenPixels) -> Work[None]:
+    """Find open pixels at the edges of an alternative scene."""
+    yield from anti_aliasing.check(there)
+    yield from edges.check(there)
+
+
+def _at_edges(there: OpenPixels, asked: Bools) -> Work[Bools]:
+    """Return which pixels asked for (h, w) rounding may have made; gives them no cause."""
+    out = Causes.none(asked.shape)
+    trial = replace(there, out=out, open=asked.copy())
+    yield from _edges(trial)
+    return out.cause != AGREE
 
 
 def traced_instead(pixels: OpenPixels) -> Work[tuple[Frame, Bools]]:

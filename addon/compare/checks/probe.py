@@ -26,7 +26,6 @@ from ...tracer.settings import Precision, Settings
 from ...tracer.shading import interpolated, positions
 from ...tracer.vector import groups, parts
 from ...tracer.world import Pairs
-from ..bounds import depth_resolution, view_error
 from ..case import Case
 from ..cause import AGREE, Cause, Causes
 from ..picture import Picture
@@ -180,11 +179,12 @@ class Part:
         self.pixels.give(where, cause, figure, allowed, self.at)
 
     def resolution(self, hits: Hits) -> Floats:
-        """Return how near in depth Blender takes two surfaces for one, at n hits; 0 for no hit."""
+        """Return how near in depth two surfaces are taken for one, at n hits; 0 for no hit."""
         seen, out = np.flatnonzero(hits.instance != NOTHING), np.zeros(len(hits))
-        found = hits.take(seen)
-        view = view_error(self.scene, found, self.probe.points(hits)[seen])
-        out[seen] = depth_resolution(self.scene.camera, found.t, view)
+        found, renderer = hits.take(seen), self.picture.renderer
+        rays = self.probe.rays(pixel=seen)
+        along = renderer.along(self.scene, found, self.probe.points(hits)[seen], rays)
+        out[seen] = renderer.resolution(self.scene.camera, found.t, along)
         return out
 
 

@@ -67,6 +67,12 @@ function headline(score) {
     parts.push(
       `${object} is shown in another shade (${count(pixels)} pixels)${transform && `: ${transform}`}.`,
     );
+  const { pixels: excused, share, most, advice } = page.comparison.excused;
+  if (share > most)
+    parts.push(
+      `${percent(excused, score.total)} of the picture rests on rounding alone.`,
+      ...advice.map((line) => `To have it judged, ${line}.`),
+    );
   if (score.not_traced) parts.push(`${count(score.not_traced)} were not traced.`);
   return parts.join(" ");
 }

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reference_tracer.compare.bounds import depth_resolution
+from reference_tracer.compare.bounds import depth_step
 from reference_tracer.compare.causes import CLIP_PLANE, UNEXPLAINED
 from reference_tracer.rendering import render
 from reference_tracer.scene import Camera, Mesh
@@ -26,7 +26,7 @@ def wall(make, camera: Camera, depth: float):
 def test_a_wall_at_the_clip_start(make, explained, orthographic, side):
     """Blender draws it or not; the tracer, a hair off, the other way."""
     camera = make.camera(clip_start=2.0, clip_end=100.0, orthographic=orthographic)
-    off = 0.2 * float(depth_resolution(camera, np.array(2.0), np.array(0.0)))
+    off = 0.2 * float(depth_step(camera, np.array(2.0)))
     scene = wall(make, camera, 2.0 + side * off)
     other = render(wall(make, camera, 2.0 - side * off)).color
     assert (other != render(scene).color).any()
@@ -40,7 +40,7 @@ def test_a_wall_at_the_clip_start(make, explained, orthographic, side):
 def test_a_wall_at_the_clip_start_behind_the_eye(make, explained, side):
     """As an orthographic view has it, which looks both ways."""
     camera = make.camera(clip_start=-50.0, clip_end=50.0, orthographic=True)
-    off = 0.2 * float(depth_resolution(camera, np.array(-50.0), np.array(0.0)))
+    off = 0.2 * float(depth_step(camera, np.array(-50.0)))
     scene = wall(make, camera, -50.0 + side * off)
     other = render(wall(make, camera, -50.0 - side * off)).color
     assert (other != render(scene).color).any()
@@ -50,7 +50,7 @@ def test_a_wall_at_the_clip_start_behind_the_eye(make, explained, side):
 @pytest.mark.parametrize("side", [-1, 1])
 def test_a_wall_at_the_clip_end(make, explained, side):
     camera = make.camera(clip_start=0.5, clip_end=5.0)
-    off = 0.2 * float(depth_resolution(camera, np.array(5.0), np.array(0.0)))
+    off = 0.2 * float(depth_step(camera, np.array(5.0)))
     scene = wall(make, camera, 5.0 + side * off)
     other = render(wall(make, camera, 5.0 - side * off)).color
     found = explained(scene, other)

@@ -71,3 +71,44 @@ def test_an_object_that_is_known_to_be_shown(named):
     assert (causes.cause[owner == 1] == HIDDEN).mean() > 0.9
     causes = result_of(find_causes(lacking, frame, shown))
     assert (causes.cause[owner == 1] == UNEXPLAINED).mean() > 0.9
+
+
+def moved(scene, name, by):
+    """Return a scene with an object elsewhere, `by` (3,) metres."""
+    number, shift = scene.objects.index(name), np.eye(4)
+    shift[:3, 3] = by
+    instances = [
+        replace(i, world_from_object=shift @ i.world_from_object) if i.object == number else i
+        for i in scene.instances
+    ]
+    return replace(scene, instances=tuple(instances))
+
+
+@pytest.mark.parametrize("by", [(0.15, 0, 0), (0, 0.15, 0)])
+def test_a_hidden_object_beside_its_place_is_not_excused(named, by):
+    """Most of it is where it would be; that is a piece of the truth."""
+    lacking = without(named, ["Box"])
+    shown = render(moved(named, "Box", by)).color
+    whole = Alternative("Box", WHY, with_object(lacking, named, "Box"))
+    causes = found(lacking, shown, whole)
+    changed = (shown != render(lacking).color).any(axis=-1)
+    assert causes.hidden == [] and (causes.cause[changed] == UNEXPLAINED).mean() > 0.9
+
+
+def test_pieces_of_two_frames_are_not_excused(named):
+    """A picture that is moved as a whole agrees here and there with the frames beside."""
+    others = [moved(named, "Ball", (x, 0, 0)) for x in (-0.14, 0.14)]
+    rolled = np.roll(render(named).color, 1, axis=1)
+    frames = [Alternative("what is animated", f"frame {n}", s) for n, s in enumerate(others)]
+    causes = found(named, rolled, *frames)
+    assert causes.hidden == []
+    assert (causes.cause == UNEXPLAINED).sum() == (
+        (found(named, rolled).cause == UNEXPLAINED).sum()
+    )
+
+
+def test_the_frame_beside_is_still_told(named):
+    other = moved(named, "Ball", (0.06, 0, 0))
+    causes = found(named, render(other).color, Alternative("what is animated", WHY, other))
+    assert causes.hidden == [Hidden("what is animated", WHY)]
+    assert not (causes.cause == UNEXPLAINED).any()
