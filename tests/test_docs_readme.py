@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli.main import parser
 from reference_tracer.compare.causes import CAUSES
+from reference_tracer.rendering import render
 from reference_tracer.report.page.content import _hex
+from reference_tracer.scene_files import load_scene
 
 PROJECT = Path(__file__).parent.parent
 TEXT = (PROJECT / "README.md").read_text(encoding="utf-8")
@@ -86,6 +90,21 @@ def test_its_code_runs(tmp_path, monkeypatch, capsys):
     [code] = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
     exec(compile(code, "commands.md", "exec"), {})
     assert "decided by the error bound" in capsys.readouterr().out
+
+
+def test_the_scene_of_its_own_making_is_read(tmp_path, monkeypatch):
+    """That of the page on files, which is written with numpy alone."""
+    monkeypatch.chdir(tmp_path)
+    text = DOCUMENTS[PROJECT / "docs" / "files.md"]
+    [code] = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+    exec(compile(code, "files.md", "exec"), {})
+    frame = render(load_scene("scene.npz"))
+    height, width = frame.shape
+    # By hand: 2 x 2 / 2 square metres, at a depth of 3, of a film of 1.6 x 0.9.
+    assert (frame.instance_index == 0).mean() == pytest.approx(2 / 9 / (1.6 * 0.9), abs=0.01)
+    assert frame.t[height // 2, width // 2] == 3
+    for key in json.loads(str(np.load("scene.npz")["scene"]))["camera"]:
+        assert f"`camera.{key}`" in text
 
 
 def test_the_table_of_causes_is_that_of_the_code():
