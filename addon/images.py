@@ -1,7 +1,7 @@
 """Reads and writes picture files, and turns linear colours into what a screen shows.
 
 Pictures are (h, w, 4), row 0 at the bottom; files are written with their first row on top.
-A PNG is written with zlib alone. All else needs OpenImageIO, the extra `images`.
+A PNG takes zlib and numpy alone. An EXR takes OpenImageIO, the extra `images`.
 """
 
 from __future__ import annotations
@@ -10,21 +10,18 @@ import base64
 import errno
 import os
 import shutil
-import struct
-import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import png
 from .arrays import Array, Bytes, Colors, Floats
 from .runs import by_runs
 
-_LEVEL = 6  # of zlib's compression: 9 takes several times as long for a few per cent
-_RGBA, _PALETTE = 6, 3  # PNG's colour types
 _ROWS = 64  # of an EXR that are written at a time: several of its blocks
 
 
@@ -84,31 +81,12 @@ def save_png(path: str | Path, picture: Bytes) -> None:
     OSError
         If the file cannot be written.
     """
-    Path(path).write_bytes(png(picture))
-
-
-def png(picture: Bytes) -> bytes:
-    """Return an (h, w, 4) uint8 sRGB picture, row 0 at the bottom, as the content of a PNG file.
-
-    It has 8 bits a channel, and no filter: flat colours are smaller without.
-
-    References
-    ----------
-    W3C, "Portable Network Graphics (PNG) Specification", third edition.
-    """
-    height, width = picture.shape[:2]
-    rows = np.zeros((height, 1 + 4 * width), np.uint8)  # each begins with 0: it is not filtered
-    rows[:, 1:] = picture[::-1].reshape(height, -1)
-    header = struct.pack(">2I5B", width, height, 8, _RGBA, 0, 0, 0)
-    out = [b"\x89PNG\r\n\x1a\n"]
-    for chunk in (b"IHDR" + header, b"IDAT" + zlib.compress(rows, _LEVEL), b"IEND"):
-        out += struct.pack(">I", len(chunk) - 4), chunk, struct.pack(">I", zlib.crc32(chunk))
-    return b"".join(out)
+    Path(path).write_bytes(png.encode(picture))
 
 
 def data_uri(picture: Bytes) -> str:
-    """Return a picture, as :func:`png` takes it, as the address of an image in a page."""
-    return f"data:image/png;base64,{base64.b64encode(png(picture)).decode('ascii')}"
+    """Return an (h, w, 4) uint8 picture, row 0 at the bottom, as an image's address in a page."""
+    return f"data:image/png;base64,{base64.b64encode(png.encode(picture)).decode('ascii')}"
 
 
 def save_exr(path: str | Path, passes: dict[str, Array]) -> None:
@@ -158,73 +136,130 @@ class StoredPicture:
     engine: str = ""  # of Blender, as the file's own header has it: 'cycles', 'other'; else ''
 
 
-def read_picture(path: str | Path) -> StoredPicture:
-    """Read a PNG, of sRGB's curve, or an EXR.
+@dataclass(frozen=True)
+class PictureFile:
+    """A picture file of which the header was read, but no pixel."""
+
+    path: Path
+    width: int
+    height: int
+
+    def read(self) -> StoredPicture:
+        """Read the pixels.
+
+        Raises
+        ------
+        OSError
+            If they are damaged.
+        """
+        return _FORMATS[self.path.suffix.lower()].read(self.path)
+
+
+class _Format(NamedTuple):
+    """How a format is read."""
+
+    size: Callable[[Path], tuple[int, int]]
+    read: Callable[[Path], StoredPicture]
+
+
+def open_picture(path: str | Path) -> PictureFile:
+    """Read the header of a PNG, of sRGB's curve, or of an EXR: its size is known before its pixels.
 
     Raises
     ------
     MissingLibraryError
-        If OpenImageIO is not installed.
+        If it is an EXR, and OpenImageIO is not installed.
     OSError
         If there is no such file, or it is no such picture.
     """
     path = Path(path)
     if not path.is_file():
         raise OSError(f"there is no file '{path}', or it is a folder or a pipe")
-    readers = {".png": _png_of, ".exr": _exr_of}
-    if path.suffix.lower() not in readers:
+    of = _FORMATS.get(path.suffix.lower())
+    if of is None:
         raise OSError(f"'{path}' is no picture that can be compared: it must be .png or .exr")
-    oiio = _library()
-    asked = oiio.ImageSpec()
-    asked.attribute("oiio:UnassociatedAlpha", 1)
-    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):
-        file = oiio.ImageInput.open(str(path), asked)
-        picture = file and readers[path.suffix.lower()](path, file)
-    if picture is None:
-        raise OSError(f"'{path}' cannot be read, save it again: {_error(file or oiio)}")
-    return picture
+    return PictureFile(path, *of.size(path))
 
 
-def _png_of(path: Path, file: Any) -> StoredPicture | None:
-    stored = file.read_image("unknown")
-    if stored is None:
-        return None
-    with path.open("rb") as header:
-        depth, kind = header.read(26)[24:]
-    most = np.iinfo(stored.dtype).max
-    channels = stored.shape[2]
+def read_picture(path: str | Path) -> StoredPicture:
+    """Read a PNG or an EXR whole; raises what :func:`open_picture` and its picture raise."""
+    return open_picture(path).read()
+
+
+def _png_size(path: Path) -> tuple[int, int]:
+    with path.open("rb") as file, _damage_named(path):
+        header = png.header_of(file.read(33))
+    return header.width, header.height
+
+
+def _png_of(path: Path) -> StoredPicture:
+    with _damage_named(path):
+        stored = png.decode(path.read_bytes())
+    values, has_alpha = stored.values, stored.has_alpha
+    channels = values.shape[2]
     order = [0] * 3 if channels < 3 else [0, 1, 2]  # grey, or RGB
-    order += [channels - 1] * (channels % 2 == 0)
-    color = np.ones((*stored.shape[:2], 4), np.float32)
-    for row, own in zip(color, stored[::-1], strict=True):
-        row[:, : len(order)] = by_runs(lambda some: decoded(some / most), own[:, order])
-    levels = 255 if kind == _PALETTE else 2**depth - 1
-    return StoredPicture(color, levels, len(order) == 3, _engine_of(file))
+    order += [channels - 1] * has_alpha
+    color = np.ones((*values.shape[:2], 4), np.float32)
+    for row, own in zip(color, values[::-1], strict=True):
+        row[:, : len(order)] = by_runs(lambda some: decoded(some / stored.levels), own[:, order])
+    return StoredPicture(color, stored.levels, not has_alpha, _engine_of(stored.notes))
 
 
-def _exr_of(path: Path, file: Any) -> StoredPicture | None:
-    names = list(file.spec().channelnames)
-    if not {"R", "G", "B"} <= set(names):
-        raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(names))}")
-    at = [names.index(c) for c in "RGBA" if c in names]
-    stored = file.read_image(min(at), max(at) + 1, "float")
-    if stored is None:
-        return None
+@contextmanager
+def _damage_named(path: Path) -> Iterator[None]:
+    """Say of which file a PNG's damage is."""
+    try:
+        yield
+    except png.PngError as error:
+        raise OSError(f"'{path}' cannot be read, save it again: {error}") from error
+
+
+def _exr_size(path: Path) -> tuple[int, int]:
+    with _exr(path) as file:
+        spec = file.spec()
+        return spec.width, spec.height
+
+
+def _exr_of(path: Path) -> StoredPicture:
+    with _exr(path) as file:
+        names = list(file.spec().channelnames)
+        if not {"R", "G", "B"} <= set(names):
+            raise OSError(f"'{path}' has no channels R, G and B: {', '.join(sorted(names))}")
+        at = [names.index(c) for c in "RGBA" if c in names]
+        stored = file.read_image(min(at), max(at) + 1, "float")
+        if stored is None:
+            raise OSError(f"'{path}' cannot be read, save it again: {_error(file)}")
+        notes = {note.name for note in file.spec().extra_attribs}
     color = np.ones((*stored.shape[:2], 4), np.float32)
     color[..., : len(at)] = stored[::-1][..., np.subtract(at, min(at))]
-    return StoredPicture(color, 0, len(at) == 3, _engine_of(file))
+    return StoredPicture(color, 0, len(at) == 3, _engine_of(notes))
 
 
-def _engine_of(file: Any) -> str:
+def _engine_of(notes: Collection[str]) -> str:
     """Return which of Blender's engines made a picture; '' where Blender did not write the header.
 
     Blender notes the scene, the camera and how long it rendered; Cycles also notes its samples, for
     each layer. No other engine notes its name.
     """
-    noted = {note.name for note in file.spec().extra_attribs}
-    if not {"Scene", "Camera", "RenderTime"} <= noted:
+    if not {"Scene", "Camera", "RenderTime"} <= set(notes):
         return ""
-    return "cycles" if any(name.startswith("cycles.") for name in noted) else "other"
+    return "cycles" if any(name.startswith("cycles.") for name in notes) else "other"
+
+
+@contextmanager
+def _exr(path: Path) -> Iterator[Any]:
+    """Open an EXR; what the library would print stays unsaid."""
+    oiio = _library()
+    asked = oiio.ImageSpec()
+    asked.attribute("oiio:UnassociatedAlpha", 1)
+    with open(os.devnull, "wb") as nowhere, redirected(2, nowhere.fileno()):
+        file = oiio.ImageInput.open(str(path), asked)
+        if not file:
+            raise OSError(f"'{path}' cannot be read, save it again: {_error(oiio)}")
+        yield file
+
+
+_FORMATS = {".png": _Format(_png_size, _png_of), ".exr": _Format(_exr_size, _exr_of)}
 
 
 def _library() -> Any:
@@ -232,10 +267,9 @@ def _library() -> Any:
         import OpenImageIO
     except ImportError:
         raise MissingLibraryError(
-            "to read PNG files, and to read or write EXR files, takes the library OpenImageIO, "
-            "the extra `images` of the Python package"
+            "EXR files take the library OpenImageIO: pip install 'reference_tracer[images]'"
         ) from None
-    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .png is refused
+    OpenImageIO.attribute("try_all_readers", 0)  # a JPEG that is named .exr is refused
     return OpenImageIO
 
 

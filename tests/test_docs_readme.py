@@ -1,36 +1,57 @@
-"""What the README says: links, code, the table of causes; and all commands, the documents' too."""
+"""What the README and the documents say: links, commands, code, the table of causes."""
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 import trimesh
 from reference_tracer.cli.main import parser
 from reference_tracer.compare.causes import CAUSES
+from reference_tracer.rendering import render
 from reference_tracer.report.page.content import _hex
+from reference_tracer.scene_files import load_scene
 
 PROJECT = Path(__file__).parent.parent
 TEXT = (PROJECT / "README.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^ *```(\w*)\n(.*?)^ *```$", TEXT, re.M | re.S)
-SHELL = [line.strip() for kind, block in BLOCKS if not kind for line in block.splitlines()]
+WORDS = 500  # of the README: one screen
+DOCUMENTS = {
+    path: path.read_text(encoding="utf-8")
+    for path in (PROJECT / "README.md", *sorted((PROJECT / "docs").rglob("*.md")))
+}
 
 
 def anchor(heading: str) -> str:
     return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
-def test_links_lead_somewhere():
-    anchors = {anchor(h) for h in re.findall(r"^#+ (.+)$", TEXT, re.M)}
-    links = re.findall(r"\]\((?!https?:)([^)\s]+)\)", TEXT)
-    assert len(links) > 10
-    for link in links:
-        path, _, part = link.partition("#")
-        assert (PROJECT / path).exists(), link
-        if not path:
-            assert part in anchors, link
+def anchors(path: Path) -> set[str]:
+    text = path.read_text(encoding="utf-8")
+    return {anchor(h) for h in re.findall(r"^#+ (.+)$", text, re.M)}
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.stem)
+def test_links_lead_somewhere(path):
+    for link in re.findall(r"\]\((?!https?:)([^)\s]+)\)", DOCUMENTS[path]):
+        name, _, part = link.partition("#")
+        there = path.parent / name if name else path
+        assert there.exists(), link
+        assert not part or there.suffix != ".md" or part in anchors(there), link
+
+
+def test_the_readme_is_one_screen_and_begins_with_a_picture():
+    assert len(re.findall(r"\w+", re.sub(r"\]\([^)]+\)", "]", TEXT))) <= WORDS
+    assert re.match(r"# .+\n\n!\[", TEXT)
+
+
+def test_the_index_names_every_document():
+    index = DOCUMENTS[PROJECT / "docs" / "README.md"]
+    for path in (PROJECT / "docs").glob("*.md"):
+        assert path.name == "README.md" or f"({path.name})" in index, path.name
 
 
 def shown(text: str) -> list[str]:
@@ -40,8 +61,7 @@ def shown(text: str) -> list[str]:
 
 
 def commands() -> list[str]:
-    documents = (p.read_text(encoding="utf-8") for p in sorted((PROJECT / "docs").rglob("*.md")))
-    return sorted({c for text in (TEXT, *documents) for c in shown(text)})
+    return sorted({c for text in DOCUMENTS.values() for c in shown(text)})
 
 
 @pytest.mark.parametrize("command", commands())
@@ -57,22 +77,39 @@ def test_every_command_line_is_understood(command):
 
 def test_there_are_commands_of_every_kind():
     commands = next(a.choices for a in parser([])._actions if a.choices)
-    assert {c.split()[1] for c in shown(TEXT)} == set(commands)
+    assert {c.split()[1] for text in DOCUMENTS.values() for c in shown(text)} == set(commands)
     targets = re.findall(r"^([a-z-]+):.*##", (PROJECT / "Makefile").read_text("utf-8"), re.M)
-    for target in re.findall(r"(?:`|^)make ([a-z-]+)", "\n".join((TEXT, *SHELL)), re.M):
+    for target in re.findall(r"(?:`|^)make ([a-z-]+)", TEXT, re.M):
         assert target in targets, target
 
 
 def test_its_code_runs(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     trimesh.creation.icosphere(2).export("mesh.ply")
-    [code] = [block for kind, block in BLOCKS if kind == "python"]
-    exec(compile(code, "README.md", "exec"), {})
+    text = DOCUMENTS[PROJECT / "docs" / "commands.md"]
+    [code] = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+    exec(compile(code, "commands.md", "exec"), {})
     assert "decided by the error bound" in capsys.readouterr().out
 
 
+def test_the_scene_of_its_own_making_is_read(tmp_path, monkeypatch):
+    """That of the page on files, which is written with numpy alone."""
+    monkeypatch.chdir(tmp_path)
+    text = DOCUMENTS[PROJECT / "docs" / "files.md"]
+    [code] = re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)
+    exec(compile(code, "files.md", "exec"), {})
+    frame = render(load_scene("scene.npz"))
+    height, width = frame.shape
+    # By hand: 2 x 2 / 2 square metres, at a depth of 3, of a film of 1.6 x 0.9.
+    assert (frame.instance_index == 0).mean() == pytest.approx(2 / 9 / (1.6 * 0.9), abs=0.01)
+    assert frame.t[height // 2, width // 2] == 3
+    for key in json.loads(str(np.load("scene.npz")["scene"]))["camera"]:
+        assert f"`camera.{key}`" in text
+
+
 def test_the_table_of_causes_is_that_of_the_code():
-    rows = re.findall(r"^\| [^|]*`(#[0-9a-f]{6})` \| \**(\d+) ([^|*]+)\** \|", TEXT, re.M)
+    text = DOCUMENTS[PROJECT / "docs" / "causes.md"]
+    rows = re.findall(r"^\| [^|]*`(#[0-9a-f]{6})` \| (\d+) \| ([^|]+) \|", text, re.M)
     assert {(int(n), label.strip(), color) for color, n, label in rows} == {
         (int(cause), cause.label, _hex(cause.color)) for cause in CAUSES if cause.color is not None
     }

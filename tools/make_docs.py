@@ -3,9 +3,9 @@
     python tools/make_docs.py [--no-browser] [--no-window] [FILE.md ...]
 
 Fills in what stands between the markers (`documents/markers.py` says which there are), draws
-docs/images/lessons and docs/images/extremes.svg, takes the README's picture of out/demo/page.html
-in Chromium, and the tutorial's in a real Blender window (which needs root, Chromium, and the
-extension in dist/).
+docs/images/lessons, docs/images/extremes.svg and the README's diagnosis.gif, takes the picture of
+out/demo/page.html in Chromium, and the tutorial's in a real Blender window (which needs root,
+Chromium, and the extension in dist/).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from documents import derivations, figures, pictures
+from documents import derivations, figures, pictures, story
 from documents.markers import MARKED, Command, refreshed
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -64,6 +64,7 @@ def main() -> None:
         run(Command("silently", "reftrace extremes --out out/docs/extremes", ""))
         plot = PROJECT / "out" / "docs" / "extremes" / "extremes.svg"
         shutil.copy(plot, DOCS / "images" / "extremes.svg")
+        story.write(DOCS / "images" / "diagnosis.gif")
     if not options.no_browser:
         from documents import browser
 

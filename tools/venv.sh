@@ -32,10 +32,13 @@ find_python() {
             fi
         done
     done
-    say "no usable ${PYTHON:-Python 3.13 or 3.11} found."
-    say "Blender as a Python module (bpy) exists for 3.13 (bpy 5.2.3) and 3.11 (bpy 5.0.1) only."
-    say "Install one of them with its venv module (on Debian: python3.13-venv or python3.11-venv),"
-    say "or name one: make PYTHON=/path/to/python3.13 ..."
+    # uv fetches a Python of its own, into the user's folder.
+    if [ -z "${PYTHON:-}" ] && command -v uv >/dev/null && uv python install --quiet 3.13 >&2; then
+        uv python find 3.13
+        return
+    fi
+    say "no ${PYTHON:-Python 3.13 or 3.11}, which Blender's module needs: install python3.13-venv" \
+        "(Debian) or uv, or name a Python: make PYTHON=/path/to/python3.13 ..."
     return 1
 }
 

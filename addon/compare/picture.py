@@ -32,6 +32,20 @@ class SizeError(ValueError):
     """The pictures differ in size."""
 
 
+def check_size(own: tuple[int, ...], traced: tuple[int, ...]) -> None:
+    """Refuse a picture of another size than the traced one: (h, w) each, or (h, w, c).
+
+    Raises
+    ------
+    SizeError
+        If they differ.
+    """
+    if own != traced:
+        raise SizeError(
+            f"The picture has {own[1]} x {own[0]} pixels, the traced one {traced[1]} x {traced[0]}."
+        )
+
+
 class Curve(NamedTuple):
     """A transform of colours with a name, and the share of pixels that it must account for."""
 
@@ -115,12 +129,7 @@ class Picture:
         SceneError
             If its samples lie so far from the pixels' centres that nothing could be decided.
         """
-        own = self.color.shape
-        if own != shape:
-            raise SizeError(
-                f"The picture has {own[1]} x {own[0]} pixels, the traced one {shape[1]} x "
-                f"{shape[0]}."
-            )
+        check_size(self.color.shape, shape)
         if SNAPPING + self.off_center >= DECIDABLE:
             raise SceneError(
                 f"{self.source} cannot be compared: it is sampled up to {self.sample_radius:.3g} "

@@ -17,7 +17,7 @@ from ...compare.colors_file import in_colors
 from ...compare.comparing import trace_and_compare
 from ...compare.comparison import EXIT_CODES, Comparison
 from ...compare.palette import By, GivenColors
-from ...compare.picture import Picture, Source
+from ...compare.picture import Picture, Source, check_size
 from ...compare.renderers import RASTER, RAYS, RENDERERS, Renderer
 from ...mesh_diagnosis import diagnosed
 from ...report import comparison as comparison_report
@@ -60,7 +60,7 @@ def compare(options: CompareOptions) -> int:
         import_trimesh()  # which diagnoses the meshes
         if options.against is None:
             return _with_blender(options, place)
-        return _with_picture(options, images.read_picture(options.against), place)
+        return _with_picture(options, images.open_picture(options.against), place)
 
 
 def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
@@ -101,7 +101,7 @@ def _with_blender(options: CompareOptions, place: dict[str, Any]) -> int:
 
 
 def _with_picture(
-    options: CompareOptions, picture: images.StoredPicture, place: dict[str, Any]
+    options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> int:
     """Compare with a picture of unknown make."""
     with progress_bar() as progress:
@@ -147,7 +147,7 @@ def _told(options: CompareOptions, verdict: str, *pages: Path) -> int:
 
 
 def _blend(
-    options: CompareOptions, picture: images.StoredPicture, place: dict[str, Any]
+    options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> Work[Comparison]:
     with open_blend(options.scene, options.choice) as blender:
         from ...blender.against import gather_against
@@ -165,7 +165,7 @@ def _blend(
 
 
 def _file(
-    options: CompareOptions, picture: images.StoredPicture, place: dict[str, Any]
+    options: CompareOptions, picture: images.PictureFile, place: dict[str, Any]
 ) -> Work[Comparison]:
     scene, stored, manifest = open_file(options.scene, options.choice)
     scene, notes = in_colors(scene, _colors(options) or By.VIEWPORT)
@@ -183,12 +183,22 @@ def _written(options: CompareOptions, work: Work[Comparison]) -> Work[Comparison
 
 
 def _shown(
-    options: CompareOptions, picture: images.StoredPicture, camera: Camera, dither: float = 0.0
+    options: CompareOptions, file: images.PictureFile, camera: Camera, dither: float = 0.0
 ) -> Picture:
-    """Return what is compared of a picture: if it shows the whole view, the camera's border."""
+    """Return what is compared of a picture: if it shows the whole view, the camera's border.
+
+    Raises
+    ------
+    SizeError
+        If it shows neither; its pixels are not read then.
+    """
+    r, own = camera.region, (file.height, file.width)
+    whole = own == (camera.height, camera.width)
+    if not whole:
+        check_size(own, (r.height, r.width))
+    picture = file.read()
     color = picture.color
-    r = camera.region
-    if color.shape[:2] == (camera.height, camera.width):
+    if whole:
         color = np.ascontiguousarray(color[r.y0 : r.y1, r.x0 : r.x1])
     if options.dither is not None:
         dither = options.dither * picture.levels / 255
