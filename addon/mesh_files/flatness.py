@@ -69,8 +69,8 @@ def _rounding(numbers: Floats) -> tuple[float, float]:
     with np.errstate(all="ignore"):
         rounded = ((10.0**-d, np.rint(own * 10.0**d) / 10.0**d) for d in _DECIMALS)
         absolute = next((step / 2 for step, r in rounded if _are_same(r, own, numbers)), 0.0)
-        scale = 10.0 ** (5 - np.floor(np.log10(np.abs(own))))
-        six = _are_same(np.rint(own * scale) / scale, own, numbers)
+        digits = np.rint(own * (scale := 10.0 ** (5 - np.floor(np.log10(np.abs(own))))))
+        six = _are_same(digits / scale, own, numbers) and (digits % 10 != 0).mean() > 0.5
     return absolute, 5e-6 if six else 0.0 if absolute else _FLOAT32
 
 
