@@ -22,7 +22,7 @@ from reference_tracer.tracer.vector import transform_points
 from .plys import write_ply
 
 
-@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
+@pytest.mark.parametrize("suffix", ["obj", "ply", "off", "stl", "glb"])
 def test_meshes_from_files(suffix, tmp_path):
     shape = trimesh.creation.torus(2.0, 0.5, major_sections=12, minor_sections=7)
     shape.apply_translation((3, 4, 5))
@@ -97,7 +97,7 @@ def world(contents):
     ]
 
 
-@pytest.mark.parametrize("suffix", ["obj", "ply", "stl", "glb"])
+@pytest.mark.parametrize("suffix", ["obj", "ply", "off", "stl", "glb"])
 def test_y_up_is_the_file_turned_by_hand(suffix, tmp_path, rng):
     shape = trimesh.creation.icosphere(1)
     shape.vertices = (shape.vertices * rng.normal(size=3)).astype(np.float32)
@@ -125,7 +125,9 @@ def test_y_up_is_exact_where_a_file_places_its_meshes(tmp_path, rng):
         assert np.array_equal(a[..., [0, 2, 1]] * (1, -1, 1), b)
 
 
-@pytest.mark.parametrize("suffix, up", [("obj", "z"), ("ply", "z"), ("stl", "z"), ("glb", "y")])
+@pytest.mark.parametrize(
+    "suffix, up", [("obj", "z"), ("ply", "z"), ("off", "z"), ("stl", "z"), ("glb", "y")]
+)
 def test_which_axis_is_up_where_nobody_says(suffix, up, tmp_path):
     trimesh.creation.box((1, 2, 3)).export(tmp_path / f"a.{suffix}")
     default, named = (world(load_meshes(tmp_path / f"a.{suffix}", u)) for u in (None, up))
