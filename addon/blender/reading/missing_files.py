@@ -101,9 +101,6 @@ def _of_object(obj: Any, mode: str) -> Iterator[tuple[str, str, str]]:
         if modifier.show_viewport if mode == "VIEWPORT" else modifier.show_render:
             for kind, path in _of_modifier(modifier):
                 yield f"modifier '{modifier.name}' of '{obj.name}'", kind, path
-    for system in obj.particle_systems:
-        if path := _baked(system.point_cache):
-            yield f"particle system '{system.name}' of '{obj.name}'", "folder", path
 
 
 def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
@@ -118,6 +115,8 @@ def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
             yield "folder", domain.cache_directory
     elif kind in ("CLOTH", "SOFT_BODY"):
         yield "folder", _baked(modifier.point_cache)
+    elif kind == "PARTICLE_SYSTEM":
+        yield "folder", _baked(modifier.particle_system.point_cache)
     elif kind == "DYNAMIC_PAINT" and modifier.canvas_settings:
         for surface in modifier.canvas_settings.canvas_surfaces:
             yield "folder", _baked(surface.point_cache)
