@@ -23,7 +23,7 @@ from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
-from .missing import missing, why_gone
+from .missing import gone_objects, missing
 from .unmodelled import of_scene
 from .view_volume import outside
 from .visible import Seen, Shown, visible
@@ -153,7 +153,7 @@ def _manifest(
 ) -> Manifest:
     drawn, layer, mode = depsgraph.scene, depsgraph.view_layer, depsgraph.mode
     scene = user_scene(drawn)
-    gone = {o.name_full: why for o in _linked_too() if (why := why_gone(o))}
+    gone = gone_objects()
     entries = [
         _entry(name, entry, [meshes[key][0] for key in entry.mesh_keys], gone.get(name, ""))
         for name, entry in seen.items()
@@ -176,11 +176,6 @@ def _manifest(
         unmodelled=(*features, *of_scene(scene, drawn), *missing(drawn, layer, mode, seen)),
         notes=notes(),
     )
-
-
-def _linked_too() -> Collection[Any]:
-    """Return all objects, if any may be missing: there are libraries."""
-    return bpy.data.objects if bpy.data.libraries else ()
 
 
 def _entry(name: str, seen: Seen, meshes: list[Mesh], gone: str) -> ObjectEntry:

@@ -60,6 +60,13 @@ def missing(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterat
         yield from _drivers(reached)
 
 
+def gone_objects() -> dict[str, str]:
+    """Return why objects are placeholders, or show one, by their full names."""
+    if not bpy.data.libraries:
+        return {}
+    return {obj.name_full: why for obj in bpy.data.objects if (why := why_gone(obj))}
+
+
 def why_gone(obj: Any) -> str:
     """Return why an object is a placeholder, or shows one; empty if neither is so."""
     for block in (obj, obj.data, obj.instance_collection):
