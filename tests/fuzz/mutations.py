@@ -202,7 +202,13 @@ def glb_file(content: bytes, rng: np.random.Generator, other: bytes) -> bytes:
     return head + struct.pack("<I", len(text)) + b"JSON" + text + rest
 
 
-MUTATIONS = {".npz": npz_file, ".json": json_file, ".png": png_file, ".glb": glb_file}
+MUTATIONS = {
+    ".npz": npz_file,
+    ".json": json_file,
+    ".png": png_file,
+    ".glb": glb_file,
+    ".gltf": json_file,
+}
 
 
 def mutated(suffix: str, content: bytes, rng: np.random.Generator, other: bytes) -> bytes:

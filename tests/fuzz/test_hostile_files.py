@@ -24,8 +24,10 @@ from reference_tracer.explain.candidates import gather_pixel
 from reference_tracer.scene import Instance, Mesh, Plane, Scene
 from reference_tracer.scene_files import save_scene
 
+from ..mesh_files.gltf_build import rich
+
 DAILY, LONG, AT_ONCE = 2_000, 100_000, 20_000
-SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".stl", ".glb"}
+SUFFIXES = {".npz", ".json", ".png", ".exr", ".obj", ".ply", ".stl", ".glb", ".gltf"}
 
 
 @pytest.fixture
@@ -50,6 +52,7 @@ def folder(make, tmp_path, rng):
     several = trimesh.Scene([shape, trimesh.creation.icosahedron()])
     several.export(valid / "several.glb")
     several.export(valid / "several.obj")
+    (valid / "rich.gltf").write_text(rich().with_data_uri())
     picture = rng.integers(0, 256, (9, 11, 4), dtype=np.uint8)
     images.save_png(valid / "own.png", picture)
     Image.fromarray(picture[..., :3]).quantize(9).save(valid / "palette.png", transparency=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import struct
 from pathlib import Path
@@ -74,6 +75,11 @@ class Build:
     def skin(self, joints: list[int], **more: Any) -> int:
         return self.add("skins", joints=joints, **more)
 
+    def with_data_uri(self) -> str:
+        """Return the text of a .gltf that needs no other file."""
+        uri = "data:;base64," + base64.b64encode(self.data).decode()
+        return json.dumps(self.json | {"buffers": [{"byteLength": len(self.data), "uri": uri}]})
+
     def write(self, path: Path) -> Path:
         """Write a .glb, or a .gltf with its .bin beside it."""
         if path.suffix == ".gltf":
@@ -106,6 +112,36 @@ def inverse_binds(build: Build, *moves) -> int:
     matrices = np.tile(np.eye(4, dtype=np.float32), (len(moves), 1, 1))
     matrices[:, 3, :3] = moves  # by columns
     return build.accessor(matrices.reshape(-1, 16))
+
+
+def rich() -> Build:
+    """One file of all features: a skin, targets, instances, strips, sparse and quantised."""
+    build = skinned(inverseBindMatrices=None)
+    build.json["skins"][0]["inverseBindMatrices"] = inverse_binds(build, (1, 0, 0), (0, 1, 0))
+    primitive = build.json["meshes"][0]["primitives"][0]
+    sparse = {
+        "count": 2,
+        "indices": {"bufferView": build.view(bytes([1, 2])), "componentType": 5121},
+        "values": {"bufferView": build.view(bytes(24))},
+    }
+    zeros = {"componentType": 5126, "count": 4, "type": "VEC3", "sparse": sparse}
+    primitive["targets"] = [{"POSITION": build.add("accessors", **zeros)}]
+    build.json["meshes"][0]["weights"] = [0.5]
+    order = np.array((0, 1, 3, 2), np.uint8)
+    small = build.mesh(np.int8(SQUARE * 127), order, mode=5)
+    build.json["accessors"][-2]["normalized"] = True
+    places = {"TRANSLATION": build.accessor(SQUARE), "SCALE": build.accessor(SQUARE + 1)}
+    instanced = {"EXT_mesh_gpu_instancing": {"attributes": places}}
+    child = build.node(mesh=small, rotation=[0, 0, 0, 1], extensions=instanced, name="Child")
+    mesh = build.mesh(SQUARE, INDICES)
+    hidden = {"KHR_node_visibility": {"visible": True}}
+    matrix = np.eye(4).ravel().tolist()
+    root = build.node(mesh=mesh, children=[child], matrix=matrix, extensions=hidden, weights=[])
+    build.json["scenes"][0]["nodes"].append(root)
+    build.extension("EXT_mesh_gpu_instancing", required=True)
+    build.add("animations", name="Walk")
+    build.json["buffers"] = [{"byteLength": len(build.data)}]
+    return build
 
 
 def glb(content: Any, binary: bytes, *further: tuple[bytes, bytes]) -> bytes:

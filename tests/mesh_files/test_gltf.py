@@ -5,7 +5,6 @@ The right area and place are worked out from the rules of the specification, by 
 
 from __future__ import annotations
 
-import base64
 from urllib.parse import quote
 
 import numpy as np
@@ -98,6 +97,13 @@ class TestNodes:
         names = [p.object for p in read_gltf(build.write(path)).placed]
         assert names[:4] == ["A", "A (node 1)", "Mesh", "node 3"]
         assert len(set(names)) == 6 and names[5] == "??"
+
+    def test_a_name_that_is_made_is_taken_already(self, path):
+        build = Build()
+        mesh = build.mesh()
+        build.scene(*(build.node(mesh=mesh, name=name) for name in ("A (node 2)", "A", "A")))
+        names = {p.object for p in read_gltf(build.write(path)).placed}
+        assert names == {"A (node 2)", "A", "A (node 2) (node 2)"}
 
     def test_a_node_that_is_hidden_and_those_below_it(self, path):
         build = Build()
@@ -370,7 +376,8 @@ class TestSkins:
         triangles, notes = read(skinned((0.5, 0, 0, 0)).write(path))
         assert box(triangles) == [[1.5, 0, 0], [2, 0.5, 0]]
         (note,) = notes
-        assert "do not sum to 1" in note and "primitive 0 of mesh 0" in note
+        assert "do not sum to 1" in note
+        assert "primitive 0 of mesh 0 (sums from 0.5 to 0.5)" in note
 
     def test_morph_targets_move_before_the_skin(self, path):
         build = skinned()
@@ -423,16 +430,21 @@ class TestInstances:
         assert np.allclose(box(triangles), [[-3, 100, 0], [0, 102, 0]], atol=1e-6) and not notes
         assert area(triangles) == pytest.approx(6, rel=1e-15)
 
+    def test_instances_of_no_mesh_are_named(self, path):
+        build = Build().shown()
+        build.json["scenes"][0]["nodes"].append(
+            build.node(name="Empty", extensions={"EXT_mesh_gpu_instancing": {"attributes": {}}})
+        )
+        triangles, (note,) = read(build.write(path))
+        assert area(triangles) == 1 and "without a mesh" in note and "node 1 'Empty'" in note
+
 
 class TestBuffers:
     @pytest.mark.parametrize("kind", ["application/octet-stream", "application/gltf-buffer", ""])
     def test_a_data_uri(self, kind, tmp_path):
-        build = Build().shown()
-        text = base64.b64encode(build.data).decode()
-        uri = f"data:{kind};base64,{text}"
-        build.json["buffers"] = [{"byteLength": len(build.data), "uri": uri}]
-        (tmp_path / "a.glb").write_bytes(glb(build.json, b""))
-        assert area(read(tmp_path / "a.glb")[0]) == 1
+        text = Build().shown().with_data_uri().replace("data:;", f"data:{kind};")
+        (tmp_path / "a.gltf").write_text(text)
+        assert area(read(tmp_path / "a.gltf")[0]) == 1
 
     def test_a_data_uri_without_base64(self, tmp_path):
         build = Build().shown()
@@ -525,6 +537,18 @@ class TestNotes:
         build.json["bufferViews"][0]["extensions"] = {name: {"buffer": 0, "byteLength": 4}}
         triangles, (note,) = read(build.write(path))
         assert area(triangles) == 1 and "plain data" in note and name in note
+
+    def test_a_version_that_2_0_is_enough_for(self, path):
+        build = Build().shown()
+        build.json["asset"] = {"version": "2.1", "minVersion": "2.0"}
+        assert area(read(build.write(path))[0]) == 1
+
+    def test_a_name_is_said_once(self, path):
+        build = skinned((0.5, 0, 0, 0))
+        mesh = build.json["meshes"][0]
+        mesh["primitives"] += [{"mode": 0, "attributes": {"POSITION": 0}}] * 2
+        notes = read(build.write(path))[1]
+        assert len(notes) == 2 and all(note.count("mesh 0") == 1 for note in notes)
 
     def test_a_rotation_that_is_too_long(self, path):
         triangles, (note,) = read(Build().shown(rotation=[0, 0, 2, 0], name="N").write(path))

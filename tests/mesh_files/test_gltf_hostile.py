@@ -13,41 +13,11 @@ from reference_tracer.mesh_files.gltf import accessors, read_gltf
 from reference_tracer.scene import SceneError
 
 from ..fuzz.mutations import changed, damaged
-from .gltf_build import INDICES, SQUARE, Build, glb, inverse_binds, skinned
+from .gltf_build import Build, glb, rich
 
 DAILY, LONG = 1500, 100_000
 FREE = 1 << 25  # bytes that the reader is told are free
 MOST = 3 * FREE  # that a case may take: a part may fit by itself, and its copy, too
-
-
-def rich() -> Build:
-    """One file of all features: a skin, targets, instances, strips, sparse and quantised."""
-    build = skinned(inverseBindMatrices=None)
-    build.json["skins"][0]["inverseBindMatrices"] = inverse_binds(build, (1, 0, 0), (0, 1, 0))
-    primitive = build.json["meshes"][0]["primitives"][0]
-    sparse = {
-        "count": 2,
-        "indices": {"bufferView": build.view(bytes([1, 2])), "componentType": 5121},
-        "values": {"bufferView": build.view(bytes(24))},
-    }
-    zeros = {"componentType": 5126, "count": 4, "type": "VEC3", "sparse": sparse}
-    primitive["targets"] = [{"POSITION": build.add("accessors", **zeros)}]
-    build.json["meshes"][0]["weights"] = [0.5]
-    order = np.array((0, 1, 3, 2), np.uint8)
-    small = build.mesh(np.int8(SQUARE * 127), order, mode=5)
-    build.json["accessors"][-2]["normalized"] = True
-    places = {"TRANSLATION": build.accessor(SQUARE), "SCALE": build.accessor(SQUARE + 1)}
-    instanced = {"EXT_mesh_gpu_instancing": {"attributes": places}}
-    child = build.node(mesh=small, rotation=[0, 0, 0, 1], extensions=instanced, name="Child")
-    mesh = build.mesh(SQUARE, INDICES)
-    hidden = {"KHR_node_visibility": {"visible": True}}
-    matrix = np.eye(4).ravel().tolist()
-    root = build.node(mesh=mesh, children=[child], matrix=matrix, extensions=hidden, weights=[])
-    build.json["scenes"][0]["nodes"].append(root)
-    build.extension("EXT_mesh_gpu_instancing", required=True)
-    build.add("animations", name="Walk")
-    build.json["buffers"] = [{"byteLength": len(build.data)}]
-    return build
 
 
 def hostile(build: Build, rng: np.random.Generator) -> bytes:

@@ -157,6 +157,10 @@ REFUSED = {
         whole(buffers=[{"byteLength": 10**12}]),
         "buffer 0 is cut off: it has 60 of 1000000000000 bytes",
     ),
+    "a view into the padding": (
+        whole(buffers=[{"byteLength": 59}]),
+        "buffer view 1 ends at byte 60 of a buffer of 59 bytes",
+    ),
     "a second buffer": (
         lambda b: (
             b.json.update(buffers=[{"byteLength": 60}, {"byteLength": 60}]),
@@ -188,6 +192,10 @@ REFUSED = {
     "sparse falling": (
         lambda b: sparse(indices={"bufferView": b.view(bytes([2, 1])), "componentType": 5121})(b),
         "'indices' of 'sparse' of accessor 0 must rise, and stay below 4",
+    ),
+    "sparse twice": (
+        lambda b: sparse(indices={"bufferView": b.view(bytes([2, 2])), "componentType": 5121})(b),
+        "must rise, and stay below 4",
     ),
     "sparse outside": (
         lambda b: sparse(indices={"bufferView": b.view(bytes([2, 4])), "componentType": 5121})(b),
@@ -226,6 +234,16 @@ REFUSED = {
             b.json["accessors"][0].pop("bufferView"),
             primitive(extensions={"KHR_draco_mesh_compression": {}})(b),
         ),
+        "primitive 0 of mesh 0 is compressed by KHR_draco_mesh_compression",
+    ),
+    "draco's weights alone": (
+        lambda b: primitive(
+            attributes={
+                "POSITION": 0,
+                "WEIGHTS_0": b.add("accessors", componentType=5126, count=4, type="VEC4"),
+            },
+            extensions={"KHR_draco_mesh_compression": {}},
+        )(b),
         "primitive 0 of mesh 0 is compressed by KHR_draco_mesh_compression",
     ),
     "meshopt alone": (

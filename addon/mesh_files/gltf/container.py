@@ -10,6 +10,7 @@ Source: Khronos, glTF 2.0 specification, chapters 2 and 4.
 from __future__ import annotations
 
 import json
+import re
 import struct
 from dataclasses import dataclass
 from pathlib import Path
@@ -104,11 +105,10 @@ def _check_version(document: Document) -> None:
     asset = document.part("asset")
     if asset is None:
         raise SceneError("it has no 'asset', which says the version of glTF: it is no glTF")
-    version, least = (asset.content.get(key, "2.0") for key in ("version", "minVersion"))
-    if "version" not in asset.content or not str(version).startswith("2."):
-        said = asset.content.get("version")
-        raise SceneError(f"its asset.version is {quoted(said)}; glTF 2 is read: export it again")
-    if least != "2.0":
+    version, least = asset.content.get("version"), asset.content.get("minVersion", "2.0")
+    if not str(version).startswith("2."):
+        raise SceneError(f"its asset.version is {quoted(version)}; glTF 2 is read: export it again")
+    if not (isinstance(least, str) and re.fullmatch(r"1\.\d+|2\.0", least)):
         raise SceneError(
             f"its asset.minVersion is {quoted(least)}; glTF 2.0 is read: export it as 2.0"
         )

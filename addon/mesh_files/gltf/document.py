@@ -28,6 +28,8 @@ _LABELS = {  # what messages call the things in the file's lists
 
 def printable(text: str) -> str:
     """Return a text that can stand in a line: what cannot be printed becomes a question mark."""
+    if text.isprintable():
+        return text
     return "".join(c if c.isprintable() else "?" for c in text)
 
 

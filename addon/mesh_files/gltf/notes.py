@@ -9,17 +9,16 @@ class Notes:
     """Sentences, each said once, of all things that it is true of."""
 
     def __init__(self) -> None:
-        self._names: dict[str, list[str]] = {}
+        self._names: dict[str, dict[str, None]] = {}  # by the sentence; in order, each once
 
     def add(self, sentence: str, *names: str) -> None:
         """Say a sentence of further things; each is named once."""
-        known = self._names.setdefault(sentence, [])
-        known += [name for name in dict.fromkeys(names) if name not in known[-1:]]
+        self._names.setdefault(sentence, {}).update(dict.fromkeys(names))
 
     def sentences(self) -> tuple[str, ...]:
         """Return the sentences, in the order in which they were first said."""
         return tuple(
-            f"{sentence}: {listed(names)}." if names else f"{sentence}."
+            f"{sentence}: {listed([*names])}." if names else f"{sentence}."
             for sentence, names in self._names.items()
         )
 

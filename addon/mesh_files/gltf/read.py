@@ -63,18 +63,27 @@ class _Reader:
         """Return every appearance of a mesh in the scene that is shown."""
         tree = self._tree
         shown = list(tree.below(_roots(self._document, tree, self._notes)))
-        with_mesh = [k for k, node in enumerate(tree.nodes) if "mesh" in node.content]
-        elsewhere = sorted(set(with_mesh) - set(shown))
-        self._say("Meshes outside the traced scene are left out", elsewhere)
-        hidden = [k for k in shown if k in tree.hidden and "mesh" in tree.nodes[k].content]
-        self._say("Meshes hidden by KHR_node_visibility are left out", hidden)
-        visible = [k for k in shown if "mesh" in tree.nodes[k].content and k not in tree.hidden]
-        names = _names(self._document, tree, visible)
-        return [placed for k in visible for placed in self._of_node(k, names[k])]
+        self._name_the_left_out(shown)
+        seen = [k for k in shown if "mesh" in tree.nodes[k].content and k not in tree.hidden]
+        names = _names(self._document, tree, seen)
+        return [placed for k in seen for placed in self._of_node(k, names[k])]
 
-    def _say(self, sentence: str, numbers: list[int]) -> None:
-        if numbers:
-            self._notes.add(sentence, *(self._tree.nodes[k].label for k in numbers))
+    def _name_the_left_out(self, shown: list[int]) -> None:
+        """Name nodes with a mesh that is not traced, and instances of no mesh."""
+        nodes, hidden = self._tree.nodes, self._tree.hidden
+        meshes = {k for k, node in enumerate(nodes) if "mesh" in node.content}
+        left_out = {
+            "Meshes outside the traced scene are left out": sorted(meshes - set(shown)),
+            "Meshes hidden by KHR_node_visibility are left out": [
+                k for k in shown if k in hidden and k in meshes
+            ],
+            "Instances of a node without a mesh show nothing": [
+                k for k in shown if k not in meshes and nodes[k].extension(INSTANCING)
+            ],
+        }
+        for sentence, numbers in left_out.items():
+            if numbers:
+                self._notes.add(sentence, *(nodes[k].label for k in numbers))
 
     def _of_node(self, number: int, name: str) -> list[Placed]:
         node = self._tree.nodes[number]

@@ -117,7 +117,8 @@ class Shapes:
         """Refuse a primitive that has its data in Draco's form alone."""
         if primitive.extension(DRACO) is None:
             return
-        needed = [attributes.whole("POSITION"), primitive.refers("indices")]
+        moved = [k for k in attributes.content if k.startswith(("POSITION", "JOINTS", "WEIGHTS"))]
+        needed = [primitive.refers("indices"), *map(attributes.whole, moved)]
         if any(n is not None and self._accessors.is_empty(n, primitive.label) for n in needed):
             raise SceneError(
                 f"{primitive.label} is compressed by {DRACO}, which is not decoded, and has no "

@@ -118,11 +118,10 @@ def _influences(attributes: Thing, asker: str, accessors: Accessors) -> tuple[In
 
 def _check_sums(weights: Floats, asker: str, notes: Notes) -> None:
     """Name what is moved by weights that no writer should give; they are used as they are."""
-    allowed = _SUM * (weights != 0).sum(axis=1)
-    off = np.abs(weights.sum(axis=1) - 1) > allowed
+    sums = weights.sum(axis=1)
+    off = np.abs(sums - 1) > _SUM * (weights != 0).sum(axis=1)
     if off.any() or (weights < 0).any():
         notes.add(
-            "Weights of joints do not sum to 1, or are negative; they are used as they are, so the "
-            "shape may be torn",
-            asker,
+            "Weights of joints do not sum to 1, or are negative; they are used as they are",
+            f"{asker} (sums from {np.min(sums):.7g} to {np.max(sums):.7g})",
         )
