@@ -7,14 +7,15 @@ does not cross itself once, and nothing beside it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 
 import numpy as np
 
-from ..arrays import Floats
+from ..arrays import Integers
 from .planar import Planar, Triple
 
+_MOST = 2000  # corners of a polygon of which all ways are tried: it takes seconds
 _FEW = 40  # corners that are looked at one by one; of more, those in a box are found first
 
 
@@ -52,21 +53,28 @@ class _Ring:
 Free = Callable[[_Ring, int], bool]
 
 
-def ears(shape: Planar) -> tuple[list[Triple], bool]:
+def ears(shape: Planar, rounding: float) -> tuple[list[Triple], bool]:
     """Return the triangles of a polygon, as numbers of its corners, and whether they are right.
 
-    Where Blender's way turns a triangle over, as it may where a polygon touches itself along a
-    bridge, ears are looked for that no edge enters. Where that does not help either, or edges
-    cross, the polygon crosses itself; it is then cut as Blender cuts it.
+    Where Blender's way turns a triangle over, as it may where a polygon touches itself, all ways to
+    cut it are tried. Where none is right, or edges cross, the polygon is cut as Blender cuts it.
+
+    Parameters
+    ----------
+    shape : Planar
+    rounding : float
+        How far the corners may be rounded, in sizes of the polygon: by so much edges may cross.
     """
-    count = len(shape.flat)
-    own = _clipped(_Ring(count, shape.turn), _by_corners(shape))
-    if not shape.has_area or _crosses(shape):
+    own = _clipped(_Ring(len(shape.flat), shape.turn), _by_corners(shape))
+    if not shape.has_area:
         return own, shape.is_line
-    if _upright(shape, own):
-        return own, True
-    other = _clipped(_Ring(count, shape.turn), _by_edges(shape))
-    return (other, True) if _upright(shape, other) else (own, False)
+    for reach in (0.0, rounding):
+        if not _crosses(shape, reach):
+            if not any(shape.is_turned_over(*triangle, reach) for triangle in own):
+                return own, True
+            if other := _divided(shape, reach):
+                return other, True
+    return own, False
 
 
 @cache
@@ -131,61 +139,61 @@ def _by_corners(shape: Planar) -> Free:
     return is_free
 
 
-def _by_edges(shape: Planar) -> Free:
-    """Return a stricter test, which lets corners touch: no edge enters the inside of the ear.
+def _divided(shape: Planar, reach: float) -> list[Triple]:
+    """Return triangles none of which is turned over, [] if there are none.
 
-    An edge and the inside of a triangle are apart if a side of the one or the other has them on
-    different sides (Gottschalk's theorem of separating axes).
+    Found by dynamic programming: the corners from i to j can be cut if there is a corner k between
+    them, a triangle with i and j, and those from i to k and from k to j can be cut. A polygon that
+    touches itself has such triangles: those of one that it is the limit of.
     """
-    turn = shape.turn
-
-    def is_free(ring: _Ring, tip: int) -> bool:
-        ear = a, b, c = ring.ear(tip)
-        if ring.turns[tip] == 0:
-            return True
-        p = c
-        while p != a:
-            q = ring.after[p]
-            sides = [turn(p, q, k) for k in ear]
-            is_apart = min(sides) >= 0 or max(sides) <= 0
-            is_apart = is_apart and any(sides)
-            for i, j in ((a, b), (b, c), (c, a)):
-                is_apart = is_apart or max(turn(i, j, p), turn(i, j, q)) <= 0
-            if not is_apart:
-                return False
-            p = q
-        return True
-
-    return is_free
+    count = len(shape.flat)
+    if count > _MOST:
+        return []
+    third = np.full((count, count), -1, np.int32)
+    can = np.eye(count, k=1, dtype=bool)
+    for wide in range(2, count):
+        for i in range(count - wide):
+            j = i + wide
+            for k in i + 1 + np.flatnonzero(can[i, i + 1 : j] & can[i + 1 : j, j]):
+                if not shape.is_turned_over(i, int(k), j, reach):
+                    third[i, j], can[i, j] = k, True
+                    break
+    return list(_thirds(third, 0, count - 1)) if can[0, count - 1] else []
 
 
-def _upright(shape: Planar, triangles: list[Triple]) -> bool:
-    return all(shape.turn(*triangle) >= 0 for triangle in triangles)
+def _thirds(third: Integers, i: int, j: int) -> Iterator[Triple]:
+    """Yield the triangles of the corners from i to j."""
+    todo = [(i, j)]
+    while todo:
+        i, j = todo.pop()
+        if j - i > 1:
+            k = int(third[i, j])
+            yield i, k, j
+            todo += [(i, k), (k, j)]
 
 
-def _crosses(shape: Planar) -> bool:
-    """Return whether two edges cross at a point inside both."""
+def _crosses(shape: Planar, reach: float) -> bool:
+    """Return whether two edges cross, and end more than `reach` beyond one another."""
     count = len(shape.flat)
     ends = np.array(shape.flat)
     ends = np.stack((ends, np.roll(ends, -1, axis=0)))
-    low, high = ends.min(axis=0), ends.max(axis=0)
-    order = np.argsort(low[:, 0], kind="stable")
-    low, high = low[order], high[order]
+    order = np.argsort(ends[..., 0].min(axis=0), kind="stable")
+    low, high = ends.min(axis=0)[order], ends.max(axis=0)[order]
     last = np.searchsorted(low[:, 0], high[:, 0], "right")
-    return any(
-        _edges_cross(shape.turn, i, int(order[k]), count)
-        for n, i in enumerate(order.tolist())
-        for k in n + 1 + np.flatnonzero(_overlap(low, high, n, last[n]))
-    )
+    for n, stop in enumerate(last.tolist()):
+        after = slice(n + 1, stop)
+        near = (low[after, 1] <= high[n, 1]) & (high[after, 1] >= low[n, 1])
+        for k in order[after][near].tolist():
+            if _edges_cross(shape, int(order[n]), k, count, reach):
+                return True
+    return False
 
 
-def _overlap(low: Floats, high: Floats, n: int, last: int) -> Floats:
-    """Return which edges after n and before `last` have heights of edge n."""
-    own = slice(n + 1, last)
-    return (low[own, 1] <= high[n, 1]) & (high[own, 1] >= low[n, 1])
-
-
-def _edges_cross(turn: Callable[[int, int, int], int], i: int, j: int, count: int) -> bool:
+def _edges_cross(shape: Planar, i: int, j: int, count: int, reach: float) -> bool:
     """Return whether the edges from the corners i and j on cross, at no corner."""
     a, b, c, d = i, (i + 1) % count, j, (j + 1) % count
-    return turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0
+    turn = shape.turn
+    if turn(a, b, c) * turn(a, b, d) >= 0 or turn(c, d, a) * turn(c, d, b) >= 0:
+        return False
+    ends = (a, b, c), (a, b, d), (c, d, a), (c, d, b)
+    return all(shape.distance(*three) > reach for three in ends)

@@ -37,12 +37,16 @@ class Bends:
             spans, own = np.ptp(at, axis=2), np.ptp(points, axis=2)
             share = away / np.sqrt(dot(spans, spans))
             bend = share * np.sqrt(dot(own, own))
-            rounding = np.maximum(self.absolute, self.relative * np.abs(points).max(axis=(0, 2)))
-            bent = bend > _ROUNDINGS * rounding
+            bent = bend > self.rounding(points)
         if bent.any():
             self.count += int(bent.sum())
             self.metres = max(self.metres, float(np.max(bend[bent])))
             self.share = max(self.share, float(np.max(share[bent])))
+
+    def rounding(self, points: Floats) -> Floats:
+        """Return how far roundings may move the corners (3, k, n) of faces, (k,)."""
+        largest = np.abs(points).max(axis=(0, 2))
+        return _ROUNDINGS * np.maximum(self.absolute, self.relative * largest)
 
     def notes(self) -> Iterator[str]:
         """Say it, if there is something to say."""
@@ -61,12 +65,11 @@ def _rounding(numbers: Floats) -> tuple[float, float]:
     numbers = numbers[np.isfinite(numbers) & (numbers != 0)]
     own = numbers.astype(np.float64)
     with np.errstate(all="ignore"):
-        for decimals in _DECIMALS:
-            if _are_same(np.rint(own * 10.0**decimals) / 10.0**decimals, own, numbers):
-                return 0.5 * 10.0**-decimals, 0.0
+        rounded = ((10.0**-d, np.rint(own * 10.0**d) / 10.0**d) for d in _DECIMALS)
+        absolute = next((step / 2 for step, r in rounded if _are_same(r, own, numbers)), 0.0)
         scale = 10.0 ** (5 - np.floor(np.log10(np.abs(own))))
         six = _are_same(np.rint(own * scale) / scale, own, numbers)
-    return 0.0, 5e-6 if six else _FLOAT32
+    return absolute, 5e-6 if six else 0.0 if absolute else _FLOAT32
 
 
 def _are_same(rounded: Floats, own: Floats, stored: Floats) -> bool:

@@ -55,7 +55,8 @@ def read_off(path: Path) -> Contents:
     except ValueError as error:
         raise SceneError(f"a vertex has a coordinate that is no number: {error}") from None
     more = sum(1 for _ in lines)
-    notes = [f"{more:,} lines behind the last face are not understood, and left out"] * bool(more)
+    said = f"what is behind the last face is not understood, and left out: {more:,} lines"
+    notes = [said] if more else []
     faces = np.array(corners, np.intp), np.array(sizes, np.intp)
     return contents(vertices, *faces, [path.stem], notes=notes)
 

@@ -6,6 +6,7 @@ that does not decide.
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import numpy as np
@@ -93,3 +94,16 @@ class Planar:
             return 1 if value > 0 else -1
         (i, j), (k, m), (n, o) = self.exact[a], self.exact[b], self.exact[c]
         return sign((k - i) * (o - j) - (m - j) * (n - i))
+
+    def distance(self, a: int, b: int, c: int) -> float:
+        """Return how far the corner c is from the line through a and b, about."""
+        (p, q), (r, s), (t, u) = self.flat[a], self.flat[b], self.flat[c]
+        length = math.hypot(r - p, s - q)
+        return abs((r - p) * (u - q) - (s - q) * (t - p)) / length if length else 0.0
+
+    def is_turned_over(self, a: int, b: int, c: int, reach: float) -> bool:
+        """Return whether a triangle turns right, and is more than `reach` wide everywhere."""
+        if self.turn(a, b, c) >= 0:
+            return False
+        corners = (a, b, c), (b, c, a), (c, a, b)
+        return not reach or min(self.distance(*three) for three in corners) > reach

@@ -1,0 +1,64 @@
+"""OFF: what each line says, or why it is refused."""
+
+from __future__ import annotations
+
+import pytest
+from reference_tracer.mesh_files.off import read_off
+from reference_tracer.scene import SceneError
+
+ARROW = [[[0, 0, 0], [2, 1, 0], [1, 1, 0]], [[2, 1, 0], [0, 2, 0], [1, 1, 0]]]
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Return the function that reads a text."""
+
+    def of(text):
+        (tmp_path / "stem.off").write_text(text)
+        return read_off(tmp_path / "stem.off")
+
+    return of
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "OFF\n4 1 0\n0 0 0\n2 1 0\n0 2 0\n1 1 0\n4 0 1 2 3\n",
+        "OFF 4 1\n# corners\n0 0 0\n\n2 1 0 # right\n0 2 0\n1 1 0\n4 0 1 2 3 255 0 0",
+        "COFF\n4 1 4\n0 0 0 1 0 0 1\n2 1 0 1 0 0 1\n0 2 0 0 0 1 1\n1 1 0 0 0 1 1\n4 0 1 2 3\n",
+        "STCNOFF\n4 1 4\n0 0 0 9 9\n2 1 0 9 9\n0 2 0 9 9\n1 1 0 9 9\n4 0 1 2 3 0.5 0.5 0.5\n",
+    ],
+)
+def test_ways_to_write_the_same(text, read):
+    found = read(text)
+    (placed,) = found.placed
+    assert placed.mesh.vertices[placed.mesh.triangles].tolist() == ARROW
+    assert placed.object == "stem" and found.notes == found.missing == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "no OFF file"),
+        ("ply\n", "no OFF file"),
+        ("4OFF\n1 0 0\n", "4OFF has another number of dimensions"),
+        ("nOFF\n3\n1 0 0\n", "nOFF has another number of dimensions"),
+        ("OFF BINARY\n", "binary OFF file: save it as text"),
+        ("OFF\n3 one 0\n", "line 2: "),
+        ("OFF\n3\n", "line 2: 2 integers from 0 on"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n", "cut off: fewer than its 3 vertices"),
+        ("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "cut off: fewer than its 2 faces"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: 3 integers from 0 on"),
+        ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 4: a vertex has three coordinates"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "no number"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused(text, words, read):
+    with pytest.raises(SceneError, match=words):
+        read(text)
+
+
+def test_what_is_behind_the_last_face_is_named(read):
+    found = read("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n")
+    (note,) = found.notes
+    assert note.startswith("what is behind the last face is not understood")
