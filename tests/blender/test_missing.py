@@ -308,6 +308,17 @@ def test_a_missing_file(make, build, saved, export):
     assert FILES[make] in missing[1][1]
 
 
+def test_packed_files_are_there(build, saved, export):
+    displacing_image(build, saved.folder)
+    font(build, saved.folder)
+    bpy.data.images["bumps"].pack()
+    bpy.data.objects["User.001"].data.font.pack()
+    for path in (*saved.folder.glob("*.png"), *saved.folder.glob("*.ttf")):
+        path.unlink()
+    saved.reopen()
+    assert found(export.render()[1]) == {}
+
+
 def test_files_that_shape_nothing(build, saved, export):
     """An image of a material, an unused texture, or an empty; a modifier that is off."""
     material = build.material("Painted", 1, 1, 1)

@@ -51,8 +51,11 @@ def missing(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterat
     if not (named or bpy.data.libraries or bpy.app.autoexec_fail):
         return  # it takes time to find out what uses what
     users = bpy.data.user_map()
+    lost = [*_placeholders(users), *named]
+    if not (lost or bpy.app.autoexec_fail):
+        return
     reached = _reached(users, _first(drawn, layer, shown))
-    lost = [thing for thing in (*_placeholders(users), *named) if thing.block in reached]
+    lost = [thing for thing in lost if thing.block in reached]
     if drawn.display.shading.color_type not in _OF_MATERIALS:
         lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
     yield from _told(lost, users, reached)

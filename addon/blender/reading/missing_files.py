@@ -74,7 +74,8 @@ def _of_blocks(frame: int) -> Iterator[Lost]:
 def _is_lost(block: Any, pattern: str | None = None) -> bool:
     """Return whether a data-block's file is neither packed nor there."""
     path = block.filepath if pattern is None else pattern
-    return bool(path) and not getattr(block, "packed_file", None) and not exists(block, path)
+    packed = getattr(block, "packed_file", None) or getattr(block, "packed_files", ())
+    return bool(path) and not packed and not exists(block, path)
 
 
 def _any_frame(path: str) -> str:
