@@ -52,7 +52,14 @@ def _heard() -> Iterator[list[Any]]:
         bpy.app.handlers.load_post.remove(hear)
 
 
-def reports() -> tuple[str, ...]:
-    """Return what Blender reported when it opened the file that is open, a sentence each."""
-    found = _reports.get(bpy.data.filepath, ())
-    return tuple(f"Blender opened the file with a report: {line}" for line in found)
+def notes() -> tuple[str, ...]:
+    """Return what is to be said of how the open file was opened, a sentence each."""
+    said = [f"Blender opened the file with a report: {line}" for line in _reported()]
+    if bpy.app.autoexec_fail:
+        scripts = [f"'{text.name}'" for text in bpy.data.texts if text.use_module]
+        said += [f"script {name} of the file is not run: scripts are off" for name in scripts]
+    return tuple(said)
+
+
+def _reported() -> tuple[str, ...]:
+    return _reports.get(bpy.data.filepath, ())

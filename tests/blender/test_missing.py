@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import ImageFont
 from reference_tracer.manifest import Effect
+from reference_tracer.scene import SceneError
 
 SIZE = 48, 32
 
@@ -268,6 +269,15 @@ def font(build, folder: Path) -> Path:
     return folder / "letters.ttf"
 
 
+def particles(build, folder: Path) -> Path:
+    obj = build.square("User")
+    obj.modifiers.new("Particles", "PARTICLE_SYSTEM")
+    cache = obj.particle_systems[0].point_cache
+    cache.use_external, cache.filepath = True, str(folder / "particles")
+    (folder / "particles").mkdir()
+    return folder / "particles"
+
+
 FILES: dict[Callable[..., Path], str] = {
     mesh_cache: "modifier 'Cache' of 'User'",
     displacing_image: "image 'bumps' of 'User'",
@@ -276,6 +286,7 @@ FILES: dict[Callable[..., Path], str] = {
     cache_of_modifier: "cache 'moved.abc' of 'User'",
     simulation_on_disk: "modifier 'Cloth' of 'User'",
     font: "font 'Aileron Regular' of 'User'",
+    particles: "modifier 'Particles' of 'User'",
     external_cache: "modifier 'Cloth' of 'User'",
 }
 
@@ -295,6 +306,17 @@ def test_a_missing_file(make, build, saved, export):
     (missing,) = found(export.render()[1]).items()
     assert missing[0] == f"missing {kind}" and missing[1][0].endswith(path.name)
     assert FILES[make] in missing[1][1]
+
+
+def test_packed_files_are_there(build, saved, export):
+    displacing_image(build, saved.folder)
+    font(build, saved.folder)
+    bpy.data.images["bumps"].pack()
+    bpy.data.objects["User.001"].data.font.pack()
+    for path in (*saved.folder.glob("*.png"), *saved.folder.glob("*.ttf")):
+        path.unlink()
+    saved.reopen()
+    assert found(export.render()[1]) == {}
 
 
 def test_files_that_shape_nothing(build, saved, export):
@@ -326,3 +348,63 @@ def test_a_driver_whose_python_does_not_run(build, saved, export):
     bpy.data.objects["Driven"].driver_remove("location", 2)
     saved.reopen()
     assert found(export.render()[1]) == {}
+
+
+def test_a_missing_camera(build, saved, export):
+    path = saved.folder / "library.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
+    build.cube("Own")
+    bpy.ops.wm.save_as_mainfile(filepath=str(saved.folder / "scene.blend"))
+    bpy.context.scene.camera = build.link(linked(path, objects=["Camera"]).objects[0])
+    path.unlink()
+    saved.reopen()
+    why = r"'Camera', .* is not there: its library '//library.blend' is missing\. Find the file"
+    with pytest.raises(SceneError, match=why):
+        export.viewport()
+
+
+def test_an_object_of_a_background_scene(build, saved, export):
+    back = bpy.data.scenes.new("Back")
+    text = build.text("User")
+    bpy.context.scene.collection.objects.unlink(text)
+    back.collection.objects.link(text)
+    bpy.context.scene.background_set = back
+    (saved.folder / "letters.ttf").write_bytes(ImageFont.load_default(10).font_bytes)
+    text.data.font = bpy.data.fonts.load(str(saved.folder / "letters.ttf"))
+    (saved.folder / "letters.ttf").unlink()
+    saved.reopen()
+    assert found(export.render()[1])["missing file"][1].endswith("of 'User'")
+
+
+@pytest.mark.parametrize("linked_in", [True, False])
+def test_a_node_that_this_blender_does_not_know(linked_in, build, saved, export):
+    class Foreign(bpy.types.GeometryNode):
+        bl_idname, bl_label = "ForeignNode", "Foreign"
+
+        def init(self, context):
+            self.outputs.new("NodeSocketVector", "Offset")
+
+    tree, (node,) = build.nodes(build.cube("User"), "GeometryNodeSetPosition")
+    bpy.utils.register_class(Foreign)
+    try:
+        foreign = tree.nodes.new("ForeignNode")
+        if linked_in:
+            tree.links.new(foreign.outputs[0], node.inputs["Offset"])
+    finally:
+        bpy.utils.unregister_class(Foreign)
+    saved.reopen()
+    named = {"missing type of node": ("Foreign", "node group 'Nodes' of 'User'")}
+    assert found(export.render()[1]) == (named if linked_in else {})
+
+
+def test_a_script_that_does_not_run_is_a_note(build, saved, export):
+    build.cube("Own")
+    for name, is_run in (("handlers.py", True), ("todo.txt", False)):
+        text = bpy.data.texts.new(name)
+        text.write("import bpy\n")
+        text.use_module = is_run
+    saved.reopen()
+    manifest = export.render()[1]
+    assert manifest.notes == ("script 'handlers.py' of the file is not run: scripts are off",)
+    assert found(manifest) == {}

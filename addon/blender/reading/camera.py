@@ -18,6 +18,7 @@ from ...projections import PROJECTIONS, Projection
 from ...projections.projection import Edges
 from ...scene import Camera, Region, SceneError, ViewWindow, check_size
 from ..versions import lens
+from .missing import why_gone
 
 
 def border_region(
@@ -121,13 +122,18 @@ def export_camera(scene: Any) -> Camera:
     Raises
     ------
     SceneError
-        If there is none, or it is of a kind that the tracer does not model.
+        If there is none, it is missing, or of a kind that the tracer does not model.
     """
     obj = scene.camera
     if obj is None:
         raise SceneError(
             f"Scene '{scene.name}' has no camera: add one that frames all (the panel's button, or "
             "--frame-all), place one (--eye X Y Z), or make one active (--camera NAME)."
+        )
+    if obj.original.is_missing:
+        raise SceneError(
+            f"'{obj.name}', the active camera of scene '{scene.name}', is not there: "
+            f"{why_gone(obj.original)}. Find the file, or make another camera the active one."
         )
     projection = projection_of(obj, scene)
     data = obj.data

@@ -18,12 +18,12 @@ import numpy as np
 from ...arrays import Colors, Floats
 from ...manifest import OUTSIDE, Manifest, ObjectEntry
 from ...scene import Camera, Instance, Mesh, Plane, Scene
-from ..opened import reports
+from ..opened import notes
 from ..temporary import HIDDEN_FACES, ignored_features, is_whole, user_scene
 from .camera import export_camera
 from .colors import background
 from .meshes import Read, read_mesh
-from .missing import missing, why_gone
+from .missing import gone_objects, missing
 from .unmodelled import of_scene
 from .view_volume import outside
 from .visible import Seen, Shown, visible
@@ -153,7 +153,7 @@ def _manifest(
 ) -> Manifest:
     drawn, layer, mode = depsgraph.scene, depsgraph.view_layer, depsgraph.mode
     scene = user_scene(drawn)
-    gone = {o.name_full: why for o in bpy.data.objects if (why := why_gone(o))}
+    gone = gone_objects()
     entries = [
         _entry(name, entry, [meshes[key][0] for key in entry.mesh_keys], gone.get(name, ""))
         for name, entry in seen.items()
@@ -174,7 +174,7 @@ def _manifest(
         camera=camera,
         objects=tuple(entries),
         unmodelled=(*features, *of_scene(scene, drawn), *missing(drawn, layer, mode, seen)),
-        notes=reports(),
+        notes=notes(),
     )
 
 

@@ -47,17 +47,27 @@ def missing(drawn: Any, layer: Any, mode: str, shown: Collection[str]) -> Iterat
     shown : collection of str
         The full names of the objects that the depsgraph hands out.
     """
-    files = list(lost_files(mode, drawn.frame_current))
-    if not (files or bpy.data.libraries or bpy.app.autoexec_fail):
+    named = [*lost_files(mode, drawn.frame_current), *_unknown_nodes()]
+    if not (named or bpy.data.libraries or bpy.app.autoexec_fail):
         return  # it takes time to find out what uses what
     users = bpy.data.user_map()
+    lost = [*_placeholders(users), *named]
+    if not (lost or bpy.app.autoexec_fail):
+        return
     reached = _reached(users, _first(drawn, layer, shown))
-    lost = [thing for thing in (*_placeholders(users), *files) if thing.block in reached]
+    lost = [thing for thing in lost if thing.block in reached]
     if drawn.display.shading.color_type not in _OF_MATERIALS:
         lost = [thing for thing in lost if thing.block.id_type != "MATERIAL"]
     yield from _told(lost, users, reached)
     if bpy.app.autoexec_fail:
         yield from _drivers(reached)
+
+
+def gone_objects() -> dict[str, str]:
+    """Return why objects are placeholders, or show one, by their full names."""
+    if not bpy.data.libraries:
+        return {}
+    return {obj.name_full: why for obj in bpy.data.objects if (why := why_gone(obj))}
 
 
 def why_gone(obj: Any) -> str:
@@ -76,6 +86,15 @@ def _placeholders(blocks: Iterable[Any]) -> Iterator[Lost]:
         if block.is_missing and block.id_type not in _UNSEEN and block.id_type != "LIBRARY":
             kind = "data in library" if _is_there(block) else "library"
             yield Lost(block, kind, _library(block), _named(block))
+
+
+def _unknown_nodes() -> Iterator[Lost]:
+    """Yield the nodes in use that this Blender does not know: of another version, or an add-on."""
+    for tree in bpy.data.node_groups:
+        for node in tree.nodes:
+            in_use = any(socket.is_linked for socket in node.outputs)
+            if node.bl_idname == "NodeUndefined" and in_use:
+                yield Lost(tree, "type of node", node.name, f"node group '{tree.name}'")
 
 
 def _source(block: Any) -> Any:
@@ -103,9 +122,10 @@ def _first(drawn: Any, layer: Any, shown: Collection[str]) -> Iterator[Any]:
     """Yield what is seen without being used by anything else."""
     yield drawn
     yield drawn.camera
-    for obj in layer.objects:
+    there = set(layer.objects)
+    for obj in bpy.data.objects:  # those of a background scene are shown, too
         is_shown = obj.name_full in shown and obj.type not in (*_UNSEEN, "CAMERA")
-        if is_shown or obj.is_missing:
+        if is_shown or (obj.is_missing and obj in there):
             yield obj
 
 

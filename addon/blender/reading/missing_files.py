@@ -74,7 +74,8 @@ def _of_blocks(frame: int) -> Iterator[Lost]:
 def _is_lost(block: Any, pattern: str | None = None) -> bool:
     """Return whether a data-block's file is neither packed nor there."""
     path = block.filepath if pattern is None else pattern
-    return bool(path) and not getattr(block, "packed_file", None) and not exists(block, path)
+    packed = getattr(block, "packed_file", None) or getattr(block, "packed_files", ())
+    return bool(path) and not packed and not exists(block, path)
 
 
 def _any_frame(path: str) -> str:
@@ -101,9 +102,6 @@ def _of_object(obj: Any, mode: str) -> Iterator[tuple[str, str, str]]:
         if modifier.show_viewport if mode == "VIEWPORT" else modifier.show_render:
             for kind, path in _of_modifier(modifier):
                 yield f"modifier '{modifier.name}' of '{obj.name}'", kind, path
-    for system in obj.particle_systems:
-        if path := _baked(system.point_cache):
-            yield f"particle system '{system.name}' of '{obj.name}'", "folder", path
 
 
 def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
@@ -118,6 +116,8 @@ def _of_modifier(modifier: Any) -> Iterator[tuple[str, str]]:
             yield "folder", domain.cache_directory
     elif kind in ("CLOTH", "SOFT_BODY"):
         yield "folder", _baked(modifier.point_cache)
+    elif kind == "PARTICLE_SYSTEM":
+        yield "folder", _baked(modifier.particle_system.point_cache)
     elif kind == "DYNAMIC_PAINT" and modifier.canvas_settings:
         for surface in modifier.canvas_settings.canvas_surfaces:
             yield "folder", _baked(surface.point_cache)
